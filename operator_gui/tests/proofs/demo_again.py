@@ -2,6 +2,9 @@
 
 Each test of a campaign is compared with the next one in a ring, so that as many tests make as many pairs. Of several
 tests a side, each pair of sets is drawn anew from all tests.
+
+Two passes on 16 axes with 2 dB of noise do not carry 3 dB from one test to another: docs/results.md has the figures. So
+the weakened antenna has to be found by sets of three.
 """
 # SPDX-License-Identifier: Apache-2.0
 import os
@@ -32,7 +35,9 @@ KEY_PRESS = demo("honest_far_button", pathlib.Path("honest_far_button", "key_pre
 WEAKENED = {"antennas.left_door.strength_db": 8.2}
 # Issue 20: of 100 repetitions.
 MIN_SAME, MIN_FOUND = 0.93, 0.90
-SETS = (1, 5, 10, 20)
+SETS = (1, 2, 3, 5, 10)
+# Tests a side by which the weakened antenna has to be found.
+JUDGED = 3
 
 
 def measure(pairs, seed, folder):
@@ -88,9 +93,10 @@ def rows(found):
 
 
 def missing(found):
-    """How many repetitions are missing to what is wanted; the weakened antenna with the largest sets."""
-    size = max(size for size in SETS if f"weakened_of_{size}" in found)
-    return {"repetitions with a difference beyond 7 of 100": max(
-        round(MIN_SAME * found["pairs"]) - found["same_both"], 0),
-            f"weakened antennas not found beyond 10 of 100, {size} tests a side": max(
-                round(MIN_FOUND * found["drawn"]) - found[f"weakened_of_{size}"], 0)}
+    """How many repetitions are missing to what is wanted; of sets only where there are tests enough."""
+    counts = {"repetitions with a difference beyond 7 of 100": max(
+        round(MIN_SAME * found["pairs"]) - found["same_both"], 0)}
+    if f"weakened_of_{JUDGED}" in found:
+        counts[f"weakened antennas not found beyond 10 of 100, {JUDGED} tests a side"] = max(
+            round(MIN_FOUND * found["drawn"]) - found[f"weakened_of_{JUDGED}"], 0)
+    return counts

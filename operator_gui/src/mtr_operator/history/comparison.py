@@ -22,7 +22,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.estimation.interval import LEVEL
 from mtr_operator.domain.results.figure import Figure, Kind, figure_of
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance
-from mtr_operator.domain.verdict.assessment import Assessment, Assessor
+from mtr_operator.domain.verdict.assessment import Assessment, Assessor, LastingSigmas
 from mtr_operator.storage.given_files import calibration_of
 
 from .line_pairs import LinePair, Side, line_pairs
@@ -137,6 +137,10 @@ class DistanceReader:
     def unshown_sigma_m(self, result: LineResult, word: str) -> float:
         """1 sigma of the errors that repeating the test does not show, or not all of."""
         return self._assessor.guard_sigma(result, word)
+
+    def lasting_sigmas(self, result: LineResult, word: str) -> LastingSigmas:
+        """What of the errors of a distance other lines, or other tests, have as well."""
+        return self._assessor.lasting_sigmas(result, word)
 
 
 def _difference(pair: LinePair, word: str, index: int, sides: tuple[DistanceReader, DistanceReader]) -> Difference:

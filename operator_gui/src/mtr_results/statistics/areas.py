@@ -1,7 +1,7 @@
 """The area that the distances around a Car enclose, in m2, with what is known of it.
 
 The area is not linear in the distances, and those of one test go together by the errors that they share; so it is drawn
-(JCGM 101): each distance within its 95 % interval, the shared part once for all lines of a draw. Between lines the
+(JCGM 101): each distance within its 95 % interval, the coherent part once for all lines of a draw. Between lines the
 outline is straight. Where a distance has an open end the area has one, too.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -48,18 +48,21 @@ def area(ring: Sequence[Any], known: Mapping[int, Known]) -> Known | None:
     if any(line.number not in known for line in ring):
         return None
     rays, distances = [line.ray for line in ring], [known[line.number] for line in ring]
-    shared = max(each.shared for each in distances)
+    growth = _gradient(rays, distances)
+    coherent = max(each.coherent for each in distances)
+    parts = (growth * choose(getattr(each, name) for each in distances) for name, choose in (
+        ("coherent", max), ("shared", max), ("alike", min), ("alike_timing", min)))
     low, high = (_enclosed(rays, [max(0.0, getattr(each, end)) for each in distances]) for end in ("low", "high"))
     value = None if any(each.value is None for each in distances) else low
-    return Known(value, low, high, _ends(rays, distances, shared), _gradient(rays, distances) * shared)
+    return Known(value, low, high, _ends(rays, distances, coherent), *parts)
 
 
-def _ends(rays: Sequence[Ray], distances: Sequence[Known], shared: float) -> tuple[float, float] | None:
+def _ends(rays: Sequence[Ray], distances: Sequence[Known], coherent: float) -> tuple[float, float] | None:
     ends = [each.ends for each in distances if each.ends is not None]
     if len(ends) < len(distances):
         return None
     if all(map(math.isfinite, (end for pair in ends for end in pair))):
-        found = interval_of_draws(_drawn(rays, distances, ends, shared))
+        found = interval_of_draws(_drawn(rays, distances, ends, coherent))
         return found.low_m, found.high_m
     # Nothing is drawn where an end is not known: the ends of all distances together are the safe ones.
     low, high = (_enclosed(rays, [max(0.0, pair[side]) for pair in ends]) for side in (0, 1))
@@ -67,13 +70,13 @@ def _ends(rays: Sequence[Ray], distances: Sequence[Known], shared: float) -> tup
 
 
 def _drawn(rays: Sequence[Ray], distances: Sequence[Known], ends: Sequence[tuple[float, float]],
-           shared: float) -> Floats:
+           coherent: float) -> Floats:
     generator = np.random.default_rng(_SEED)
     middle = np.array([sum(pair) / 2.0 if each.value is None else each.value for each, pair in zip(distances, ends)])
     below, above = (np.abs(np.array(ends)[:, side] - middle) / SIGMAS_OF_LEVEL for side in (0, 1))
     own = generator.standard_normal((DRAWS, len(middle)))
-    sigma = np.sqrt(np.maximum(np.where(own < 0.0, below, above) ** 2 - shared ** 2, 0.0))
-    together = shared * generator.standard_normal((DRAWS, 1))
+    sigma = np.sqrt(np.maximum(np.where(own < 0.0, below, above) ** 2 - coherent ** 2, 0.0))
+    together = coherent * generator.standard_normal((DRAWS, 1))
     return _areas(rays, np.maximum(middle + own * sigma + together, 0.0))
 
 

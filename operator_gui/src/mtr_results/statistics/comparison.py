@@ -1,13 +1,15 @@
-"""Two sets of tests beside each other, a set being one test or repetitions: distances, areas, coverage, verdicts.
+"""Two sets of tests beside each other, a set being one test or repetitions: distances, sides, areas, verdicts.
 
-A distance is called different only where the whole 95 % interval of its difference lies on one side of zero, and
-different among all only where it also remains after Holm's correction for their number.
+A quantity is called different only where the whole 95 % interval of its difference lies on one side of zero, and
+different among all only where it also remains after Holm's correction. All quantities of a comparison are one family:
+where nothing differs, nothing is called different in at least 95 % of the comparisons. What an antenna moves it moves
+along a whole side, so that half of the 5 % belongs to the few means over the lines of a side, all words together.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import collections
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 from mtr_operator.domain.errors import OperatorError
@@ -18,10 +20,12 @@ from .areas import area, rings
 from .estimate import Change, Estimate, Known, change, estimate
 from .multiplicity import ALPHA, holm
 from .places import Tests
+from .side_means import side_mean
+from .sides import sides_of
 
 FARTHER, NEARER, NOT_SHOWN, NOT_KNOWN = "farther", "nearer", "no difference shown", "not known"
-DISTANCE, AREA, COVERAGE = "distance", "area", "coverage"
-UNITS = {DISTANCE: "m", AREA: "m\N{SUPERSCRIPT TWO}", COVERAGE: ""}
+DISTANCE, SIDE, AREA, COVERAGE = "distance", "side", "area", "coverage"
+UNITS = {DISTANCE: "m", SIDE: "m", AREA: "m\N{SUPERSCRIPT TWO}", COVERAGE: ""}
 
 
 @dataclass(frozen=True)
@@ -29,9 +33,9 @@ class Row:
     """One quantity in both sets.
 
     Attributes:
-        quantity: DISTANCE, AREA or COVERAGE. line: number in the first test, None for the whole Car. name: for a
-            person. word: what the distance is called. adjusted: the chance of the difference among all rows of its
-            quantity.
+        quantity: DISTANCE, SIDE, AREA or COVERAGE. line: number in the first test, None for several. name: for a
+            person. word: what the distance is called; of a mean over all of them it names all. is_leading: one of the
+            means to which half of the family's chance belongs. adjusted: the chance of the difference among all rows.
     """
 
     quantity: str
@@ -41,6 +45,7 @@ class Row:
     first: Estimate
     second: Estimate
     change: Change
+    is_leading: bool = False
     adjusted: float = 1.0
 
     @property
@@ -55,7 +60,7 @@ class Row:
 
     @property
     def is_different(self) -> bool:
-        """Also among all rows of its quantity."""
+        """Also among all rows."""
         return self.verdict in (FARTHER, NEARER) and self.adjusted <= ALPHA
 
 
@@ -102,8 +107,8 @@ def compare_sets(first: Sequence[Side], second: Sequence[Side]) -> Comparison:
     split = len(first)
     lines = [line for line in tests.first.scenario.lines(tests.first.parameters, tests.first.progress.measured_car)
              if _in_both(tests, split, line.number)]
-    rows = [*_adjusted(_distances(tests, split, lines)), *_adjusted(_areas(tests, split, lines)),
-            *_adjusted(_coverages(tests, split, lines))]
+    rows = _adjusted([*_distances(tests, split, lines), *_sides(tests, split, lines), *_areas(tests, split, lines),
+                      *_coverages(tests, split, lines)])
     return Comparison(tests, split, tuple(rows), _holes(tests, split), _verdicts(tests, split),
                       *_alone(tests, split))
 
@@ -147,10 +152,26 @@ def _coverages(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
     return rows
 
 
+def _sides(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
+    """Means over the lines of each side: of all words together, and of each one."""
+    rows = []
+    choices = [tests.words, *([(word,) for word in tests.words] if len(tests.words) > 1 else [])]
+    for side in sides_of(lines, tests.first.progress.measured_car):
+        for words in choices:
+            found = side_mean(tests, split, side, words)
+            if found is not None:
+                rows.append(Row(SIDE, None, f"{side.name} ({found.distances} distances)", " and ".join(words),
+                                found.first, found.second, found.change, is_leading=words == tests.words))
+    return rows
+
+
 def _adjusted(rows: Sequence[Row]) -> list[Row]:
+    """Half of the family belongs to the leading rows, if there are any and others."""
     known = [row for row in rows if not row.change.reason]
-    adjusted = dict(zip(map(id, known), holm([row.change.chance for row in known])))
-    return [Row(**{**vars(row), "adjusted": adjusted.get(id(row), 1.0)}) for row in rows]
+    numbers = collections.Counter(row.is_leading for row in known)
+    adjusted = holm([row.change.chance for row in known], [1.0 / numbers[row.is_leading] for row in known])
+    of_known = dict(zip(map(id, known), adjusted))
+    return [replace(row, adjusted=of_known.get(id(row), 1.0)) for row in rows]
 
 
 def _name(tests: Tests, line: int) -> str:

@@ -1,8 +1,13 @@
 """A quantity as one test or a set of tests knows it: a value with its 95 % interval, or an end of it alone.
 
 The mean of repeated tests has the interval of Student's t from their spread, widened by what no repetition shows (the
-errors of robot and calibration, which all tests have alike). Where a test knows only that the quantity lies beyond an
-end, that end stands for it: the mean then has one end as well, and no value.
+errors of robot and calibration, and what passes cannot tell of a Car, which all tests have alike). Where a test knows
+only that the quantity lies beyond an end, that end stands for it: the mean then has one end as well, and no value.
+
+Errors that both sides of a comparison have alike cancel in their difference: by so much the intervals of both are
+narrowed before it is taken. Tests of the same Car have its outline in common, and what passes cannot tell of its
+timing. The latter sets alone may take out, whose spread shows each line's own noise: a single test says of all lines
+the same, and where the field falls slowly that is too little.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -22,21 +27,27 @@ from .multiplicity import chance, quantile
 @dataclass(frozen=True)
 class Known:
     """Of one test. value: None where only ends are known; low, high: between which it lies for sure, the value itself
-    where there is one. ends: 95 % interval, None where the method gives none. shared: 1 sigma of what repeating the
-    test does not show."""
+    where there is one. ends: 95 % interval, None where the method gives none.
+
+    Parts of the errors, 1 sigma, each a part of the one before: coherent: what all lines of the test have alike, so
+    that their mean has it as well. shared: what repeating the test does not show. alike: what each test of the same
+    Car has again, for sure; alike_timing: the same of its timing."""
 
     value: float | None
     low: float
     high: float
     ends: tuple[float, float] | None
+    coherent: float = 0.0
     shared: float = 0.0
+    alike: float = 0.0
+    alike_timing: float = 0.0
 
 
 @dataclass(frozen=True)
 class Estimate:
     """Of one test, or the mean of several. count: of tests. freedom: degrees of freedom of the interval. spread: 1
-    sigma between the tests, None for one. low, high: 95 % interval, infinite where an end is open. reason: why there is
-    no interval, a sentence; empty when there is one."""
+    sigma between the tests, None for one. low, high: 95 % interval, infinite where an end is open. alike: see Known.
+    reason: why there is no interval, a sentence; empty when there is one."""
 
     value: float | None
     low: float
@@ -44,6 +55,7 @@ class Estimate:
     count: int
     freedom: float = math.inf
     spread: float | None = None
+    alike: float = 0.0
     reason: str = ""
 
     @property
@@ -71,13 +83,14 @@ def estimate(known: Sequence[Known]) -> Estimate:
         only = known[0]
         if only.ends is None:
             return Estimate(only.value, -math.inf, math.inf, 1, reason="One test that does not say how sure it is.")
-        return Estimate(only.value, *only.ends, 1)
+        return Estimate(only.value, *only.ends, 1, alike=only.alike)
     count, shared = len(known), max(each.shared for each in known)
+    alike = min(math.hypot(each.alike, each.alike_timing) for each in known)
     lows, highs = (np.array([getattr(each, name) for each in known]) for name in ("low", "high"))
     low, high = _end(lows, -1.0, shared), _end(highs, 1.0, shared)
     if any(each.value is None for each in known):
-        return Estimate(None, low, high, count, count - 1.0)
-    return Estimate(float(np.mean(lows)), low, high, count, count - 1.0, float(np.std(lows, ddof=1)))
+        return Estimate(None, low, high, count, count - 1.0, alike=alike)
+    return Estimate(float(np.mean(lows)), low, high, count, count - 1.0, float(np.std(lows, ddof=1)), alike)
 
 
 def _end(values: np.ndarray[tuple[int], np.dtype[np.float64]], sign: float, shared: float) -> float:
@@ -93,5 +106,15 @@ def change(first: Estimate, second: Estimate) -> Change:
     for number, each in ((1, first), (2, second)):
         if each.reason:
             return Change(value, -math.inf, math.inf, 1.0, f"Side {number}: {each.reason}")
-    low, high = difference_interval([first.value, second.value], (first.low, first.high), (second.low, second.high))
+    alike = min(first.alike, second.alike)
+    low, high = difference_interval([first.value, second.value], *(_narrowed(each, alike) for each in (first, second)))
     return Change(value, low, high, chance(value, low, high, min(first.freedom, second.freedom)))
+
+
+def _narrowed(each: Estimate, sigma: float) -> tuple[float, float]:
+    """Its interval without an independent error; an end that is not known, or of no value, stays as it is."""
+    if each.value is None or sigma == 0.0:
+        return each.low, each.high
+    below, above = (math.sqrt(max(reach ** 2 - (SIGMAS_OF_LEVEL * sigma) ** 2, 0.0))
+                    for reach in (each.value - each.low, each.high - each.value))
+    return each.value - below, each.value + above

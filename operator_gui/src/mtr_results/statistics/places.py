@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import functools
 import math
 from typing import Sequence
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.identity.identity import NOBODY
 from mtr_operator.domain.results.figure import Figure, Kind
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
-from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.domain.verdict.assessment import Assessment, LastingSigmas
 from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.history.comparison import DistanceReader
 from mtr_operator.history.line_pairs import Side, line_pairs
@@ -40,9 +42,12 @@ class Tests:
             pairs, _, alone = line_pairs(self.first, side)
             self.results.append({pair.number: pair.second for pair in pairs})
             self.alone.append(alone)
+        self._rays = {line.number: line.ray for line in self.first.scenario.lines(
+            self.first.parameters, self.first.progress.measured_car)}
         self._readers = [DistanceReader(side) for side in sides]
         self._assessments: dict[int, Assessment] = {}
         self._distances: dict[tuple[int, int, str], Known | None] = {}
+        self._lasting: dict[tuple[int, int, str], LastingSigmas] = {}
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -79,8 +84,46 @@ class Tests:
             return None
         figure = reader.figure(distance)
         low_m, high_m = _ends(figure)
+        unshown_m, lasting = reader.unshown_sigma_m(result, word), self.lasting_sigmas(test, line, word)
+        shared_m = math.hypot(unshown_m, lasting.timing_m)
         return Known(figure.first_m if figure.kind is Kind.VALUE else None, low_m, high_m,
-                     reader.ends(result, distance), reader.unshown_sigma_m(result, word))
+                     reader.ends(result, distance), math.hypot(unshown_m, max(lasting.all_timing_m, lasting.timing_m)),
+                     shared_m, *self._alike_m(line, lasting))
+
+    def _alike_m(self, line: int, lasting: LastingSigmas) -> tuple[float, float]:
+        """The outline of the same Car as far as it was mapped alike, and its timing while its software is the same."""
+        if not self.is_same_car:
+            return 0.0, 0.0
+        scatter_m = self.outline_scatter_m(line)
+        outline_m = math.hypot(*(math.sqrt(max(sigma_m ** 2 - scatter_m ** 2, 0.0))
+                                 for sigma_m in (lasting.outline_m, lasting.outline_in_place_m)))
+        software = {(side.progress.identity or NOBODY).car_software for side in self.sides}
+        return outline_m, lasting.timing_m if len(software) == 1 else 0.0
+
+    def outline_scatter_m(self, line: int) -> float:
+        """How far apart the tests have mapped the Car's outline where a line begins."""
+        ray = self._rays[line]
+        if (ray.origin_x, ray.origin_y) == (0.0, 0.0):
+            return 0.0
+        cars = [side.progress.measured_car for side in self.sides]
+        length_m, width_m = (max(sizes) - min(sizes) for sizes in ([car.length for car in cars],
+                                                                   [car.width for car in cars]))
+        return float(abs(ray.direction_x) * length_m + abs(ray.direction_y) * width_m) / 2.0
+
+    def lasting_sigmas(self, test: int, line: int, word: str) -> LastingSigmas:
+        """What of a distance's errors other lines, or other tests, have as well."""
+        key = test, line, word
+        # Asked for by the distance, and by each side that its line is of.
+        if key not in self._lasting:
+            self._lasting[key] = self._readers[test].lasting_sigmas(self.results[test][line], word)
+        return self._lasting[key]
+
+    @functools.cached_property
+    def is_same_car(self) -> bool:
+        """All tests name the same Car: its VIN, or where none has one its model."""
+        identities = [side.progress.identity or NOBODY for side in self.sides]
+        named = {(identity.car_vin, "" if identity.car_vin else identity.car_model) for identity in identities}
+        return len(named) == 1 and named != {("", "")}
 
     def coverage(self, test: int, line: int) -> Known | None:
         """Part of the area of a zone where at least half of the presses work; None where the scenario has none."""

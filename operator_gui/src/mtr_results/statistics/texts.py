@@ -9,7 +9,8 @@ from .estimate import Estimate
 
 MEANING = ("A quantity is called different only where the whole 95 % interval of its difference lies on one side of "
            "zero, and different among all only where that remains after Holm's correction for their number (*). Where "
-           "one of them is only known to lie beyond an end, so is the difference.")
+           "one of them is only known to lie beyond an end, so is the difference. A side's figure is the mean over its "
+           "lines; of passes at the same speeds in all tests it is that of the places at which the Car reacted.")
 
 
 def interval_text(low: float, high: float, sign: str = "") -> str:

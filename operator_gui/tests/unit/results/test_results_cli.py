@@ -102,10 +102,10 @@ def two_sets(run, tmp_path):
 @pytest.mark.usefixtures("two_sets")
 def test_compare_of_two_sets_and_of_two_tests(run):
     status, out, _ = run("compare", "key=A", "key=B")
-    assert status == 0 and out.count("nearer *") == 5 and "Different among all (Holm)" in out
+    assert status == 0 and out.count("nearer *") == 6 and "Different among all (Holm)" in out
     found = json.loads(run("compare", "key=A", "key=B", "--json")[1])
     assert found["is_different"] and found["rows"][0]["difference"] == pytest.approx(-0.7)
-    assert [row["quantity"] for row in found["rows"]] == ["distance"] * 4 + ["area"]
+    assert [row["quantity"] for row in found["rows"]] == ["distance"] * 4 + ["side", "area"]
     assert "No difference is shown" in run("compare", "A0", "A1")[1]
     assert "No test fits" in run("compare", "key=A", "key=C")[2]
     assert "NAME=VALUE" in run("compare", "colour=red", "A0")[2]

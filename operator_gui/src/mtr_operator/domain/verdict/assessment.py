@@ -44,6 +44,23 @@ class Assessment:
         return next((budget for budget in self.budgets if (budget.line, budget.word) == (line, word)), None)
 
 
+@dataclass(frozen=True)
+class LastingSigmas:
+    """1 sigma in m of the errors of a distance that are not its own alone.
+
+    Attributes:
+        outline_m: of the Car's outline; outline_in_place_m: the same once more, in the place of the key.
+        timing_m: of the Car's timing, what all tests of it have alike; all_timing_m: what all lines of the test have.
+        robot_m: of its calibration record.
+    """
+
+    outline_m: float
+    outline_in_place_m: float
+    timing_m: float
+    all_timing_m: float
+    robot_m: float
+
+
 class Assessor:
     """Assesses results of one test; car: with which the lines were laid out."""
 
@@ -103,6 +120,17 @@ class Assessor:
         measurement = Measurement(_place_sigma(result, distance), 0.0, self._outline(result))
         terms = terms_of(measurement, self._carriage(result, word), self._record)
         return math.hypot(*(term.contribution_m for term in terms))
+
+    def lasting_sigmas(self, result: LineResult, word: str) -> LastingSigmas:
+        """What of all errors a further test has again, or may have again."""
+        distance = next(item for item in result.distances if item.word == word)
+        length_m, width_m = self._outline(result)
+        ray = self._rays[result.number]
+        outline_m = math.hypot(length_m * ray.direction_x, width_m * ray.direction_y) / 2.0
+        record = terms_of(Measurement(0.0, 0.0, (0.0, 0.0)), self._carriage(result, word), self._record)
+        return LastingSigmas(outline_m, min(outline_m, _place_sigma(result, distance)),
+                             _recorded(result, word, "static_shared_sigma_m") or 0.0, distance.common_sigma_m or 0.0,
+                             math.hypot(*(term.contribution_m for term in record)))
 
     def _unreached(self, word: str) -> tuple[float | None, float | None]:
         return self._scenario.unreached(self._parameters, word)

@@ -1,0 +1,93 @@
+"""The mean of a side's distances: what an antenna moves together, and chance does not.
+
+Where all tests have passes at the same speeds it is the mean of their events (same_passes.py). Else each test has a
+mean of its own over the lines that all tests know; its interval holds what is each line's own by the number of the
+lines, and what all of them have alike in full (Zou and Donner's MOVER for a sum).
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Sequence
+
+from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
+from mtr_operator.domain.results.line_result import LineStatus
+
+from .estimate import Change, Estimate, Known, change, estimate
+from .places import Tests
+from .same_passes import Events, events_of, moved
+from .sides import SideLines
+
+
+@dataclass(frozen=True)
+class SideMean:
+    """Attributes: distances: how many the mean has. first, second: of both sets. change: second less first."""
+
+    distances: int
+    first: Estimate
+    second: Estimate
+    change: Change
+
+
+def side_mean(tests: Tests, split: int, side: SideLines, words: Sequence[str]) -> SideMean | None:
+    """Of the distances of these words on a side; None where no line is known to all tests."""
+    events = [of_word for word in words if (of_word := _events(tests, side, word))]
+    if len(events) == len(words):
+        return SideMean(sum(map(len, events)), *moved(events, split, _lasting_m(tests, side, words)))
+    parts = [(line, word) for word in words for line in side.numbers if _is_known(tests, line, word)]
+    if not parts:
+        return None
+    known = [mean_of([found for part in parts if (found := tests.distance(test, *part)) is not None])
+             for test in range(len(tests.sides))]
+    first, second = estimate(known[:split]), estimate(known[split:])
+    return SideMean(len(parts), first, second, change(first, second))
+
+
+def _events(tests: Tests, side: SideLines, word: str) -> list[Events]:
+    """Of each line on which all tests have the same passes."""
+    number = tests.words.index(word)
+    found = (events_of([results[line] for results in tests.results], word) for line in side.numbers
+             if all(line in results and results[line].distances[number].status is LineStatus.OK
+                    for results in tests.results))
+    return [each for each in found if each is not None]
+
+
+def _lasting_m(tests: Tests, side: SideLines, words: Sequence[str]) -> float:
+    """1 sigma of what all lines of a test have alike beside the Car's timing, and not each other test for sure."""
+    return max(math.hypot(lasting.robot_m, tests.outline_scatter_m(line) if tests.is_same_car else lasting.outline_m)
+               for test, results in enumerate(tests.results) for line in side.numbers if line in results
+               for lasting in (tests.lasting_sigmas(test, line, word) for word in words))
+
+
+def _is_known(tests: Tests, line: int, word: str) -> bool:
+    """To all tests, and to one of them by its value: where none reached it nothing is averaged."""
+    known = [tests.distance(test, line, word) for test in range(len(tests.sides))]
+    return None not in known and any(each is not None and each.value is not None for each in known)
+
+
+def mean_of(parts: Sequence[Known]) -> Known:
+    """Mean of distances of one test, at least one."""
+    count = len(parts)
+    low, high = (sum(getattr(each, end) for each in parts) / count for end in ("low", "high"))
+    value = None if any(each.value is None for each in parts) else low
+    coherent, *others = (sum(getattr(each, name) for each in parts) / count
+                         for name in ("coherent", "shared", "alike", "alike_timing"))
+    return Known(value, low, high, _ends(parts, value, coherent), coherent, *others)
+
+
+def _ends(parts: Sequence[Known], value: float | None, coherent: float) -> tuple[float, float] | None:
+    if any(each.ends is None for each in parts):
+        return None
+    ends = [each.ends for each in parts if each.ends is not None]
+    if value is None:
+        return sum(low for low, _ in ends) / len(ends), sum(high for _, high in ends) / len(ends)
+    below, above = (math.sqrt(sum(_own(each, ends_of[side]) for each, ends_of in zip(parts, ends))) / len(parts)
+                    for side in (0, 1))
+    reach = SIGMAS_OF_LEVEL * coherent
+    return value - math.hypot(below, reach), value + math.hypot(above, reach)
+
+
+def _own(each: Known, end: float) -> float:
+    """Square of what an end is away from the value by errors of the line alone."""
+    return max(((each.value or 0.0) - end) ** 2 - (SIGMAS_OF_LEVEL * each.coherent) ** 2, 0.0)

@@ -1,0 +1,49 @@
+"""Which lines lie on a side of the Car: those that leave its outline there; one from a corner lies on none."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Any, Iterator, NamedTuple, Sequence
+
+from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.robot_status import CarDimensions
+
+_SIDES = {"front": (1, 0), "right": (0, -1), "rear": (-1, 0), "left": (0, 1)}
+# Of one line there is no mean.
+_MIN_LINES = 2
+# Of a corner that was computed.
+_CORNER_M = 1e-6
+
+
+class SideLines(NamedTuple):
+    """name: for a person. numbers: of its lines."""
+
+    name: str
+    numbers: tuple[int, ...]
+
+
+def sides_of(lines: Sequence[Any], car: CarDimensions) -> Iterator[SideLines]:
+    """Sides with several lines, and all lines together."""
+    found: dict[str, list[int]] = {name: [] for name in _SIDES}
+    for line in lines:
+        side = _side(line.ray, car)
+        if side:
+            found[side].append(line.number)
+    for name, numbers in found.items():
+        if len(numbers) >= _MIN_LINES:
+            yield SideLines(f"{name} side", tuple(numbers))
+    if len(lines) >= _MIN_LINES:
+        yield SideLines("all lines", tuple(line.number for line in lines))
+
+
+def _side(ray: Ray, car: CarDimensions) -> str:
+    """Through which the ray leaves the Car's rectangle; empty for a corner."""
+    ways = {}
+    for name, (x, y) in _SIDES.items():
+        towards = x * ray.direction_x + y * ray.direction_y
+        if towards > 0.0:
+            half_m = (car.length if x else car.width) / 2.0
+            ways[name] = (half_m - x * ray.origin_x - y * ray.origin_y) / towards
+    nearest = sorted(ways.items(), key=lambda way: way[1])
+    if len(nearest) > 1 and nearest[1][1] - nearest[0][1] < _CORNER_M:
+        return ""
+    return nearest[0][0]
