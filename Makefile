@@ -6,7 +6,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth bench-results bench-campaign bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
+	bench-truth bench-results bench-campaign browser-test bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
 SEED ?= 1
@@ -187,6 +187,10 @@ RESULT_TESTS ?= 10000
 bench-results: setup build ## The store of results with 10,000 tests of 40 lines: import, list, comparison, page; RESULT_TESTS=10000
 	@$(RUN) PYTHONPATH=$$PYTHONPATH:$(CURDIR)/operator_gui/tests/support OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
 		python operator_gui/tests/proofs/results.py --tests $(RESULT_TESTS) --seed $(SEED) --out out/bench
+
+browser-test: setup build ## The store's pages in Chromium: filter, compare, download, keyboard, narrow screen, print
+	@setup/install.sh setup/debian-browser-packages.txt
+	@$(RUN) python -m pytest -q operator_gui/tests/browser/pages_in_chromium.py
 
 # Whole stacks take minutes each: bench-campaign measures them for STACKS=2 and more.
 CAMPAIGN_RUNS ?= 200

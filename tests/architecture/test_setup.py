@@ -17,7 +17,8 @@ FROM_THE_START = {"git", "make", "sudo", "apt", "bash", "coreutils", "dpkg", "fi
 BY_HAND = {"chrony", "debootstrap", "docker.io", "podman", "sudo"}
 
 # Lists of packages that single make targets install; `make setup` does not.
-OF_TARGETS = ("debian-bench-packages.txt", "debian-docs-packages.txt", "debian-range-packages.txt")
+OF_TARGETS = ("debian-bench-packages.txt", "debian-browser-packages.txt", "debian-docs-packages.txt",
+              "debian-range-packages.txt")
 
 # What the shell does itself.
 SHELL_WORDS = set(re.findall(r"\S+", """

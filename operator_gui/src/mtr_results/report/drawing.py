@@ -8,7 +8,7 @@ from typing import Sequence
 Point = tuple[float, float]
 # Px of a drawing's longer side; a browser shrinks it to the page.
 _SIZE = 640.0
-_MARGIN = 34.0
+_MARGIN = 46.0
 
 
 class Drawing:

@@ -52,9 +52,12 @@ def page_of_test(test: Row, parts: Mapping[str, Sequence[Row]], side: Side, serv
     """Page of one test. kept: check sums of files that can be had."""
     names = {result.number: line_name(side.scenario, result) for result in side.progress.results}
     reasons = {line["number"]: line["reason"] for line in parts["lines"]}
+    words = {word: number for number, word in enumerate(side.scenario.distance_words)}
+    current = sorted((row for row in parts["measurements"] if row["is_current"]),
+                     key=lambda row: (row["line"], words.get(row["word"], len(words))))
     distances = [{"name": names[row["line"]], "word": row["word"], "text": figure_text(row), "status": row["status"],
                   "interval": _interval(row), "expanded": _metres(row["expanded_m"]),
-                  "reason": reasons[row["line"]]} for row in parts["measurements"] if row["is_current"]]
+                  "reason": reasons[row["line"]]} for row in current]
     facts = [(title, test[name]) for name, title in _FACTS.items() if test[name] not in ("", None)]
     facts += [("equipment", " ".join(filter(None, (each["name"], each["serial"], each["calibrated"]))))
               for each in test["equipment"]]

@@ -10,14 +10,20 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.report.figures import SIGNS, filled
 
-from ..statistics.comparison import DISTANCE, FARTHER, NEARER, Comparison, Row
-from ..statistics.estimate import Estimate
+from ..statistics.comparison import DISTANCE, FARTHER, NEARER, SIDE, Comparison, Row
+from ..statistics.estimate import Estimate, Known
 from ..statistics.texts import estimate_text, interval_text
 from ..statistics.trend import Trend
 from .drawing import Drawing, Point
 
 # A label stands so far beyond the end of its line, in m.
 _LABEL_M = 0.35
+# A side takes the room of so many lines.
+_ROOM_OF_SIDE = 1.8
+# The figures of control limits stand beside the chart, by its width.
+_BESIDE = 1.06
+# Of more tests the numbers would lie on each other.
+_MAX_NAMED = 24
 _SIDES = ("first", "second")
 _KINDS = {FARTHER: "farther", NEARER: "nearer"}
 
@@ -109,41 +115,61 @@ def _titled(row: Row, name: str) -> str:
 
 
 def difference_picture(comparison: Comparison, word: str) -> str:
-    """The difference of each line with its interval, zero drawn through; an open end goes to the edge."""
-    rows = [row for row in comparison.rows if row.quantity == DISTANCE and row.word == word and not row.change.reason]
+    """The difference of each line and of each side with its interval, zero drawn through; an open end goes to the
+    edge."""
+    rows = [row for row in comparison.rows if row.quantity in (DISTANCE, SIDE) and row.word == word
+            and not row.change.reason]
     ends = [end for row in rows for end in (row.change.low, row.change.high) if math.isfinite(end)]
     edge = 1.1 * max((abs(end) for end in ends), default=1.0) or 1.0
     drawing = Drawing(f"{word}: second less first, with 95 % intervals", is_stretched=True)
-    drawing.line([(-0.5, 0.0), (max(len(rows), 1) - 0.5, 0.0)], "axis")
+    places = _places_of(rows)
+    drawing.line([(-0.5, 0.0), (max(places, default=0.0) + 0.5, 0.0)], "axis")
     for height in (-edge, edge):
         drawing.text((-0.9, height), f"{height:+.2f} m")
-    for index, row in enumerate(rows):
+    for index, row in zip(places, rows):
         kind = f"{'different ' if row.is_different else ''}{_KINDS.get(row.verdict, 'same')}"
         low, high = (min(max(end, -edge), edge) for end in (row.change.low, row.change.high))
         title = f"{row.name}: {row.verdict}"
         drawing.line([(index, low), (index, high)], f"interval {kind}", title=title)
         if row.change.value is not None:
             drawing.dot((index, row.change.value), f"point {kind}", title)
-        drawing.text((index, -edge), str(row.line), "label small")
+        drawing.text((index, -edge), str(row.line or row.name.split()[0]), "label small")
     return drawing.svg()
+
+
+def _places_of(rows: Sequence[Row]) -> list[float]:
+    """Lines one beside the other; sides, which have names, with more room."""
+    places: list[float] = []
+    for row in rows:
+        places.append((places[-1] if places else -1.0) + (_ROOM_OF_SIDE if row.quantity == SIDE else 1.0))
+    return places
 
 
 def trend_picture(trend: Trend, names: Sequence[str]) -> str:
-    """A distance in tests in the order of time, with control limits. names: of the tests."""
+    """A distance in tests in the order of time, with control limits. names: of the tests, beginning with "test 17"."""
     drawing = Drawing("Distance over time with control limits", is_stretched=True)
     last = max(len(trend.points) - 1, 1)
-    for height, kind in ((trend.centre, "axis"), (trend.low, "limit"), (trend.high, "limit")):
-        if math.isfinite(height):
-            drawing.line([(0.0, height), (float(last), height)], kind)
-            drawing.text((float(last), height), f"{height:.2f} m")
-    for index, (point, name) in enumerate(zip(trend.points, names)):
-        known = point.known
-        if known is None:
+    limits = [(height, kind) for height, kind in ((trend.centre, "axis"), (trend.low, "limit"), (trend.high, "limit"))
+              if math.isfinite(height)]
+    for height, kind in limits:
+        drawing.line([(0.0, height), (float(last), height)], kind)
+        drawing.text((last * _BESIDE, height), f"{height:.2f} m")
+    known_ends = [_ends_of(point.known) for point in trend.points]
+    foot = min((end for end in (*(height for height, _ in limits), *(end for ends in known_ends for end in ends))),
+               default=0.0)
+    for index, (point, name, ends) in enumerate(zip(trend.points, names, known_ends)):
+        if point.known is None:
             continue
         kind = "different" if point.is_beyond else "same"
-        ends = [end for end in (known.ends or (known.low, known.high)) if math.isfinite(end)]
         if ends:
             drawing.line([(index, min(ends)), (index, max(ends))], f"interval {kind}", title=name)
-        if known.value is not None:
-            drawing.dot((index, known.value), f"point {kind}", f"{name}: {known.value:.2f} m")
+        if point.known.value is not None:
+            drawing.dot((index, point.known.value), f"point {kind}", f"{name}: {point.known.value:.2f} m")
+        if len(names) <= _MAX_NAMED:
+            drawing.text((index, foot), name.partition(",")[0].rpartition(" ")[2], "label small below")
     return drawing.svg()
+
+
+def _ends_of(known: Known | None) -> list[float]:
+    """Of what a test knows, as far as they are finite."""
+    return [] if known is None else [end for end in (known.ends or (known.low, known.high)) if math.isfinite(end)]
