@@ -72,7 +72,8 @@ def draw(plan: Plan, before: Done, best: Done, scores: Sequence[float], path: pa
     above.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), fontsize=9)
     lowest = [min(scores[:number]) for number in range(1, len(scores) + 1)]
     course.plot(range(1, len(scores) + 1), scores, ".", color="0.6", label="a run")
-    course.plot(range(1, len(scores) + 1), lowest, color=_AFTER, label="best so far")
+    course.plot(range(1, len(scores) + 1), lowest, color=_AFTER, drawstyle="steps-post",
+                label="best so far")
     course.axhline(_score(plan, before), color=_BEFORE, linestyle=":", label="as it ships")
     course.set(xlabel="run", ylabel="off the wanted distance, rms over the lines (m)", title="The optimisation",
                ylim=(0.0, None))
