@@ -8,11 +8,12 @@ from PyQt5.QtWidgets import QApplication
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
-from mtr_operator.gui.bridge import FRAME_MS, Bridge
-from mtr_operator.gui.pictures.layers.layer import Layer
-from mtr_operator.gui.pictures.layers.robot_layer import RobotLayer
+from mtr_operator.gui.bridge import FRAME_MS, HEARTBEAT_MS, Bridge
+from mtr_operator.gui.pictures.layers.layer import Canvas, Layer
+from mtr_operator.gui.pictures.layers.robot_layer import RobotLayer, WaypointLayer
 from mtr_operator.gui.pictures.layers.surroundings import GridLayer
 from mtr_operator.gui.pictures.picture_view import PictureView
+from mtr_operator.gui.pictures.viewport import Viewport
 from mtr_operator.gui.theme.appearance import Appearance
 from mtr_operator.station.events import ActionBegun, RobotSnapshot
 from mtr_operator.station.view_model import ViewModel
@@ -49,6 +50,18 @@ def test_status_after_a_pause_is_shown_at_once_and_one_that_follows_waits_for_it
     assert 0 < bridge._frame.interval() <= FRAME_MS
     qtbot.waitUntil(lambda: bridge.frames == 2)
     assert bridge.model.robot.status.id == 2
+
+
+def test_heartbeat_beside_a_robot_that_is_heard_puts_no_status_off(qtbot):
+    """It came every 500 ms, and the Status after it waited for the next frame."""
+    bridge = Bridge(ViewModel())
+    bridge.start()
+    qtbot.waitUntil(lambda: bridge._heartbeat.remainingTime() < HEARTBEAT_MS - 50)
+    bridge.mailbox.put_robot(snapshot(1))
+    qtbot.waitUntil(lambda: bridge.frames == 1)
+    assert bridge._heartbeat.remainingTime() > HEARTBEAT_MS - 50
+    qtbot.waitUntil(lambda: bridge.frames == 2)
+    assert bridge.model.robot.status.id == 1
 
 
 def test_events_keep_their_order_and_none_is_lost(qtbot):
@@ -152,6 +165,33 @@ def test_robot_that_moves_leaves_no_trace_and_costs_only_its_surroundings(qtbot,
     qtbot.waitUntil(lambda: len(view.regions) == 4)
     assert shown == view.screen().grabWindow(view.winId()).toImage()
     assert not shown.isNull()
+
+
+def test_hundreds_of_points_lie_where_each_of_them_does():
+    canvas = Canvas(None, Viewport(400.0, 300.0).panned(7.0, -3.0), None)
+    points = [(0.1 * number, 3.0 - 0.2 * number) for number in range(40)]
+    assert [canvas.many(points)[index] for index in range(40)] == [canvas.at(point) for point in points]
+    assert len(canvas.many(())) == 0
+
+
+def test_waypoint_and_robot_that_stand_still_cost_only_the_surroundings_of_the_robot(operator, monkeypatch):
+    """With each Status the whole picture was painted, and the waypoint with each frame."""
+    screen, paints = operator.begin(), []
+    view = screen.panel.view
+    operator.wait(lambda: screen.picture.waypoint.pose is not None and screen.picture.robot.pose is not None)
+    monkeypatch.setattr(WaypointLayer, "paint", lambda layer, canvas: paints.append(layer))
+    view.grab()
+    paints.clear()
+    asked = []
+    monkeypatch.setattr(view, "update", lambda *region: asked.append(region))
+    for _ in range(3):
+        screen.picture.show_model(screen.picture._glide._to_s)
+    assert len(asked) == 3 and all(region and region[0] != view.rect() for region in asked)
+    view.grab()
+    assert not paints
+    screen.picture.trail.places = screen.picture._model.trail = [(1.0, 1.0), (2.0, 2.0)]
+    screen.picture.show_model(0.0)
+    assert () in asked
 
 
 def test_full_can_bus_is_read_outside_the_gui_thread(operator, monkeypatch):

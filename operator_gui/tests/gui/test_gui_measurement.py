@@ -78,7 +78,7 @@ def test_lines_are_shown_for_key_press_only(operator, scenario, are_shown):
 def test_waypoint_trail_and_robot_are_in_the_picture(operator):
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)
-    operator.wait(lambda: screen.picture.robot.waypoint is not None and screen.picture.robot.pose is not None)
+    operator.wait(lambda: screen.picture.waypoint.pose is not None and screen.picture.robot.pose is not None)
     assert len(screen.picture.trail.places) > 10
     assert screen.picture.robot.key == (0.25, 0.0)
 

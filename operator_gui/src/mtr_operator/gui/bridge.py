@@ -10,7 +10,7 @@ from mtr_operator.station.view_model import ViewModel
 from .sentences import robot_sentences
 
 FRAME_MS = 33
-# Without any event the view still learns that the robot is silent, and time goes on.
+# Without any event for so long the view still learns that the robot is silent, and time goes on.
 HEARTBEAT_MS = 500
 
 
@@ -40,6 +40,7 @@ class Bridge(QObject):
         self._frame = QTimer(self)
         self._frame.setSingleShot(True)
         self._delivered = QElapsedTimer()
+        # Counts from the batch before: beside a robot that is heard it would only put off the next Status by a frame.
         self._heartbeat = QTimer(self)
         self._heartbeat.setInterval(HEARTBEAT_MS)
         self._frame.timeout.connect(self.deliver)
@@ -54,6 +55,8 @@ class Bridge(QObject):
     def deliver(self) -> None:
         """Hand over what has come since."""
         self._delivered.start()
+        if self._heartbeat.isActive():
+            self._heartbeat.start()
         batch = self.mailbox.take()
         robot_sentences.learn(batch.said)
         self.model.apply(batch)

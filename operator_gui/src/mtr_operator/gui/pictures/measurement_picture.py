@@ -16,7 +16,7 @@ from .glide import Glide
 from .layers.car_layer import CarLayer
 from .layers.lines_layer import LinesLayer
 from .layers.points_layer import AreasLayer, PointsLayer
-from .layers.robot_layer import RobotLayer, TrailLayer
+from .layers.robot_layer import RobotLayer, TrailLayer, WaypointLayer
 from .layers.sight_layer import SightLayer
 from .layers.surroundings import GridLayer, ScaleLayer
 from .picture_panel import PicturePanel
@@ -31,6 +31,7 @@ class MeasurementPicture:
         self._glide = Glide()
         self._shown: tuple[Any, ...] = ()
         self.robot = RobotLayer()
+        self.waypoint = WaypointLayer()
         self.trail = TrailLayer()
         self.areas = AreasLayer()
         self.points = PointsLayer()
@@ -45,7 +46,7 @@ class MeasurementPicture:
             self._shown = shown
             self._arrange()
         self._show_robot(now_s)
-        self._panel.view.update()
+        self._panel.view.move_layer(self.robot)
 
     def glide(self, now_s: float) -> None:
         """The next frame is due."""
@@ -64,8 +65,7 @@ class MeasurementPicture:
             status.position_sigma_m
         robot.is_stale = self._model.is_stale
         self._show_sight(None if robot.is_stale or not status.pose_valid else self._model.view)
-        waypoint = snapshot.waypoint
-        robot.waypoint = None if waypoint is None else waypoint.pose
+        self._show_waypoint(None if snapshot.waypoint is None else snapshot.waypoint.pose)
         if self._model.trail is not self.trail.places:
             self.trail.places = self._model.trail
             self._panel.view.refresh()
@@ -75,6 +75,11 @@ class MeasurementPicture:
     def _show_sight(self, view: View | None) -> None:
         if view is not self.sight.view:
             self.sight.view = view
+            self._panel.view.refresh_brief()
+
+    def _show_waypoint(self, pose: Pose | None) -> None:
+        if pose != self.waypoint.pose:
+            self.waypoint.pose = pose
             self._panel.view.refresh_brief()
 
     def _arrange(self) -> None:
@@ -88,7 +93,7 @@ class MeasurementPicture:
         self.lines.stretches = self._stretches(car)
         self._panel.legend.show_sets(picture.point_sets)
         self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
-                                      self.points, self.trail, self.sight, self.robot, ScaleLayer()])
+                                      self.points, self.trail, self.sight, self.waypoint, self.robot, ScaleLayer()])
 
     def _stretches(self, car: CarDimensions) -> tuple[Stretch, ...]:
         test = self._model.current_test

@@ -94,6 +94,7 @@ class PictureView(QWidget):
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             layer.paint_added(Canvas(painter, self.viewport, self._appearance.palette))
             painter.end()
+        self.update()
 
     def fit(self) -> None:
         """Show everything, and go on doing so."""

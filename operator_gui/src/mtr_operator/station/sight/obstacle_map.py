@@ -32,7 +32,7 @@ class ObstacleMap:
     """
 
     def __init__(self) -> None:
-        self._counts: Any = np.zeros((_CELLS, _CELLS), dtype=np.int8)
+        self._counts: Any = np.zeros(_CELLS * _CELLS, dtype=np.int8)
         self._frame: tuple[int, int] = (0, 0)
         self._looked_s = -math.inf
         self.version = 0
@@ -51,31 +51,33 @@ class ObstacleMap:
 
     def _look(self, view: View) -> None:
         counts = self._counts
-        passed, met = _cells(_passed(view)), _cells(view.points)
+        passed, met = _cells(*_passed(view)), _cells(*view.points.T)
         counts[passed] = np.maximum(counts[passed] - _PASS, 0)
         counts[met] = np.minimum(counts[met] + _RETURN, _MOST)
-        rows, columns = np.nonzero(counts >= _OCCUPIED)
+        rows, columns = np.divmod(np.flatnonzero(counts >= _OCCUPIED), _CELLS)
         places = np.column_stack((rows, columns)) * CELL_M - _HALF_M + CELL_M / 2.0
         if not np.array_equal(places, self.places):
             self.places = places
             self.version += 1
 
 
-def _passed(view: View) -> Any:
-    """Places along all rays, a cell apart, without their last piece."""
-    ways = view.points - np.array(view.viewer)
-    lengths = np.hypot(ways[:, 0], ways[:, 1])
-    if not len(lengths):
-        return view.points
-    steps = np.arange(0.0, min(float(lengths.max()), _HALF_M), CELL_M)
-    parts = steps[None, :] / np.maximum(lengths, 1e-9)[:, None]
-    along = np.array(view.viewer) + parts[:, :, None] * ways[:, None, :]
-    return along[steps[None, :] < lengths[:, None] - _UNSURE_M]
+def _passed(view: View) -> tuple[Any, Any]:
+    """x and y of places along all rays, a cell apart, without their last piece."""
+    x_m, y_m = view.points.T - np.array(view.viewer)[:, None]
+    lengths_m = np.hypot(x_m, y_m)
+    if not len(lengths_m):
+        return x_m, y_m
+    steps_m = np.arange(0.0, min(float(lengths_m.max()), _HALF_M), CELL_M)
+    rays, steps = np.nonzero(steps_m < lengths_m[:, None] - _UNSURE_M)
+    parts = steps_m[steps] / lengths_m[rays]
+    return view.viewer[0] + parts * x_m[rays], view.viewer[1] + parts * y_m[rays]
 
 
-def _cells(places: Any) -> Any:
-    """Index of the cells of places, each once; what lies beyond the square is left out."""
-    cells = np.floor((places + _HALF_M) / CELL_M).astype(np.int64).reshape(-1, 2)
-    inside = cells[((cells >= 0) & (cells < _CELLS)).all(axis=1)]
-    one = np.unique(inside[:, 0] * _CELLS + inside[:, 1])
-    return one // _CELLS, one % _CELLS
+def _cells(x_m: Any, y_m: Any) -> Any:
+    """True at the cells of places, in the order of the counts; what lies beyond the square is left out."""
+    rows, columns = (x_m + _HALF_M) / CELL_M, (y_m + _HALF_M) / CELL_M
+    inside = (rows >= 0.0) & (rows < _CELLS) & (columns >= 0.0) & (columns < _CELLS)
+    cells = np.zeros(_CELLS * _CELLS, dtype=bool)
+    # What is not negative is rounded down by the conversion.
+    cells[rows[inside].astype(np.int64) * _CELLS + columns[inside].astype(np.int64)] = True
+    return cells

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import Sequence
+from typing import Any, Sequence
 
+import numpy as np
 from PyQt5.QtCore import QPointF, QRectF, Qt
 from PyQt5.QtGui import QColor, QFont, QPainter, QPen, QPolygonF
 
@@ -36,6 +37,17 @@ class Canvas:
         """Places of points."""
         to_screen = self.viewport.to_screen
         return QPolygonF([QPointF(*to_screen(point)) for point in points])
+
+    def many(self, points: Any) -> QPolygonF:
+        """Places of hundreds of points, (n, 2): written into the polygon's own memory, for an object of Python for each
+        would take longer than to paint them."""
+        places = np.column_stack(self.viewport.to_screen(np.asarray(points, dtype=float).reshape(-1, 2).T))
+        polygon = QPolygonF(len(places))
+        if len(places):
+            memory = polygon.data()
+            memory.setsize(places.nbytes)
+            np.frombuffer(memory, dtype=float).reshape(-1, 2)[:] = places
+        return polygon
 
     def pen(self, colour: str, width: float = 1.0, style: Qt.PenStyle = Qt.PenStyle.SolidLine,
             alpha: float = 1.0) -> QPen:

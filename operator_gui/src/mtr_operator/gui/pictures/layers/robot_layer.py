@@ -22,8 +22,30 @@ _REACH_M, _EDGE_PX = math.hypot(_LENGTH_M, _WIDTH_M) / 2.0, 8.0
 _SIGMA_ALPHA = 0.2
 
 
+class WaypointLayer(Layer):
+    """Attributes: pose: where the robot is sent, None for nowhere."""
+
+    is_brief = True
+
+    def __init__(self) -> None:
+        self.pose: Pose | None = None
+
+    def paint(self, canvas: Canvas) -> None:
+        """See Layer."""
+        if self.pose is None:
+            return
+        painter = canvas.painter
+        painter.setBrush(Qt.BrushStyle.NoBrush)
+        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0, Qt.PenStyle.DashLine))
+        painter.drawPolygon(canvas.polygon(_outline(self.pose)))
+        place = canvas.at((self.pose.x, self.pose.y))
+        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0))
+        painter.drawEllipse(place, 5.0 * canvas.unit, 5.0 * canvas.unit)
+        painter.drawLine(place, canvas.at(self.pose.apply((_LENGTH_M / 2.0, 0.0))))
+
+
 class RobotLayer(Layer):
-    """Attributes: pose: None while it is not known. key: the key in base_link. sigma_m: of the position. waypoint.
+    """Attributes: pose: None while it is not known. key: the key in base_link. sigma_m: of the position.
 
     is_stale: that was a while ago, and where the robot is now nobody knows; it is painted hollow.
     """
@@ -34,7 +56,6 @@ class RobotLayer(Layer):
         self.pose: Pose | None = None
         self.key: Point = (0.0, 0.0)
         self.sigma_m = math.nan
-        self.waypoint: Pose | None = None
         self.is_stale = False
 
     def points(self) -> Sequence[Point]:
@@ -42,7 +63,7 @@ class RobotLayer(Layer):
         return () if self.pose is None else ((self.pose.x, self.pose.y),)
 
     def extent(self, viewport: Viewport) -> QRectF:
-        """See Layer: the robot with its key and its haze; the waypoint stays where it is between two Statuses."""
+        """See Layer: the robot with its key and its haze."""
         if self.pose is None:
             return QRectF()
         far_m = max(_REACH_M + math.hypot(*self.key), 2.0 * self.sigma_m if self.sigma_m == self.sigma_m else 0.0)
@@ -51,20 +72,8 @@ class RobotLayer(Layer):
 
     def paint(self, canvas: Canvas) -> None:
         """See Layer."""
-        if self.waypoint is not None:
-            self._paint_waypoint(canvas, self.waypoint)
         if self.pose is not None:
             self._paint_robot(canvas, self.pose)
-
-    def _paint_waypoint(self, canvas: Canvas, waypoint: Pose) -> None:
-        painter = canvas.painter
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0, Qt.PenStyle.DashLine))
-        painter.drawPolygon(canvas.polygon(_outline(waypoint)))
-        place = canvas.at((waypoint.x, waypoint.y))
-        painter.setPen(canvas.pen(canvas.palette.waypoint, 2.0))
-        painter.drawEllipse(place, 5.0 * canvas.unit, 5.0 * canvas.unit)
-        painter.drawLine(place, canvas.at(waypoint.apply((_LENGTH_M / 2.0, 0.0))))
 
     def _paint_robot(self, canvas: Canvas, pose: Pose) -> None:
         painter, palette = canvas.painter, canvas.palette
@@ -122,7 +131,7 @@ class TrailLayer(Layer):
         pen.setCapStyle(Qt.PenCapStyle.FlatCap)
         canvas.painter.setPen(pen)
         for piece in pieces(added):
-            canvas.painter.drawPolyline(canvas.polygon(piece))
+            canvas.painter.drawPolyline(canvas.many(piece))
 
 
 def pieces(places: Sequence[Point | None]) -> Iterator[list[Point]]:

@@ -32,7 +32,7 @@ class SightLayer(Layer):
         view, painter, palette = self.view, canvas.painter, canvas.palette
         if view is None:
             return
-        points, path = canvas.polygon(view.points.tolist()), canvas.polygon(view.path)
+        points, path = canvas.many(view.points), canvas.many(view.path)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, False)
         painter.setPen(_flat(canvas.pen(palette.ink_soft, 3.0)))
         painter.drawPoints(points)
