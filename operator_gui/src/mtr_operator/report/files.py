@@ -9,18 +9,21 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.storage.atomic import write_bytes
 
-from . import budget_json, protocol_png, results_csv
+from . import budget_json, results_csv
 from .assessed import assess
 
-FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, protocol_png.FILE_NAME)
+PICTURE_NAME = "protocol.png"
+FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, PICTURE_NAME)
 
 
 def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters,
                  progress: Progress) -> Assessment:
     """Write results.csv, budget.json and protocol.png; OutputError when it fails. What the report says of the test."""
+    # Matplotlib takes as long to import as all else together, and this file's names are needed at the start.
+    from .protocol_png import protocol_png
+
     assessment = assess(scenario, parameters, progress)
     write_bytes(folder / results_csv.FILE_NAME, results_csv.results_csv(scenario, progress, assessment).encode("utf-8"))
     write_bytes(folder / budget_json.FILE_NAME, budget_json.budget_json(progress, assessment).encode("utf-8"))
-    write_bytes(folder / protocol_png.FILE_NAME, protocol_png.protocol_png(scenario, parameters, progress,
-                                                                                assessment))
+    write_bytes(folder / PICTURE_NAME, protocol_png(scenario, parameters, progress, assessment))
     return assessment

@@ -22,7 +22,6 @@ from .error_map.colours import draw_errors, draw_scale
 from .figures import SIGNS, filled
 from .protocol_panel import BAR, BRACKET, INK, INTERVAL, write_panel
 
-FILE_NAME = "protocol.png"
 _SIZE_INCH = (11.7, 8.3)  # A4 landscape
 _RESOLUTION_DPI = 150
 _POINTS_PER_INCH = 72.0

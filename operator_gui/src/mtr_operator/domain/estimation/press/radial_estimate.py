@@ -16,8 +16,7 @@ from dataclasses import dataclass
 from typing import Sequence
 
 import numpy as np
-from scipy.special import ndtr
-from scipy.stats import binom
+from scipy.special import bdtrc, ndtr
 
 from ..interval import Interval
 from .likelihood import Press
@@ -106,7 +105,7 @@ def _holes(search: RadialSearch) -> tuple[float, ...]:
         failures = here.count(False)
         if failures >= 2:
             works = min(_curve(search.posterior_without(distance_m), distance_m), SURE_TO_WORK)
-            if float(binom.sf(failures - 1, len(here), 1.0 - works)) < _RARE:
+            if float(bdtrc(failures - 1, len(here), 1.0 - works)) < _RARE:
                 found.append(distance_m)
     return tuple(found)
 

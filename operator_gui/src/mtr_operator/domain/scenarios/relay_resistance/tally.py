@@ -6,7 +6,7 @@ import enum
 from dataclasses import dataclass
 from typing import Any, Iterable
 
-from scipy.stats import beta
+from scipy.special import betaincinv
 
 # The bound of a probability holds in so many of all tests.
 BOUND_LEVEL = 0.95
@@ -36,7 +36,7 @@ def upper_bound(unlocks: int, requests: int) -> float:
     """
     if not 0 <= unlocks <= requests:
         raise ValueError(f"{unlocks} of {requests} requests")
-    return 1.0 if unlocks == requests else float(beta.ppf(BOUND_LEVEL, unlocks + 1, requests - unlocks))
+    return 1.0 if unlocks == requests else float(betaincinv(unlocks + 1, requests - unlocks, BOUND_LEVEL))
 
 
 @dataclass(frozen=True)
