@@ -215,7 +215,7 @@ def test_sounds_can_be_switched_off(operator, beeps, qtbot):
     flow = operator.application.flow
     window = SettingsWindow(flow, operator.application.appearance)
     qtbot.addWidget(window)
-    window.sounds.setChecked(False)
+    window.looks.sounds.setChecked(False)
     assert not flow.store.settings.has_sounds
     operator.begin()
     operator.finish()

@@ -141,14 +141,14 @@ def test_adapter_of_the_open_link_is_lent_and_given_back(operator, bus):
     settings.can.interface.setCurrentIndex(settings.can.interface.findData("slcan"))
     settings.can.channel.show_text("/dev/ttyACM7")
     operator.click(settings.use_can)
-    operator.wait(lambda: flow.can_in_use is not None and flow.can_in_use.channel == "/dev/ttyACM7")
+    operator.wait(lambda: getattr(flow.connecting.can_in_use, "channel", "") == "/dev/ttyACM7")
     operator.click(settings.can.learn)
     dialog = next(each for each in settings.findChildren(LearnWindow))
     operator.click(dialog.act)
     operator.wait(lambda: bus.starts)
-    assert flow.can_in_use is None
+    assert flow.connecting.can_in_use is None
     dialog.reject()
-    operator.wait(lambda: flow.can_in_use is not None and flow.can_in_use.channel == "/dev/ttyACM7")
+    operator.wait(lambda: getattr(flow.connecting.can_in_use, "channel", "") == "/dev/ttyACM7")
 
 
 def test_learning_rests_while_a_test_runs(operator):

@@ -31,10 +31,10 @@ def test_folders_are_chosen_and_remembered(window, operator, start, monkeypatch)
 
 
 def test_theme_changes_at_once_and_is_remembered(window, operator, start):
-    window.theme.setCurrentIndex(window.theme.findData("dark"))
+    window.looks.theme.setCurrentIndex(window.looks.theme.findData("dark"))
     assert operator.application.appearance.palette is DARK
     assert start().appearance.palette is DARK
-    window.theme.setCurrentIndex(window.theme.findData("light"))
+    window.looks.theme.setCurrentIndex(window.looks.theme.findData("light"))
     assert operator.application.appearance.palette is LIGHT
 
 
@@ -46,7 +46,7 @@ def test_language_changes_at_once_and_is_remembered__B19(operator):
     operator.click(operator.window.header.settings)
     settings = operator.window.findChild(SettingsWindow)
     former = operator.window
-    settings.language.setCurrentIndex(settings.language.findData("cs"))
+    settings.looks.language.setCurrentIndex(settings.looks.language.findData("cs"))
     operator.wait(lambda: operator.window is not former)
     assert operator.application.flow.store.settings.language == "cs"
     renewed = operator.window
@@ -86,14 +86,14 @@ def test_adapter_that_was_chosen_and_not_used_is_asked_about__B12(window, operat
     answers = []
     monkeypatch.setattr("mtr_operator.gui.windows.settings_window.confirm",
                         lambda *words: answers.append(words[2]) or len(answers) > 1)
-    in_use = operator.application.flow.connection.can
+    in_use = operator.application.flow.connecting.connection.can
     window.can.interface.setCurrentIndex(0)
     window.close()
-    assert not window.isVisible() and operator.application.flow.connection.can == in_use
+    assert not window.isVisible() and operator.application.flow.connecting.connection.can == in_use
     assert answers == ["The CAN adapter that you have chosen is not in use yet. Use it?"]
     window.show()
     window.reject()
-    operator.wait(lambda: operator.application.flow.connection.can is None)
+    operator.wait(lambda: operator.application.flow.connecting.connection.can is None)
     assert window.isVisible()
     window.reject()
     assert not window.isVisible() and len(answers) == 2

@@ -7,7 +7,7 @@ import pytest
 
 from mtr_operator.gui.alerts.sounds import Sounds
 from mtr_operator.gui.alerts.speech import Voice
-from mtr_operator.gui.windows import settings_window
+from mtr_operator.gui.windows import appearance_form
 from mtr_operator.gui.windows.settings_window import SettingsWindow
 
 
@@ -76,17 +76,17 @@ def test_computer_without_a_voice_says_nothing_and_the_setting_says_what_is_miss
     for voice in (Voice(None), Voice(module)):
         voice.say("The robot moves.")
     assert not Engine.said
-    monkeypatch.setattr(settings_window, "speech_module", lambda: None)
+    monkeypatch.setattr(appearance_form, "speech_module", lambda: None)
     window = SettingsWindow(operator.application.flow, operator.application.appearance)
     qtbot.addWidget(window)
-    assert not window.speech.isEnabled() and "python3-pyqt5.qttexttospeech" in window.speech.toolTip()
+    assert not window.looks.speech.isEnabled() and "python3-pyqt5.qttexttospeech" in window.looks.speech.toolTip()
 
 
 def test_speech_is_remembered(operator, module, qtbot, monkeypatch):
-    monkeypatch.setattr(settings_window, "speech_module", lambda: module)
+    monkeypatch.setattr(appearance_form, "speech_module", lambda: module)
     flow = operator.application.flow
     window = SettingsWindow(flow, operator.application.appearance)
     qtbot.addWidget(window)
-    assert window.speech.isEnabled() and not window.speech.isChecked()
-    window.speech.setChecked(True)
+    assert window.looks.speech.isEnabled() and not window.looks.speech.isChecked()
+    window.looks.speech.setChecked(True)
     assert flow.store.settings.speaks

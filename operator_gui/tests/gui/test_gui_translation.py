@@ -166,7 +166,7 @@ def test_window_speaks_czech(start, settings_path, qtbot):
     application_ = start()
     language = application_.language
     language.use("cs")
-    window = ConnectionWindow(application_.flow, application_.flow.connection)
+    window = ConnectionWindow(application_.flow, application_.flow.connecting.connection)
     qtbot.addWidget(window)
     assert window.button.text() == "Připojit"
     window.robot.host.edit.setText("300.1.1.1")

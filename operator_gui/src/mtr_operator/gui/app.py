@@ -61,7 +61,7 @@ class Application:
         self.language.use(settings.language)
         self.appearance.use(settings.theme)
         self.bridge.start()
-        self.flow.connected.connect(self._show_main)
+        self.flow.connecting.connected.connect(self._show_main)
         self.flow.language_changed.connect(self._speak)
         self._show(ConnectionWindow(self.flow, _filled_in(settings.connection, robot or {}, can or {})))
 

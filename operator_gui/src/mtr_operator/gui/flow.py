@@ -15,13 +15,11 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.station.begun.starting import begun_test
 from mtr_operator.station.begun.unfinished import UnfinishedTest
 from mtr_operator.station.bus.bus_view import BusView
-from mtr_operator.station.connection import CanChoice, Connection, LinkOpener
+from mtr_operator.station.connection import LinkOpener
 from mtr_operator.station.disk_watch import DiskWatch
 from mtr_operator.station.events import (
-    CarLinkOpened,
     LineMeasured,
     LinesPlanned,
-    LinkRefused,
     LinksOpened,
     Outcome,
     ProgressSaved,
@@ -30,7 +28,6 @@ from mtr_operator.station.events import (
     StationEvent,
 )
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
-from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
 from mtr_operator.station.test import NOTHING_SAID, note_continued, open_test
@@ -38,9 +35,8 @@ from mtr_operator.storage.given_files import GivenPaths
 from mtr_operator.storage.identity_file import GivenIdentity
 
 from .bridge import Bridge
-from .pairing import Pairing
+from .links.connecting import Connecting
 
-CLOSE_LIMIT_S = 8.0
 NO_PATHS = GivenPaths()
 
 
@@ -57,12 +53,9 @@ class Flow(QObject):
     """Knows no widget.
 
     Attributes:
-        model: what is known of robot, Car and test. store: settings. connection: in use.
+        model: what is known of robot, Car and test. store: settings. connecting: has the links.
         unfinished: the test that can be gone on with.
-        pairing: with a robot that is not connected yet. opener: of links.
     Signals:
-        connected, refused(part, text, bus): how an attempt to connect ended, as in LinkRefused.
-        can_opened, can_refused(text, bus): how a change of the CAN adapter ended.
         step_changed(Step): another screen is due.
         failed(text): the Operator has to know this sentence.
         saved(text): the progress was written there.
@@ -71,10 +64,6 @@ class Flow(QObject):
         folder_wanted(text): the folder of the progress cannot be written, for this reason; see use_progress_folder.
     """
 
-    connected = pyqtSignal()
-    refused = pyqtSignal(str, str, str)
-    can_opened = pyqtSignal()
-    can_refused = pyqtSignal(str, str)
     step_changed = pyqtSignal(object)
     failed = pyqtSignal(str)
     saved = pyqtSignal(str)
@@ -88,47 +77,24 @@ class Flow(QObject):
         self.model = bridge.model
         self.store = store
         self.unfinished = UnfinishedTest(store)
-        self.connection = Connection()
+        self.connecting = Connecting(bridge, store, opener)
         self.step = Step.WELCOME
-        self.opener = opener
-        self.pairing = Pairing(opener, self)
-        self._worker: Worker | None = None
-        self._is_connected = False
-        self._wanted_can: CanChoice | None = None
         self._disk = DiskWatch(lambda: self.store.settings.progress_folder)
         bridge.happened.connect(self._learn)
         bridge.changed.connect(self._learn_room)
 
-    # Connection
-
-    def connect_to(self, connection: Connection) -> None:
-        """Try to connect; connected or refused follows."""
-        self.connection = connection
-        self._worker = Worker(connection, self.opener, self.bridge.mailbox)
-        self._worker.start()
-        self._disk.start()
-
-    def use_can(self, choice: CanChoice | None) -> None:
-        """Change the CAN adapter; can_opened or can_refused follows."""
-        self._wanted_can = choice
-        self._links.use_can(choice)
-
-    @property
-    def can_in_use(self) -> CanChoice | None:
-        """The CAN adapter that is open now; None when none is."""
-        return self.connection.can if self._is_connected else None
-
     def close(self) -> bool:
         """Stop the robot and disconnect; True when that has succeeded in time."""
         self._disk.stop()
-        return self._worker is None or self._worker.close(CLOSE_LIMIT_S)
+        return self.connecting.close()
 
     def keep_after_defect(self, text: str) -> None:
         """The application has a defect: write what is measured, and say it."""
-        if self._worker is not None:
-            self._worker.note(text, EventKind.FAULT)
+        worker = self.connecting.worker
+        if worker is not None:
+            worker.note(text, EventKind.FAULT)
             if self.model.test is not None and self.model.test.progress.has_findings:
-                self._worker.save(self.model.test)
+                worker.save(self.model.test)
         self.failed.emit(text)
 
     # Screens
@@ -155,7 +121,7 @@ class Flow(QObject):
         """Begin a test; failed follows when a file that is given does not suit it any more, or the laboratory requires
         more."""
         try:
-            self.model.take_up(begun_test(self.store, self.connection, scenario, parameters,
+            self.model.take_up(begun_test(self.store, self.connecting.connection, scenario, parameters,
                                           paths=paths, who=who))
         except OperatorError as error:
             self.failed.emit(str(error))
@@ -169,7 +135,7 @@ class Flow(QObject):
         if self.model.results:
             note_continued(test)
         self.model.begin()
-        self._links.run_test(test)
+        self.connecting.links.run_test(test)
 
     def measure_again(self, numbers: Sequence[int]) -> None:
         """Measure lines of the test at hand once more; their former results stay in its journal."""
@@ -180,29 +146,30 @@ class Flow(QObject):
     def stop(self) -> None:
         """Stop the robot, whatever it does: the stop has left when this returns. The line that is being measured is
         measured anew later."""
-        if self._worker is not None:
-            self._worker.stop()
+        if self.connecting.worker is not None:
+            self.connecting.worker.stop()
             self.model.order_stop()
             self.stopped.emit()
             self.bridge.changed.emit()
 
     def bus_view(self) -> BusView:
         """What comes over the Car's bus now, and what its locks did; nothing before a connection."""
-        return BusView() if self._worker is None else self._worker.bus_view()
+        worker = self.connecting.worker
+        return BusView() if worker is None else worker.bus_view()
 
     def release_hold(self) -> None:
         """Have a robot go on that is held."""
         if self.model.robot is not None:
-            self._links.release_hold(self.model.robot.status.hold_id)
+            self.connecting.links.release_hold(self.model.robot.status.hold_id)
 
     def answer_prompt(self) -> None:
         """The Operator has taken the Car's handle, or switched the extender."""
         if self.model.prompt is not None:
-            self._links.answer(self.model.prompt)
+            self.connecting.links.answer(self.model.prompt)
 
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""
-        self._links.save(self.model.current_test)
+        self.connecting.links.save(self.model.current_test)
 
     def use_progress_folder(self, folder: pathlib.Path) -> None:
         """Write the progress of this and later tests there."""
@@ -236,7 +203,7 @@ class Flow(QObject):
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot try something."""
         self.model.order_motion()
-        self._links.calibrate(request)
+        self.connecting.links.calibrate(request)
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""
@@ -244,28 +211,15 @@ class Flow(QObject):
             self.stop()
             return
         self.model.order_motion()
-        self._links.request_car(request)
-
-    @property
-    def _links(self) -> Worker:
-        if self._worker is None:
-            raise LookupError("nothing is connected yet")
-        return self._worker
+        self.connecting.links.request_car(request)
 
     # Events
 
     def _learn(self, event: StationEvent) -> None:
         if isinstance(event, LinksOpened):
-            self._is_connected = True
-            self.store.change(self.store.settings.with_connection(self.connection))
-            self.connected.emit()
-        elif isinstance(event, LinkRefused):
-            self._learn_refusal(event)
+            self._disk.start()
         elif isinstance(event, StandstillSeen):
             self.failed.emit(event.text)
-        elif isinstance(event, CarLinkOpened):
-            self._use_connection(dataclasses.replace(self.connection, can=self._wanted_can))
-            self.can_opened.emit()
         elif isinstance(event, (LinesPlanned, LineMeasured)):
             self.unfinished.remember(self.model.current_test.path)
         elif isinstance(event, RunEnded):
@@ -275,12 +229,6 @@ class Flow(QObject):
 
     def _learn_room(self) -> None:
         self.model.free_bytes = self._disk.free
-
-    def _learn_refusal(self, event: LinkRefused) -> None:
-        if not self._is_connected:
-            self.refused.emit(event.part, event.text, event.bus)
-        else:
-            self.can_refused.emit(event.text, event.bus)
 
     def _learn_end(self, event: RunEnded) -> None:
         if not self.model.current_test.progress.has_findings:
@@ -298,7 +246,3 @@ class Flow(QObject):
         elif test is not None:
             self.unfinished.move(test)
             self.saved.emit(str(test.path))
-
-    def _use_connection(self, connection: Connection) -> None:
-        self.connection = connection
-        self.store.change(self.store.settings.with_connection(connection))

@@ -6,7 +6,7 @@ from typing import Callable
 
 from PyQt5.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from ..pairing import Pairing
+from ..links.pairing import Pairing
 from ..sentences import translated
 from ..theme.scale import XS, M, S
 from .field import Field

@@ -18,23 +18,23 @@ class AdapterLoan(QObject):
         super().__init__(parent)
         self._flow = flow
         self._former: CanChoice | None = None
-        flow.can_opened.connect(self._learn)
+        flow.connecting.can_opened.connect(self._learn)
 
     def take(self, choice: CanChoice) -> None:
         """Free this adapter; taken follows, at once when nobody has it."""
-        used = self._flow.can_in_use
+        used = self._flow.connecting.can_in_use
         if used is None or (choice.interface, choice.channel) not in used.places:
             self.taken.emit()
             return
         self._former = used
-        self._flow.use_can(None)
+        self._flow.connecting.use_can(None)
 
     def give_back(self) -> None:
         """The link to the Car has it again; safe to call twice."""
         former, self._former = self._former, None
         if former is not None:
-            self._flow.use_can(former)
+            self._flow.connecting.use_can(former)
 
     def _learn(self) -> None:
-        if self._former is not None and self._flow.can_in_use is None:
+        if self._former is not None and self._flow.connecting.can_in_use is None:
             self.taken.emit()

@@ -136,7 +136,7 @@ class LearnWindow(QDialog):
 
     def _begin(self) -> None:
         try:
-            self._learning = Learning(functools.partial(self._flow.opener.listener, self._choice))
+            self._learning = Learning(functools.partial(self._flow.connecting.opener.listener, self._choice))
         except OperatorError as error:
             self._give_up(str(error))
             return

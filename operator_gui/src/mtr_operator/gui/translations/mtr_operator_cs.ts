@@ -68,6 +68,64 @@
     </message>
 </context>
 <context>
+    <name>AppearanceForm</name>
+    <message>
+        <location filename="../windows/appearance_form.py" line="35"/>
+        <source>Sounds</source>
+        <translation>Zvuky</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="36"/>
+        <source>One beep when the robot begins to move, two when the test is done, three at trouble</source>
+        <translation>Jedno pípnutí, když se robot rozjíždí, dvě po skončení testu, tři při potížích</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="47"/>
+        <source>As the system</source>
+        <translation>Podle systému</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="47"/>
+        <source>Light</source>
+        <translation>Světlý</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="47"/>
+        <source>Dark</source>
+        <translation>Tmavý</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="48"/>
+        <source>High contrast</source>
+        <translation>Vysoký kontrast</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="56"/>
+        <source>Speech</source>
+        <translation>Řeč</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="59"/>
+        <source>Says what the beeps mean, and what the trouble is</source>
+        <translation>Řekne, co pípnutí znamenají a jaká je potíž</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="59"/>
+        <source>This computer cannot speak: Qt&apos;s text to speech or an engine for it is missing (Debian: python3-pyqt5.qttexttospeech, speech-dispatcher)</source>
+        <translation>Tento počítač neumí mluvit: chybí převod textu na řeč z Qt nebo jeho nástroj (Debian: python3-pyqt5.qttexttospeech, speech-dispatcher)</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="69"/>
+        <source>Theme</source>
+        <translation>Motiv</translation>
+    </message>
+    <message>
+        <location filename="../windows/appearance_form.py" line="69"/>
+        <source>Language</source>
+        <translation>Jazyk</translation>
+    </message>
+</context>
+<context>
     <name>BatterySymbol</name>
     <message>
         <location filename="../header/symbols.py" line="46"/>
@@ -6381,159 +6439,104 @@
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="40"/>
+        <location filename="../windows/settings_window.py" line="38"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="41"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="42"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="46"/>
+        <location filename="../windows/settings_window.py" line="43"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="47"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="48"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="49"/>
-        <source>As the system</source>
-        <translation>Podle systému</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="49"/>
-        <source>Light</source>
-        <translation>Světlý</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="49"/>
-        <source>Dark</source>
-        <translation>Tmavý</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="62"/>
+        <location filename="../windows/settings_window.py" line="51"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="214"/>
+        <location filename="../windows/settings_window.py" line="159"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="115"/>
+        <location filename="../windows/settings_window.py" line="93"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="133"/>
+        <location filename="../windows/settings_window.py" line="101"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="118"/>
+        <location filename="../windows/settings_window.py" line="96"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="119"/>
-        <source>Theme</source>
-        <translation>Motiv</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="119"/>
-        <source>Language</source>
-        <translation>Jazyk</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="140"/>
+        <location filename="../windows/settings_window.py" line="108"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="98"/>
+        <location filename="../windows/settings_window.py" line="76"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="147"/>
+        <location filename="../windows/settings_window.py" line="115"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="148"/>
+        <location filename="../windows/settings_window.py" line="116"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="161"/>
+        <location filename="../windows/settings_window.py" line="129"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="168"/>
+        <location filename="../windows/settings_window.py" line="136"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="231"/>
+        <location filename="../windows/settings_window.py" line="176"/>
         <source>The CAN adapter that you have chosen is not in use yet. Use it?</source>
         <translation>Zvolený adaptér CAN se zatím nepoužívá. Použít jej?</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="234"/>
+        <location filename="../windows/settings_window.py" line="179"/>
         <source>Use it</source>
         <translation>Použít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="234"/>
+        <location filename="../windows/settings_window.py" line="179"/>
         <source>Leave it as it was</source>
         <translation>Ponechat původní</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="53"/>
-        <source>Sounds</source>
-        <translation>Zvuky</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="54"/>
-        <source>One beep when the robot begins to move, two when the test is done, three at trouble</source>
-        <translation>Jedno pípnutí, když se robot rozjíždí, dvě po skončení testu, tři při potížích</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="50"/>
-        <source>High contrast</source>
-        <translation>Vysoký kontrast</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="184"/>
-        <source>Speech</source>
-        <translation>Řeč</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="187"/>
-        <source>Says what the beeps mean, and what the trouble is</source>
-        <translation>Řekne, co pípnutí znamenají a jaká je potíž</translation>
-    </message>
-    <message>
-        <location filename="../windows/settings_window.py" line="187"/>
-        <source>This computer cannot speak: Qt&apos;s text to speech or an engine for it is missing (Debian: python3-pyqt5.qttexttospeech, speech-dispatcher)</source>
-        <translation>Tento počítač neumí mluvit: chybí převod textu na řeč z Qt nebo jeho nástroj (Debian: python3-pyqt5.qttexttospeech, speech-dispatcher)</translation>
     </message>
 </context>
 <context>

@@ -37,7 +37,7 @@ class ConnectionWindow(QWidget):
         self.setWindowTitle(self.tr("Connect to the robot"))
         self._flow = flow
         self.robot = RobotForm()
-        self.pairing = PairingForm(flow.pairing, lambda: self.robot.typed_host)
+        self.pairing = PairingForm(flow.connecting.pairing, lambda: self.robot.typed_host)
         self.can = CanForm()
         self.message, self.detail = QLabel(), QLabel()
         self.message.setProperty("role", "error")
@@ -56,7 +56,7 @@ class ConnectionWindow(QWidget):
         for form in (self.robot, self.can):
             form.changed.connect(self._forget_refusal)
         self.can.changed.connect(self._suit_buses)
-        flow.refused.connect(self._show_refusal)
+        flow.connecting.refused.connect(self._show_refusal)
         self.robot.show_choice(proposed.robot, flow.store.settings.hosts)
         self.can.show_choice(proposed.can)
         self.pairing.unencrypted.setChecked(proposed.robot.is_unencrypted)
@@ -130,7 +130,7 @@ class ConnectionWindow(QWidget):
         self._say("", self.tr("Connecting to {host} ...").format(host=robot.host))
         self.button.setEnabled(False)
         self.language.setEnabled(False)
-        self._flow.connect_to(Connection(self._as_chosen(robot), self.can.choice))
+        self._flow.connecting.connect_to(Connection(self._as_chosen(robot), self.can.choice))
 
     def _show_refusal(self, part: str, text: str, bus: str = "") -> None:
         self.button.setEnabled(True)

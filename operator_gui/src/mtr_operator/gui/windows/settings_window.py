@@ -7,23 +7,21 @@ import pathlib
 from typing import Any, Callable
 
 from PyQt5.QtCore import QSize, Qt
-from PyQt5.QtWidgets import QCheckBox, QComboBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.readiness import RUNNING
-from mtr_operator.station.settings import THEMES
 
-from ..alerts.speech import Voice, speech_module
 from ..dialogs import ask_folder, confirm
 from ..fitting.place import open_within
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.can_form import CanForm
 from ..forms.field import Field
-from ..forms.language_box import LanguageBox
 from ..learn.offer import LearnOffer
 from ..sentences import translated
 from ..theme.appearance import Appearance
-from ..theme.scale import XS, L, M, S
+from ..theme.scale import L, M, S
+from .appearance_form import AppearanceForm
 from .card import Card
 
 _WIDTH = 900
@@ -32,31 +30,22 @@ _WIDTH = 900
 class SettingsWindow(QDialog):
     """Attributes: results, progress: folders. host, subscriber_port, publisher_port: read-only.
 
-    theme, language: combo boxes. can, use_can: the adapter. message: what became of it.
+    looks: theme, language, sounds, speech. can, use_can: the adapter. message: what became of it.
     """
 
     def __init__(self, flow: Flow, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
         self.setWindowTitle(self.tr("Settings"))
         self._flow = flow
-        self._appearance = appearance
-        settings, robot = flow.store.settings, flow.connection.robot
+        settings, robot = flow.store.settings, flow.connecting.connection.robot
         self.results = self._read_only(self.tr("Results"), str(settings.result_folder))
         self.progress = self._read_only(self.tr("Progress of tests"), str(settings.progress_folder))
         self.host = self._read_only(self.tr("IP address"), robot.host)
         self.subscriber_port = self._read_only(self.tr("Subscriber port"), str(robot.subscriber_port))
         self.publisher_port = self._read_only(self.tr("Publisher port"), str(robot.publisher_port))
-        names = {"system": self.tr("As the system"), "light": self.tr("Light"), "dark": self.tr("Dark"),
-                 "contrast": self.tr("High contrast")}
-        self.theme = self._box(names, THEMES, settings.theme)
-        self.language = LanguageBox(settings.language)
-        self.sounds = QCheckBox(self.tr("Sounds"))
-        self.sounds.setToolTip(self.tr("One beep when the robot begins to move, two when the test is done, three at "
-                                       "trouble"))
-        self.sounds.setChecked(settings.has_sounds)
-        self.speech = self._speech_box(settings.speaks)
+        self.looks = AppearanceForm(flow, appearance)
         self.can = CanForm()
-        self.can.show_choice(flow.connection.can)
+        self.can.show_choice(flow.connecting.connection.can)
         self._can_in_use = self.can.choice
         self._is_asked = False
         self.use_can = QPushButton(self.tr("Use this adapter"))
@@ -65,13 +54,10 @@ class SettingsWindow(QDialog):
         self.message.setProperty("role", "soft")
         self._lay_out()
         LearnOffer(flow, self.can, self)
-        self.theme.currentIndexChanged.connect(self._change_theme)
-        self.language.currentIndexChanged.connect(self._change_language)
-        self.sounds.toggled.connect(self._change_sounds)
-        self.speech.toggled.connect(self._change_speech)
+        self.looks.changed.connect(self._show_problem)
         self.use_can.clicked.connect(self._change_can)
-        flow.can_opened.connect(self._show_can_in_use)
-        flow.can_refused.connect(self._show_can_refused)
+        flow.connecting.can_opened.connect(self._show_can_in_use)
+        flow.connecting.can_refused.connect(self._show_can_refused)
         self._is_changing = False
         flow.bridge.changed.connect(self._suit_test)
         self._suit_test()
@@ -85,14 +71,6 @@ class SettingsWindow(QDialog):
         field.edit.setReadOnly(True)
         field.note.hide()
         return field
-
-    @staticmethod
-    def _box(names: dict[str, str], values: tuple[str, ...], chosen: str) -> QComboBox:
-        box = QComboBox()
-        for value in values:
-            box.addItem(names[value], value)
-        box.setCurrentIndex(values.index(chosen))
-        return box
 
     def _lay_out(self) -> None:
         close = QPushButton(self.tr("Close"))
@@ -116,17 +94,7 @@ class SettingsWindow(QDialog):
         for field, choose in ((self.results, self.choose_results), (self.progress, self.choose_progress)):
             card.column.addLayout(self._folder_row(field, choose))
         card.add_heading(self.tr("Appearance"))
-        for title, box in ((self.tr("Theme"), self.theme), (self.tr("Language"), self.language)):
-            label = QLabel(title)
-            label.setBuddy(box)
-            box.setAccessibleName(title)
-            group = QVBoxLayout()
-            group.setSpacing(XS)
-            group.addWidget(label)
-            group.addWidget(box)
-            card.column.addLayout(group)
-        card.column.addWidget(self.sounds)
-        card.column.addWidget(self.speech)
+        card.column.addWidget(self.looks)
         return card
 
     def _connection_card(self) -> Card:
@@ -170,29 +138,6 @@ class SettingsWindow(QDialog):
             self.progress.edit.setText(str(folder))
             self._change(progress_folder=folder)
 
-    def _change_theme(self) -> None:
-        self._change(theme=self.theme.currentData())
-        self._appearance.use(self.theme.currentData())
-
-    def _change_language(self) -> None:
-        self._flow.use_language(self.language.currentData())
-
-    def _change_sounds(self, is_wanted: bool) -> None:
-        self._change(has_sounds=is_wanted)
-
-    def _speech_box(self, is_wanted: bool) -> QCheckBox:
-        box = QCheckBox(self.tr("Speech"))
-        box.setChecked(is_wanted)
-        box.setEnabled(Voice(speech_module()).can_speak)
-        box.setToolTip(
-            self.tr("Says what the beeps mean, and what the trouble is") if box.isEnabled() else
-            self.tr("This computer cannot speak: Qt's text to speech or an engine for it is missing (Debian: "
-                    "python3-pyqt5.qttexttospeech, speech-dispatcher)"))
-        return box
-
-    def _change_speech(self, is_wanted: bool) -> None:
-        self._change(speaks=is_wanted)
-
     def _suit_test(self) -> None:
         """While a test runs the adapter stays as it is; also when it has begun, or paused, since this was opened."""
         is_free = self._flow.model.phase not in RUNNING
@@ -202,7 +147,7 @@ class SettingsWindow(QDialog):
     def _change_can(self) -> None:
         self._is_changing = True
         self._suit_test()
-        self._flow.use_can(self.can.choice)
+        self._flow.connecting.use_can(self.can.choice)
 
     def _show_can(self, sentence: str) -> None:
         self._is_changing = False
@@ -237,4 +182,7 @@ class SettingsWindow(QDialog):
 
     def _change(self, **changes: Any) -> None:
         self._flow.store.change(dataclasses.replace(self._flow.store.settings, **changes))
+        self._show_problem()
+
+    def _show_problem(self) -> None:
         self.message.setText(self._flow.store.problem)

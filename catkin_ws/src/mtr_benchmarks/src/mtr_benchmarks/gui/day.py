@@ -89,7 +89,7 @@ def _use(application: Application, opener: QuickOpener, folder: pathlib.Path, ho
     store, flow = application.flow.store, application.flow
     store.settings = dataclasses.replace(store.settings, result_folder=folder / "results",
                                          progress_folder=folder / "progress", has_sounds=False)
-    flow.connect_to(Connection(RobotChoice("127.0.0.1"), CanChoice(SIMULATED)))
+    flow.connecting.connect_to(Connection(RobotChoice("127.0.0.1"), CanChoice(SIMULATED)))
     until(lambda: flow.model.robot is not None)
     window: Any = application.window
     window.resize(SIZE)

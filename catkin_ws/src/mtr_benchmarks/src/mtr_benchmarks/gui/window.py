@@ -122,7 +122,7 @@ def _use(application: Application, watch: Watch, folder: pathlib.Path, connectio
     store, flow = application.flow.store, application.flow
     store.settings = dataclasses.replace(store.settings, result_folder=folder / "results",
                                          progress_folder=folder / "progress", has_sounds=False)
-    flow.connect_to(connection)
+    flow.connecting.connect_to(connection)
     until(lambda: flow.model.robot is not None)
     watch.newest_id = lambda: 0 if flow.model.robot is None else flow.model.robot.status.id
     window: Any = application.window

@@ -41,10 +41,11 @@ class Canvas:
     def many(self, points: Any) -> QPolygonF:
         """Places of hundreds of points, (n, 2): written into the polygon's own memory, for an object of Python for each
         would take longer than to paint them."""
-        places = np.column_stack(self.viewport.to_screen(np.asarray(points, dtype=float).reshape(-1, 2).T))
+        x_m, y_m = np.asarray(points, dtype=float).reshape(-1, 2).T
+        places: Any = np.column_stack(self.viewport.to_screen((x_m, y_m)))
         polygon = QPolygonF(len(places))
         if len(places):
-            memory = polygon.data()
+            memory: Any = polygon.data()
             memory.setsize(places.nbytes)
             np.frombuffer(memory, dtype=float).reshape(-1, 2)[:] = places
         return polygon
