@@ -311,11 +311,13 @@ def run_scenario(robot_link, car_link):
     from mtr_operator.domain.results.progress import Progress
     from mtr_operator.domain.runner import Runner
 
-    def run(scenario, parameters, progress=None, is_cancelled=lambda: False, *, observer=None, person=None, again=()):
+    def run(scenario, parameters, progress=None, is_cancelled=lambda: False, *, observer=None, person=None, again=(),
+            skipping=None):
         run.progress = progress or Progress(scenario.name, parameters.to_mapping())
         run.saved = []
         loop = ControlLoop(robot_link, car_link, observer, is_cancelled)
         loop.person = person
+        loop.skipping = skipping or loop.skipping
         Runner(scenario, parameters, loop, run.progress,
                lambda state: run.saved.append(list(state.results)), again=again).run()
         return run.progress.results

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, Iterator, Sequence
 
 from .actions.car import Car
 from .actions.car_size import size_cautions
@@ -22,6 +22,7 @@ from .results.journal import (
     LINE_RESUMED,
     REVISED,
     SESSION,
+    SKIPPED,
     SUPERSEDED,
     Journal,
     plain_fields,
@@ -153,7 +154,8 @@ class Runner:
                 self._notebook.add(SUPERSEDED, {"line": line.number})
                 return None
             self._notebook.add(LINE_RESUMED, {"line": line.number})
-            result: LineResult = self._scenario.measure(line, self._parameters, self._robot, self._car)
+            with self._at_hand(line):
+                result: LineResult = self._scenario.measure(line, self._parameters, self._robot, self._car)
             return result
         finally:
             self._robot.take_up({})
@@ -185,7 +187,7 @@ class Runner:
             return
         assessor = Assessor(self._scenario, self._parameters, progress.measured_car, progress.calibration)
         until_s = self._robot.now_s + progress.limits.further_time_limit_s
-        waiting = {line.number: line for line in lines}
+        waiting = {line.number: line for line in lines if line.number not in progress.skipped}
         while self._robot.now_s < until_s:
             undecided = assessor.assess(progress).undecided()
             number = next((number for number in waiting if number in undecided), None)
@@ -201,7 +203,8 @@ class Runner:
         self._car.wait_for_bus()
         self._notebook.add(FURTHER, {"line": line.number})
         so_far = next(result for result in self._progress.results if result.number == line.number)
-        result = self._scenario.measure_further(line, self._parameters, self._robot, self._car, so_far)
+        with self._at_hand(line):
+            result = self._scenario.measure_further(line, self._parameters, self._robot, self._car, so_far)
         if result is None:
             return False
         self._keep_line(result)
@@ -210,7 +213,23 @@ class Runner:
     def _measure_line(self, line: Line) -> None:
         self._car.wait_for_bus()
         self._notebook.add(LINE_BEGUN, {"line": line.number})
-        self._keep_line(self._scenario.measure(line, self._parameters, self._robot, self._car))
+        with self._at_hand(line):
+            result = self._scenario.measure(line, self._parameters, self._robot, self._car)
+        self._keep_line(result)
+
+    @contextlib.contextmanager
+    def _at_hand(self, line: Line) -> Iterator[None]:
+        """Within the context the Operator may skip this line; with its end it is kept that it was."""
+        skipping, observer = self._loop.skipping, self._loop.observer
+        skipping.begin(line.number)
+        observer.on_line(line.number)
+        try:
+            yield
+        finally:
+            skipping.end()
+            observer.on_line(0)
+        if skipping.is_skipped:
+            self._notebook.add(SKIPPED, {"line": line.number})
 
     def _keep_line(self, result: LineResult) -> None:
         self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame()})

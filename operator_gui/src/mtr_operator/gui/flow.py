@@ -152,6 +152,11 @@ class Flow(QObject):
             self.stopped.emit()
             self.bridge.changed.emit()
 
+    def skip_line(self) -> None:
+        """Leave the line that is being measured, and go on with the next one; it can be measured again later."""
+        if self.model.line:
+            self.connecting.links.skip_line(self.model.line)
+
     def bus_view(self) -> BusView:
         """What comes over the Car's bus now, and what its locks did; nothing before a connection."""
         worker = self.connecting.worker

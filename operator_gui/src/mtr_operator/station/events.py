@@ -92,6 +92,13 @@ class ActionBegun:
 
 
 @dataclass(frozen=True)
+class LineBegun:
+    """The line with this number is measured from now on; 0: none is."""
+
+    number: int
+
+
+@dataclass(frozen=True)
 class LineMeasured:
     """A line was measured: all results so far, and the newest one."""
 
@@ -141,4 +148,4 @@ class EventLogged:
 
 
 StationEvent = Union[LinksOpened, LinkRefused, CarLinkOpened, RobotSilent, StandstillSeen, LinesPlanned, ActionBegun,
-                     LineMeasured, RunEnded, ProgressSaved, PersonWanted, EventLogged]
+                     LineBegun, LineMeasured, RunEnded, ProgressSaved, PersonWanted, EventLogged]

@@ -23,6 +23,7 @@ from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
 from .events import (
     ActionBegun,
     EventLogged,
+    LineBegun,
     LineMeasured,
     LinesPlanned,
     Outcome,
@@ -57,6 +58,7 @@ class ViewModel:
         phase: what is done with it.
         results: of the test so far. newest: the one measured last, None before.
         done, total: lines; total is 0 before it is known.
+        line: number of the line that is being measured, 0 while none is.
         action: what the robot does now. trouble: why the test was interrupted; empty when the Operator did it.
         outcome: how measuring ended last, None while it has not.
         judgement: of the lines measured so far, None without limits.
@@ -79,7 +81,7 @@ class ViewModel:
         self.phase = Phase.IDLE
         self.results: tuple[LineResult, ...] = ()
         self.newest: LineResult | None = None
-        self.done = self.total = 0
+        self.done = self.total = self.line = 0
         self.action = self.trouble = ""
         self.outcome: Outcome | None = None
         self.judgement: TestJudgement | None = None
@@ -228,6 +230,8 @@ class ViewModel:
             self._expect(is_prepared=True)
         elif isinstance(event, ActionBegun):
             self.action = event.text
+        elif isinstance(event, LineBegun):
+            self.line = event.number
         elif isinstance(event, LineMeasured):
             self.results, self.newest = event.results, event.newest
             self.done, self.total = event.done, event.total

@@ -72,11 +72,12 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
         progress = Progress(scenario.name, parameters, _session_from(document["session"]),
                             None if document["car"] is None else car_from(document["car"]),
                             _results_from(document["results"], scenario),
-                            _retried_from(document["retried"]),
+                            _numbers_from(document["retried"]),
                             record_from(document.get("frame_record")), mark_in(document),
                             limits=_given(document, "limits", limits_from),
                             calibration=_given(document, "calibration", calibration_from),
-                            identity=_given(document, "identity", identity_from))
+                            identity=_given(document, "identity", identity_from),
+                            skipped=_numbers_from(document.get("skipped", [])))
         _check_lines(progress, scenario)
     except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidLimits,
             InvalidCalibration, InvalidIdentity):
@@ -95,7 +96,7 @@ def _session_from(session: Any) -> dict[str, str]:
     return dict(session)
 
 
-def _retried_from(numbers: Any) -> list[int]:
+def _numbers_from(numbers: Any) -> list[int]:
     if not isinstance(numbers, list) or not all(type(number) is int for number in numbers):
         raise TypeError("numbers of the lines")
     return list(numbers)
@@ -130,7 +131,7 @@ def _check_lines(progress: Progress, scenario: AnyScenario) -> None:
     numbers = progress.measured()
     if numbers and progress.car is None:
         raise ValueError("results without a Car")
-    if numbers != sorted(set(numbers)) or not set(progress.retried) <= set(numbers):
+    if numbers != sorted(set(numbers)) or not {*progress.retried, *progress.skipped} <= set(numbers):
         raise ValueError("numbers of the lines")
     if numbers:
         try:

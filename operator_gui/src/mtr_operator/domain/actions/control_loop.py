@@ -23,6 +23,7 @@ from ..results.refusals import NOTHING, Refusals
 from ..robot_status import CarDimensions, RobotStatus
 from .observer import RunObserver
 from .pose_history import STANDING_MPS, PoseHistory
+from .skipping import Skipping
 from .standstill import Standstill
 from .trouble import Cancelled, LineInvalid, trouble_between
 
@@ -63,6 +64,7 @@ class ControlLoop:
         person: who takes the Car's handle where no output does; None when nobody is there.
         switcher: who switches the extender where no output does; None when nobody is there.
         standstill: notices that nobody looked after the robot for a while.
+        skipping: the line at hand, which the Operator may skip.
         phone: tells the distance of a phone in place of the Car's own feed; None for that one.
         reported: distances that were told, in their order.
     """
@@ -82,6 +84,7 @@ class ControlLoop:
         self.person: HandlePort | None = None
         self.switcher: ExtenderPort | None = None
         self.standstill = Standstill(SILENCE_LIMIT_S)
+        self.skipping = Skipping()
         self.phone: DistanceFeed | None = None
         self.reported: list[Reported] = []
         self.observer = observer or RunObserver()
@@ -129,7 +132,8 @@ class ControlLoop:
         self.desired = replace(self.desired, **changes)
 
     def step(self) -> RobotStatus:
-        """Answer the newest Status and take the next one; Cancelled when the Operator wants to end.
+        """Answer the newest Status and take the next one; Cancelled when the Operator wants to end, LineSkipped when
+        the line at hand is to be left.
 
         While the robot is held it stands, and so does the test, until the Operator has both go on.
         """
@@ -147,6 +151,7 @@ class ControlLoop:
         status = self._exchange()
         if self._is_cancelled():
             raise Cancelled("The test was interrupted.")
+        self.skipping.look()
         return status
 
     @contextlib.contextmanager

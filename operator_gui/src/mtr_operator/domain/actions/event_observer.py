@@ -41,6 +41,10 @@ class EventObserver(RunObserver):
             self._events.add(EventKind.TEST, text)
         self._observer.on_action(text)
 
+    def on_line(self, number: int) -> None:
+        """See RunObserver."""
+        self._observer.on_line(number)
+
     def on_result(self, result: LineResult, done: int, total: int) -> None:
         """See RunObserver."""
         said = result.reason or "measured"

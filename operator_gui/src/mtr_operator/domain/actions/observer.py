@@ -18,6 +18,9 @@ class RunObserver:
     def on_action(self, text: str) -> None:
         """The robot begins to do this."""
 
+    def on_line(self, number: int) -> None:
+        """The line with this number is measured from now on; 0: none is."""
+
     def on_result(self, result: LineResult, done: int, total: int) -> None:
         """A line was measured, or measured again."""
 

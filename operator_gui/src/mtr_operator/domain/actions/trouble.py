@@ -26,6 +26,13 @@ class LineInvalid(Exception):
         self.since_s = since_s
 
 
+class LineSkipped(LineInvalid):
+    """The Operator skips the line at hand: whoever would try again what failed does not."""
+
+    def __init__(self) -> None:
+        super().__init__("The line was skipped by the Operator.")
+
+
 class Cancelled(Exception):
     """The Operator ends the test."""
 

@@ -14,6 +14,8 @@ from .line_result import LineStatus
 BEGUN, SESSION, CAR, CHECK = "begun", "session", "car", "check"
 LINE_BEGUN, LINE_RESUMED, POINT, SUPERSEDED, LINE = "line_begun", "line_resumed", "point", "superseded", "line"
 REVISED, FURTHER = "revised", "further"
+# The Operator has left a line; before the result that says so.
+SKIPPED = "skipped"
 EVENT, PRESS, DECISION = "event", "press", "decision"
 # What was said of car, key and operator after the test had begun.
 IDENTITY = "identity"

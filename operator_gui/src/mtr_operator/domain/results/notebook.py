@@ -20,6 +20,7 @@ from .journal import (
     POINT,
     REVISED,
     SESSION,
+    SKIPPED,
     SUPERSEDED,
     Journal,
     KeptPoint,
@@ -52,10 +53,8 @@ def apply(progress: Progress, result_type: type[LineResult], kind: str, values: 
         progress.car = car_from(values)
     elif kind == CHECK:
         progress.frame_record.note_check(read_record(CheckEntry, values["check"]), frame_from(values["frame"]))
-    elif kind == LINE_BEGUN:
-        progress.begin_line(int(values["line"]))
-    elif kind == FURTHER:
-        progress.measure_further()
+    elif kind in (LINE_BEGUN, FURTHER, SKIPPED):
+        _apply_course(progress, kind, values)
     elif kind == SUPERSEDED:
         progress.points.clear()
     elif kind == POINT:
@@ -65,6 +64,16 @@ def apply(progress: Progress, result_type: type[LineResult], kind: str, values: 
         progress.record(result_from_document(result_type, values["result"]), frame_from(values["frame"]))
     elif kind == REVISED:
         progress.revise(result_from_document(result_type, values["result"]))
+
+
+def _apply_course(progress: Progress, kind: str, values: Mapping[str, Any]) -> None:
+    """Which line is measured, and which one is not."""
+    if kind == LINE_BEGUN:
+        progress.begin_line(int(values["line"]))
+    elif kind == FURTHER:
+        progress.measure_further()
+    else:
+        progress.skip(int(values["line"]))
 
 
 def _apply_words(progress: Progress, kind: str, values: Mapping[str, Any]) -> None:

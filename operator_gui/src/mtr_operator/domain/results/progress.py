@@ -51,6 +51,7 @@ class Progress:
         calibration: record of the robot with which it was measured, None in a file from before there was one.
         identity: whose car and key, who measured where with what; None in a file from before there was one, or when
             nobody said anything.
+        skipped: numbers of the invalid lines that the Operator left; they are measured again only on request.
         notice: what a person has to know of how it was recovered; empty when nothing was lost.
     """
 
@@ -67,14 +68,16 @@ class Progress:
     limits: Limits | None = None
     calibration: CalibrationRecord | None = None
     identity: Identity | None = None
+    skipped: list[int] = field(default_factory=list)
     notice: str = field(default="", compare=False)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""
         kept = {} if self.kept is None else {"journal": dataclasses.asdict(self.kept)}
-        given = {name: part.to_document()
-                 for name, part in (("limits", self.limits), ("calibration", self.calibration),
-                                    ("identity", self.identity)) if part is not None}
+        parts = (("limits", self.limits), ("calibration", self.calibration), ("identity", self.identity))
+        given: dict[str, Any] = {name: part.to_document() for name, part in parts if part is not None}
+        if self.skipped:
+            given["skipped"] = self.skipped
         return {"format": FORMAT, "version": VERSION, "scenario": self.scenario, "parameters": self.parameters,
                 "session": self.session, "car": None if self.car is None else dataclasses.asdict(self.car),
                 "results": [result.to_document() for result in self.results], "retried": self.retried,
@@ -96,6 +99,11 @@ class Progress:
         """A line is begun from its start; what was measured on it before stays in the journal."""
         self.line_at_hand = number
         self.points.clear()
+        self.skipped = [skipped for skipped in self.skipped if skipped != number]
+
+    def skip(self, number: int) -> None:
+        """The Operator leaves a line."""
+        self.skipped.append(number)
 
     def measure_further(self) -> None:
         """A line that has a result gets more attempts; interrupted, it keeps that result."""
@@ -111,11 +119,18 @@ class Progress:
         if former is not None:
             self.retried.append(number)
             if former.invalid_count < result.invalid_count:
+                self._keep_skipped()
                 return
             self.results.remove(former)
         self.frame_record.note_line(number, frame)
         self.results.append(result)
         self.results.sort(key=lambda measured: measured.number)
+        self._keep_skipped()
+
+    def _keep_skipped(self) -> None:
+        """A line that is as it should be, of before or in spite of the skip, is none that was skipped."""
+        invalid = {result.number for result in self.results if result.invalid_count}
+        self.skipped = [number for number in self.skipped if number in invalid]
 
     def revise(self, result: LineResult) -> None:
         """The same line, measured once, as all lines together show it; ValueError when it has no result."""
@@ -129,7 +144,7 @@ class Progress:
     def to_retry(self) -> list[int]:
         """Numbers of the invalid lines that are still to be measured again."""
         return [result.number for result in self.results
-                if result.invalid_count and result.number not in self.retried]
+                if result.invalid_count and result.number not in self.retried and result.number not in self.skipped]
 
     def check_car(self, mapped: CarDimensions) -> None:
         """Raise ProgressFileError when the Car that was mapped now is not the one of the lines measured so far."""

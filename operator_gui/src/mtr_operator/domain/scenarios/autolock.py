@@ -9,7 +9,7 @@ from typing import Any, Sequence
 from ..actions.car import Car
 from ..actions.distance import Distance, recorded_values
 from ..actions.robot import Robot
-from ..actions.trouble import LineInvalid
+from ..actions.trouble import LineInvalid, LineSkipped
 from ..estimation.passes.delay import has_two_speeds
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
@@ -156,6 +156,9 @@ def _further(course: Course, first: AxisPass, passes: Sequence[AxisPass], robot:
         for planned in (this, AxisPass(this.number, this.speed_mps, this.step_m)):
             try:
                 course.measure(planned, first)
+            except LineSkipped:
+                # What is measured counts.
+                return done
             except LineInvalid as error:
                 if first.lock.time_s >= error.since_s:
                     first.lock = Measured()

@@ -49,6 +49,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "measured"),
     QT_TRANSLATE_NOOP("Sentence", "Stop."),
     QT_TRANSLATE_NOOP("Sentence", "Go on."),
+    QT_TRANSLATE_NOOP("Sentence", "Skip line {}."),
     QT_TRANSLATE_NOOP("Sentence", "The handle was taken."),
     QT_TRANSLATE_NOOP("Sentence", "Map the Car."),
     QT_TRANSLATE_NOOP("Sentence", "Check where the Car stands."),

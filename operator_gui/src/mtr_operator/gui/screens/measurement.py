@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 
 from PyQt5.QtCore import QTimer, pyqtBoundSignal, pyqtSignal
-from PyQt5.QtGui import QHideEvent, QShowEvent
-from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtGui import QHideEvent, QKeySequence, QShowEvent
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QShortcut, QVBoxLayout, QWidget
 
 from mtr_operator.station.handle_prompt import HandlePrompt, Prompt
 from mtr_operator.station.readiness import HELD_CODE, Phase, can_resume
@@ -27,18 +27,23 @@ from .measurement_facts import MeasurementFacts
 # Has no width, and a row may end there.
 _BREAK = "\N{ZERO WIDTH SPACE}"
 _SIDE_WIDTH, _MIN_SIDE_WIDTH = 400, 330
+# No plain letter: what is skipped by mistake has to be measured again.
+_SKIP_KEY = "Ctrl+K"
 
 
 class MeasurementScreen(QWidget):
     """Attributes: panel: the picture. facts: progress and state in words. resume, save, events, leave: buttons.
 
+    skip: button and key by which the line that is being measured is left.
+
     held: why the robot stands until the Operator has it go on. go_on: the button for that.
     handle: what the Operator is to do at the Car's handle or with the extender. taken: the button that says it is done.
-    Signals: resume_wanted, release_wanted, prompt_answered, save_wanted, events_wanted, leave_wanted; answered: nothing
-        is asked any more of the person who had the focus on `taken`.
+    Signals: resume_wanted, skip_wanted, release_wanted, prompt_answered, save_wanted, events_wanted, leave_wanted;
+        answered: nothing is asked any more of the person who had the focus on `taken`.
     """
 
     resume_wanted = pyqtSignal()
+    skip_wanted = pyqtSignal()
     release_wanted = pyqtSignal()
     prompt_answered = pyqtSignal()
     save_wanted = pyqtSignal()
@@ -58,9 +63,16 @@ class MeasurementScreen(QWidget):
         self.go_on = self._hold_button(self.tr("Hold to go on"), self.release_wanted)
         self.taken = self._button(self.tr("Handle taken"), "primary", self.prompt_answered)
         self.resume = self._hold_button(self.tr("Hold to resume"), self.resume_wanted)
+        self.skip = self._button("", "", self.skip_wanted)
+        self.skip.setToolTip(self.tr("Leave the line that is being measured and go on with the next one (Ctrl+K); it "
+                                     "can be measured again when the test is done"))
+        self.skip.clicked.connect(lambda: self.skip.setEnabled(False))
+        # A button's own shortcut would take the focus from Stop, and click a tenth of a second later.
+        QShortcut(QKeySequence(_SKIP_KEY), self).activated.connect(self.skip.click)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.events = self._button(self.tr("Events"), "", self.events_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
+        self._line = -1
         self._frames = QTimer(self)
         self._frames.setInterval(FRAME_MS)
         self._frames.timeout.connect(lambda: self.picture.glide(time.monotonic()))
@@ -98,7 +110,7 @@ class MeasurementScreen(QWidget):
         side = QVBoxLayout()
         side.setSpacing(S)
         side.addWidget(Scroller(told), 1)
-        for button in (self.go_on, self.taken, self.resume):
+        for button in (self.go_on, self.taken, self.resume, self.skip):
             side.addWidget(button)
         row = QHBoxLayout()
         row.setSpacing(S)
@@ -129,9 +141,19 @@ class MeasurementScreen(QWidget):
         self._show_cause(can_resume(model.readiness))
         self._show_hold()
         self._show_prompt()
+        self._show_skip()
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
         self.leave.setVisible(model.phase is Phase.PAUSED)
+
+    def _show_skip(self) -> None:
+        """Disabled from the click on until another line is measured."""
+        line = self._model.line if self._model.phase is Phase.MEASURING else 0
+        self.skip.setVisible(self._model.phase is Phase.MEASURING)
+        if line != self._line:
+            self._line = line
+            self.skip.setText(self.tr("Skip line {number}").format(number=line) if line else self.tr("Skip the line"))
+            self.skip.setEnabled(line != 0)
 
     def _show_cause(self, is_over: bool) -> None:
         """Why the test paused: red while it lasts."""

@@ -78,6 +78,7 @@ SENTENCES = (
                                   "a continued test."),
     QT_TRANSLATE_NOOP("Sentence", "Another application has taken over the control of the robot."),
     QT_TRANSLATE_NOOP("Sentence", "The test was interrupted."),
+    QT_TRANSLATE_NOOP("Sentence", "The line was skipped by the Operator."),
     QT_TRANSLATE_NOOP("Sentence", "The link to the robot was interrupted for {} s."),
     QT_TRANSLATE_NOOP("Sentence", "The link to the robot was interrupted: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot does not know its position relative to the Car."),

@@ -2068,37 +2068,37 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="225"/>
+        <location filename="../windows/main_window.py" line="228"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="228"/>
+        <location filename="../windows/main_window.py" line="231"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="230"/>
+        <location filename="../windows/main_window.py" line="233"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="245"/>
+        <location filename="../windows/main_window.py" line="248"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="249"/>
+        <location filename="../windows/main_window.py" line="252"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="249"/>
+        <location filename="../windows/main_window.py" line="252"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="208"/>
+        <location filename="../windows/main_window.py" line="211"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -2184,54 +2184,69 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="61"/>
+        <location filename="../screens/measurement.py" line="72"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="63"/>
+        <location filename="../screens/measurement.py" line="74"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="153"/>
+        <location filename="../screens/measurement.py" line="175"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="166"/>
+        <location filename="../screens/measurement.py" line="188"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="60"/>
+        <location filename="../screens/measurement.py" line="65"/>
         <source>Hold to resume</source>
         <translation>Podržením pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="58"/>
+        <location filename="../screens/measurement.py" line="63"/>
         <source>Hold to go on</source>
         <translation>Podržením jet dál</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="62"/>
+        <location filename="../screens/measurement.py" line="73"/>
         <source>Events</source>
         <translation>Události</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="153"/>
+        <location filename="../screens/measurement.py" line="175"/>
         <source>Extender switched</source>
         <translation>Extender přepnut</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="171"/>
+        <location filename="../screens/measurement.py" line="193"/>
         <source>Switch the extender on now, and then say so here, by Enter or the button.</source>
         <translation>Zapněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="172"/>
+        <location filename="../screens/measurement.py" line="194"/>
         <source>Switch the extender off now, and then say so here, by Enter or the button.</source>
         <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="67"/>
+        <source>Leave the line that is being measured and go on with the next one (Ctrl+K); it can be measured again when the test is done</source>
+        <translation>Opustit přímku, která se právě měří, a pokračovat další (Ctrl+K); po skončení testu ji lze změřit znovu</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="155"/>
+        <source>Skip line {number}</source>
+        <translation>Přeskočit přímku {number}</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="155"/>
+        <source>Skip the line</source>
+        <translation>Přeskočit přímku</translation>
     </message>
 </context>
 <context>
@@ -6391,6 +6406,16 @@
         <location filename="../texts/keys/relay.py" line="5"/>
         <source>The Car did not unlock inside its zone, so that its silence beyond the border says nothing.</source>
         <translation>Auto se uvnitř své zóny neodemklo, takže jeho mlčení za hranicí nic neříká.</translation>
+    </message>
+    <message>
+        <location filename="../events/sentences.py" line="5"/>
+        <source>Skip line {}.</source>
+        <translation>Přeskočit přímku {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The line was skipped by the Operator.</source>
+        <translation>Přímku přeskočila obsluha.</translation>
     </message>
 </context>
 <context>

@@ -142,6 +142,9 @@ class MainWindow(QMainWindow):
         self.types.back.connect(flow.to_welcome)
         self.types.chosen.connect(self._show_settings)
         self.measurement.resume_wanted.connect(flow.resume)
+        self.measurement.skip_wanted.connect(flow.skip_line)
+        # The robot drives on, and what a key does is to stop it.
+        self.measurement.skip_wanted.connect(self.header.stop.setFocus)
         self.measurement.release_wanted.connect(flow.release_hold)
         self.measurement.prompt_answered.connect(flow.answer_prompt)
         self.measurement.save_wanted.connect(flow.save_progress)

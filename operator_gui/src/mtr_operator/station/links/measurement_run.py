@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import logging
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Callable
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.event_observer import EventObserver, run_told
+from mtr_operator.domain.actions.skipping import Skipping
 from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
@@ -32,12 +33,13 @@ class Answers:
     """What the Operator says during a test.
 
     resumed_hold: see ControlLoop. person: who takes the Car's handle, switcher: who
-    switches an extender; None when nobody is there.
+    switches an extender; None when nobody is there. skipping: see ControlLoop.
     """
 
     resumed_hold: Callable[[int], int] = lambda _: 0
     person: HandlePort | None = None
     switcher: ExtenderPort | None = None
+    skipping: Skipping = field(default_factory=Skipping)
 
 
 NO_ANSWERS = Answers()
@@ -100,6 +102,7 @@ class MeasurementRun:
             observer = EventObserver(reporter, self._event_log, test.scenario.line_word)
             loop = ControlLoop(robot, self._car, observer, is_cancelled, self._answers.resumed_hold)
             loop.person, loop.switcher = self._answers.person, self._answers.switcher
+            loop.skipping = self._answers.skipping
             loop.event_log = self._event_log
             loop.standstill = self._standstill or loop.standstill
             try:

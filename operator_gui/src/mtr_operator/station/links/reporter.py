@@ -10,7 +10,7 @@ from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import RobotStatus
 
-from ..events import ActionBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot, known_facts
+from ..events import ActionBegun, LineBegun, LineMeasured, LinesPlanned, RobotSilent, RobotSnapshot, known_facts
 from ..mailbox import Mailbox
 from .watched_link import WatchedRobotLink
 
@@ -40,6 +40,10 @@ class Reporter(RunObserver):
     def on_action(self, text: str) -> None:
         """See RunObserver."""
         self._mailbox.put(ActionBegun(text))
+
+    def on_line(self, number: int) -> None:
+        """See RunObserver."""
+        self._mailbox.put(LineBegun(number))
 
     def on_result(self, result: LineResult, done: int, total: int) -> None:
         """See RunObserver."""

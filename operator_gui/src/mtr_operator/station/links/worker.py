@@ -10,6 +10,7 @@ from typing import Callable
 
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
+from mtr_operator.domain.actions.skipping import Skipping
 from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.errors import BusRefused, InvalidParameter, OperatorError
 from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
@@ -64,6 +65,7 @@ class Worker:
         self._closing = threading.Event()
         self._stop = StopOrder()
         self._released_hold = 0
+        self._skipping = Skipping()
         self._person = AskedPerson(lambda prompt: self._mailbox.put(PersonWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._robot: WatchedRobotLink | None = None
@@ -99,6 +101,11 @@ class Worker:
         """Have the robot go on that is held under this id."""
         self._released_hold = hold_id
         self.note("Go on.")
+
+    def skip_line(self, number: int) -> None:
+        """Have a running test leave this line, if it is the one that is measured, and go on with the next one."""
+        self._skipping.skip(number)
+        self.note(f"Skip line {number}.")
 
     def answer(self, prompt: Prompt) -> None:
         """A person has done what this prompt asks for."""
@@ -254,8 +261,8 @@ class Worker:
         self._close_robot()
         # A stop that came meanwhile stays in force, and ends the run at its first Status.
         self._stop.lift(ticket)
-        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox,
-                             Answers(self._released, self._person, self._person), event_log=self._event_log,
+        answers = Answers(self._released, self._person, self._person, self._skipping)
+        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox, answers, event_log=self._event_log,
                              standstill=self._new_standstill())
         self._mailbox.put(run.run(lambda: self._stop.is_in_force, self._run_short_requests))
         # What happened during the run was told there.

@@ -62,8 +62,8 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
     def measure(self, line: MapPlace, parameters: DigitalKeyParameters, robot: Robot, car: Car) -> DigitalKeyResult:
         """Stand there and read."""
         robot.say(f"position {line.number} ({line.side.replace('_', ' ')}, {line.distance_m:.2f} m)")
-        car.wait_for_phone()
         try:
+            car.wait_for_phone()
             start_s, end_s = _stand(line, parameters, robot, car)
             made = robot.key_distance(line.ray, (start_s + end_s) / 2.0, 0.0)
             reference = reference_of(made, line.ray, parameters, car.dimensions(), robot)

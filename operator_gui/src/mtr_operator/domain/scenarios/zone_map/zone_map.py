@@ -11,7 +11,7 @@ import numpy as np
 from ...actions.car import Car
 from ...actions.distance import Distance
 from ...actions.robot import Robot
-from ...actions.trouble import LineInvalid
+from ...actions.trouble import LineInvalid, LineSkipped
 from ...estimation.field.zone_search import ZoneSearch
 from ...estimation.interval import FloatArray
 from ...estimation.press.radial_search import PRESSES_IN_DOUBT
@@ -130,6 +130,8 @@ def _search(search: ZoneSearch, zone: Zone, measured: _Measured,
         place = zone.places[index]
         try:
             made, worked = _press_at(place, parameters, robot, len(measured.worked) + len(measured.failed) + 1)
+        except LineSkipped:
+            raise
         except LineInvalid:
             troubles += 1
             left_out.add(index)
