@@ -66,6 +66,8 @@ FIRMWARE_HEALTH = "/firmware/health"
 FAULT_INJECTION = "/fault_injection"
 INJECT_FAULT = "/fault_injection/inject"
 ACTIVE_FAULTS = "/fault_injection/active"
+# Parameter: kinds of fault by part, for who offers them
+FAULT_CATALOGUE = "/fault_catalogue"
 
 # Simulation
 SIM_HOLD = "/sim/hold"

@@ -54,6 +54,7 @@ class FaultInjectionNode:
         self._tell()
         self._relays = self._relayed_topics()
         self._ports = self._relayed_ports()
+        rospy.set_param(names.FAULT_CATALOGUE, parts.catalogue())
         rospy.logwarn("Faults can be injected into this robot (fault_injection:=true).")
         self._service = rospy.Service(names.INJECT_FAULT, InjectFault, self._inject)
 

@@ -1,7 +1,7 @@
 """The catalogue: which part can have which fault. Everything else refers to these names."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
-from typing import Dict, NamedTuple, Tuple
+from typing import Dict, List, NamedTuple, Tuple
 
 from mtr_core.errors import RobotError
 
@@ -73,6 +73,11 @@ PARTS: Dict[str, Part] = {part.name: part for part in _ALL}
 # s, s, and a share: what a fault takes that does not say how much.
 USUAL_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 0.5, Kind.FORWARD: 0.4, Kind.BACK: 0.4, Kind.LOSE: 0.3}
 MAX_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 10.0, Kind.FORWARD: 86400.0, Kind.BACK: 86400.0, Kind.LOSE: 1.0}
+
+
+def catalogue() -> Dict[str, List[str]]:
+    """Kinds of fault by part, as words."""
+    return {part.name: [kind.value for kind in part.kinds] for part in _ALL}
 
 
 def part_of(name: str) -> Part:

@@ -9,10 +9,17 @@ import rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import LaserScan
 
-from mtr_fault_injection.parts import NODES, PARTS, SENSORS, FaultError, Kind, kind_of, part_of
+from mtr_fault_injection.parts import NODES, PARTS, SENSORS, FaultError, Kind, catalogue, kind_of, part_of
 from mtr_fault_injection.schedule import MAX_DURATION_S, Schedule, fault_of
 from mtr_fault_injection.spoiling import Spoiler, garbled
 from mtr_msgs.msg import FirmwareState
+
+
+def test_catalogue_offers_what_is_accepted_and_nothing_else():
+    offered = catalogue()
+    assert set(offered) == set(PARTS)
+    assert all(kind_of(part_of(part), kind).value == kind for part, kinds in offered.items() for kind in kinds)
+    assert offered["servos"] == ["off"]
 
 
 def scan(number):
