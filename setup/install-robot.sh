@@ -13,7 +13,7 @@ set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 here=$top/setup/robot
 # Not on a robot: the simulated world, and what measures.
-not_needed="mtr_benchmarks mtr_gazebo mtr_tests"
+not_needed="mtr_benchmarks mtr_gazebo mtr_rviz mtr_tests"
 
 fail() {
   echo "install-robot: $*" >&2

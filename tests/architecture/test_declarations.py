@@ -40,6 +40,7 @@ WITHOUT_CODE = {
     "catkin": "builds every package",
     "message_generation": "makes the messages", "message_runtime": "runs them",
     "protobuf-dev": "protoc makes the module",
+    "qtbase5-dev": "headers of Qt have no folder",
     "gtest": "tests in C++ are linked with it",
     "rostest": "runs the package's *.test files",
     "python3-pytest": "runs the package's unit tests",
@@ -158,9 +159,13 @@ def declared(folder: pathlib.Path) -> Dict[str, Set[str]]:
 
 
 def named(folder: pathlib.Path) -> Set[str]:
-    """Every string in the package's Python: a program or package may be asked for by its name."""
-    return {node.value for path in python_files(folder) for node in nodes(path)
-            if isinstance(node, ast.Constant) and isinstance(node.value, str)}
+    """Every string in the package's Python, every one-word string in its C++: a program or package may be asked for by
+    its name."""
+    words = {word for path in tracked(f"{folder.relative_to(TOP)}/*.cpp")
+             for word in re.findall(r'"(\w+)"', path.read_text(encoding="utf-8"))}
+    return words | {PROGRAM_KEYS[word] for word in words & set(PROGRAM_KEYS)} | {
+        node.value for path in python_files(folder) for node in nodes(path)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)}
 
 
 @pytest.mark.parametrize("folder", package_folders(), ids=package_name)

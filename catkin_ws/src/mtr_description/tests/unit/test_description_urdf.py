@@ -45,6 +45,12 @@ def test_rviz_shows_what_the_nodes_publish():
                       names.MAP_GRID, names.LOCALIZATION_MARKERS, names.MOTION_MARKERS, names.DRIVE_MARKERS}
 
 
+def test_rviz_has_the_robots_panel():
+    config = yaml.safe_load((PACKAGE / "rviz" / "robot.rviz").read_text(encoding="utf-8"))
+    plugins = ElementTree.parse(str(PACKAGE.parent / "mtr_rviz" / "plugin_description.xml")).getroot()
+    assert {panel["Class"] for panel in config["Panels"]} == {"rviz/Displays", *(each.get("name") for each in plugins)}
+
+
 def test_key_is_what_is_foremost():
     geometry = shipped_geometry()
     assert geometry.footprint().front_m == geometry.key().x_m + 0.02

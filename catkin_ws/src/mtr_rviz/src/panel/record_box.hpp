@@ -1,0 +1,41 @@
+/// @file
+/// Begins and ends a recording of the running robot.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <QComboBox>
+#include <QGroupBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QProcess>
+#include <QPushButton>
+
+namespace mtr_rviz {
+
+/// A recording is `rosrun mtr_bringup record`, which ends with this.
+class RecordBox : public QGroupBox {
+  Q_OBJECT
+ public:
+  explicit RecordBox(QWidget* parent = nullptr);
+  ~RecordBox() override;
+
+  QString folder() const { return folder_->text(); }
+  void set_folder(const QString& folder) { folder_->setText(folder); }
+
+ Q_SIGNALS:
+  /// By a person.
+  void folder_changed();
+
+ private:
+  void start_or_end();
+  void show_state();
+  void read();
+
+  QComboBox* profile_;
+  QLineEdit* folder_;
+  QPushButton* button_;
+  QLabel* said_;
+  QProcess* process_;
+};
+
+}  // namespace mtr_rviz
