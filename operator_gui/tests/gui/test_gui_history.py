@@ -12,6 +12,9 @@ from mtr_operator.evidence.station_key import Station
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.history.history_model import HistoryModel
+from mtr_operator.gui.history.replay_window import ReplayWindow
+from mtr_operator.replay import recorded_test
+from mtr_operator.replay.replay import ReplayedTest
 from mtr_operator.storage.progress_file import open_progress, save_progress
 
 
@@ -174,3 +177,34 @@ def test_ten_thousand_tests_with_a_broken_one_are_found_and_only_those_in_sight_
     assert 0 < len(asked) < 10_000
     history.car.setCurrentIndex(history.car.findData("VIN9999"))
     assert [each.car for each in history.shown] == ["VIN9999"]
+
+
+def test_test_without_a_profile_that_can_be_read_says_so_when_it_is_computed_anew(lab):
+    history = show(lab)
+    assert not history.anew.isEnabled()
+    history.table.selectRow(0)
+    lab.click(history.anew)
+    lab.wait(history.anew.isEnabled)
+    assert "profile" in history.notice.text() and not lab.window.findChildren(ReplayWindow)
+
+
+def test_what_would_change_is_shown_in_a_window_that_leaves_the_stop_alive(lab, monkeypatch):
+    history = show(lab)
+    history.table.selectRow(0)
+    recorded = open_progress(history.chosen[0].file, SCENARIOS)[2].results
+    last, name = recorded[-1], "d50_m" if recorded[-1].method == "adaptive" else "distance_m"
+    now = [*recorded[:-1], dataclasses.replace(last, **{name: last.distances[0].distance_m + 0.01})]
+    found = ReplayedTest(recorded, now, {}, ("Of 2 lines nothing was recorded (3, 4).",))
+    monkeypatch.setattr(recorded_test, "replay_file", lambda path: (SCENARIOS["key_press"], found))
+    lab.click(history.anew)
+    lab.wait(lambda: lab.window.findChildren(ReplayWindow))
+    [window] = lab.window.findChildren(ReplayWindow)
+    assert not window.isModal() and window.findChildren(StopButton)
+    model = window.table.model()
+    texts = [[model.data(model.index(row, column)) for column in range(5)] for row in range(model.rowCount())]
+    assert texts[0][0].startswith(f"{last.number} (")
+    assert [row[4] for row in texts] == ["would change"] + [""] * (len(recorded) - 1)
+    assert float(texts[0][3]) - float(texts[0][2]) == pytest.approx(0.01)
+    for said in (f"1 of {len(recorded)} distances would change", "10.0 mm", "Of 2 lines nothing was recorded"):
+        assert said in window.summary.text()
+    window.close()

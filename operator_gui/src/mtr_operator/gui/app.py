@@ -23,6 +23,7 @@ from .fitting.screen_watch import ScreenWatch
 from .flow import Flow
 from .header.stop_button import add_stop
 from .history.history_reader import HistoryReader
+from .history.replaying import Replaying
 from .i18n import Language
 from .report_writer import ReportWriter
 from .stopping import Stopping
@@ -75,6 +76,7 @@ class Application:
         ReportWriter.finish_all()
         HistoryReader.finish_all()
         BundleCheck.finish_all()
+        Replaying.finish_all()
         self.defects.remove()
 
     def _show_main(self) -> None:

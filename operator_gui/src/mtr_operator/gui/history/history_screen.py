@@ -36,9 +36,11 @@ from ..sentences import translated
 from ..theme.scale import L, M, S
 from .history_model import HistoryModel
 from .history_reader import HistoryReader
+from .replaying import Replaying
 
 if TYPE_CHECKING:
     from mtr_operator.evidence.verification import Verification
+    from mtr_operator.replay.replay import ReplayedTest
 
 _TABLE_HEIGHT = 120
 _BOX_LETTERS = 10
@@ -48,14 +50,16 @@ _PROBLEMS_SHOWN = 2
 class HistoryScreen(QWidget):
     """Attributes: search: text field. car, key, verdict: boxes. table. notice: how many there are, and what is wrong.
 
-    open, repeat, compare, file, verify, back: buttons.
+    open, repeat, compare, file, verify, anew, back: buttons.
 
-    Signals: open_wanted(path), repeat_wanted(side), compare_wanted(comparison), file_wanted, closed.
+    Signals: open_wanted(path), repeat_wanted(side), compare_wanted(comparison), replayed(path, ReplayedTest),
+        file_wanted, closed.
     """
 
     open_wanted = pyqtSignal(object)
     repeat_wanted = pyqtSignal(object)
     compare_wanted = pyqtSignal(object)
+    replayed = pyqtSignal(object, object)
     file_wanted = pyqtSignal()
     closed = pyqtSignal()
 
@@ -66,6 +70,7 @@ class HistoryScreen(QWidget):
         self._folders: tuple[pathlib.Path, ...] = ()
         self._reader: HistoryReader | None = None
         self._check: BundleCheck | None = None
+        self._replaying: Replaying | None = None
         self._entries: Sequence[TestEntry] = ()
         self._summary = ""
         self._model = HistoryModel(self)
@@ -87,6 +92,9 @@ class HistoryScreen(QWidget):
         self.file = self._button(self.tr("Open a file"), self.file_wanted.emit)
         self.verify = self._button(self.tr("Verify a bundle"), self._ask_bundle)
         self.verify.setToolTip(self.tr("Whether a bundle of evidence is as it was signed, by whom and when"))
+        self.anew = self._button(self.tr("Compute anew"), self._replay)
+        self.anew.setToolTip(self.tr("What would change in this test with the car profile as it is now, from its "
+                                     "recorded log and poses"))
         self.back = self._button(self.tr("Back"), self.closed.emit)
         self._lay_out()
         self._show_choice()
@@ -122,6 +130,7 @@ class HistoryScreen(QWidget):
         title.setProperty("role", "heading")
         filters, buttons, top = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
         top.addWidget(title, 1)
+        top.addWidget(self.anew)
         top.addWidget(self.verify)
         for row, widgets in ((filters, (self.car, self.key, self.verdict)),
                              (buttons, (self.back, self.file, self.repeat, self.compare, self.open))):
@@ -190,6 +199,23 @@ class HistoryScreen(QWidget):
         self.verify.setEnabled(True)
         self.say(check_text(path, found))
 
+    def _replay(self) -> None:
+        self.anew.setEnabled(False)
+        self.say(self.tr("{name} is being computed anew.").format(name=self.chosen[0].file.name))
+        # No child of the screen, and no lambda: it may outlive it when the window is made anew.
+        self._replaying = Replaying(self.chosen[0].file)
+        self._replaying.replayed.connect(self._show_replayed)
+        self._replaying.refused.connect(self._show_refused)
+        self._replaying.start()
+
+    def _show_replayed(self, path: pathlib.Path, found: ReplayedTest) -> None:
+        self._show_choice()
+        self.replayed.emit(path, found)
+
+    def _show_refused(self, text: str) -> None:
+        self._show_choice()
+        self.say(translated(text))
+
     def _learn(self, entries: list[TestEntry]) -> None:
         self._entries = entries
         for box, name in ((self.car, "car"), (self.key, "key"), (self.verdict, "verdict")):
@@ -233,6 +259,7 @@ class HistoryScreen(QWidget):
         is_good = not any(entry.problem for entry in chosen)
         is_bundle_alone = len(chosen) == 1 and is_bundle(chosen[0].file)
         self.open.setEnabled(is_good and len(chosen) == 1 and not is_bundle_alone)
+        self.anew.setEnabled(self.open.isEnabled() and not (self._replaying and self._replaying.isRunning()))
         self.repeat.setEnabled(is_good and len(chosen) == 1)
         self.compare.setEnabled(is_good and len(chosen) == 2)
         is_unfinished = len(chosen) == 1 and is_good and not chosen[0].is_complete

@@ -3,6 +3,9 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "The test in {} does not say which car profile it had; name one (--car-profile)."),
+    QT_TRANSLATE_NOOP("Sentence", "There is no recording of the test in {}; tests of this version and later have one."),
+    QT_TRANSLATE_NOOP("Sentence", "Of {} lines nothing was recorded ({})."),
     QT_TRANSLATE_NOOP("Sentence", "Another application (process {}) is measuring the test in the folder {}; end it "
                                   "there first, or choose another folder."),
     QT_TRANSLATE_NOOP("Sentence", "Another application is measuring the test in the folder {}; end it there first, or "

@@ -1691,114 +1691,129 @@
 <context>
     <name>HistoryScreen</name>
     <message>
-        <location filename="../history/history_screen.py" line="73"/>
+        <location filename="../history/history_screen.py" line="78"/>
         <source>Search: VIN, key, day, operator, note</source>
         <translation>Hledat: VIN, klíč, den, operátor, poznámka</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="74"/>
+        <location filename="../history/history_screen.py" line="79"/>
         <source>Search</source>
         <translation>Hledat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="76"/>
+        <location filename="../history/history_screen.py" line="81"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="77"/>
+        <location filename="../history/history_screen.py" line="82"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="78"/>
+        <location filename="../history/history_screen.py" line="83"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="239"/>
+        <location filename="../history/history_screen.py" line="266"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="84"/>
+        <location filename="../history/history_screen.py" line="89"/>
         <source>Repeat</source>
         <translation>Opakovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="85"/>
+        <location filename="../history/history_screen.py" line="90"/>
         <source>A new test with the same parameters, car and key</source>
         <translation>Nový test se stejnými parametry, autem a klíčem</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="86"/>
+        <location filename="../history/history_screen.py" line="91"/>
         <source>Compare two</source>
         <translation>Porovnat dva</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="87"/>
+        <location filename="../history/history_screen.py" line="92"/>
         <source>Open a file</source>
         <translation>Otevřít soubor</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="90"/>
+        <location filename="../history/history_screen.py" line="98"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="104"/>
+        <location filename="../history/history_screen.py" line="112"/>
         <source>Tests; choose one to open it, or two to compare them</source>
         <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="121"/>
+        <location filename="../history/history_screen.py" line="129"/>
         <source>Tests so far</source>
         <translation>Dosavadní testy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="153"/>
+        <location filename="../history/history_screen.py" line="162"/>
         <source>The folders are being read.</source>
         <translation>Složky se čtou.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="209"/>
+        <location filename="../history/history_screen.py" line="235"/>
         <source>{count} tests, {shown} of them shown.</source>
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="212"/>
+        <location filename="../history/history_screen.py" line="238"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="239"/>
+        <location filename="../history/history_screen.py" line="266"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="243"/>
+        <location filename="../history/history_screen.py" line="270"/>
         <source>This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into a folder of its own to open it.</source>
         <translation>Tento test je v podepsaném balíku: lze jej opakovat a porovnat. Pro otevření balík rozbalte do vlastní složky.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="88"/>
+        <location filename="../history/history_screen.py" line="93"/>
         <source>Verify a bundle</source>
         <translation>Ověřit balíček</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="89"/>
+        <location filename="../history/history_screen.py" line="94"/>
         <source>Whether a bundle of evidence is as it was signed, by whom and when</source>
         <translation>Zda je balíček důkazů tak, jak byl podepsán, kým a kdy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="176"/>
+        <location filename="../history/history_screen.py" line="185"/>
         <source>Bundle of evidence</source>
         <translation>Balíček důkazů</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="183"/>
+        <location filename="../history/history_screen.py" line="192"/>
         <source>{name} is being verified.</source>
         <translation>{name} se ověřuje.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="95"/>
+        <source>Compute anew</source>
+        <translation>Přepočítat</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="96"/>
+        <source>What would change in this test with the car profile as it is now, from its recorded log and poses</source>
+        <translation>Co by se v tomto testu změnilo s nynějším profilem auta, podle zaznamenaného logu a poloh</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="204"/>
+        <source>{name} is being computed anew.</source>
+        <translation>{name} se přepočítává.</translation>
     </message>
 </context>
 <context>
@@ -2063,42 +2078,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="58"/>
+        <location filename="../windows/main_window.py" line="62"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="228"/>
+        <location filename="../windows/main_window.py" line="238"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="231"/>
+        <location filename="../windows/main_window.py" line="241"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="233"/>
+        <location filename="../windows/main_window.py" line="243"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="248"/>
+        <location filename="../windows/main_window.py" line="258"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="252"/>
+        <location filename="../windows/main_window.py" line="262"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="252"/>
+        <location filename="../windows/main_window.py" line="262"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="211"/>
+        <location filename="../windows/main_window.py" line="221"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -3487,6 +3502,52 @@
         <location filename="../screens/protocol.py" line="268"/>
         <source>Left out is {name}: {reason}</source>
         <translation>Chybí {name}: {reason}</translation>
+    </message>
+</context>
+<context>
+    <name>ReplayModel</name>
+    <message>
+        <location filename="../history/replay_window.py" line="45"/>
+        <source>Line</source>
+        <translation>Přímka</translation>
+    </message>
+    <message>
+        <location filename="../history/replay_window.py" line="45"/>
+        <source>In the record [m]</source>
+        <translation>V záznamu [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/replay_window.py" line="45"/>
+        <source>Now [m]</source>
+        <translation>Nyní [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/replay_window.py" line="52"/>
+        <source>would change</source>
+        <translation>změnila by se</translation>
+    </message>
+</context>
+<context>
+    <name>ReplayWindow</name>
+    <message>
+        <location filename="../history/replay_window.py" line="62"/>
+        <source>Computed anew: {name}</source>
+        <translation>Přepočteno: {name}</translation>
+    </message>
+    <message>
+        <location filename="../history/replay_window.py" line="63"/>
+        <source>Distances as recorded and as they would be now</source>
+        <translation>Vzdálenosti podle záznamu a jaké by byly nyní</translation>
+    </message>
+    <message>
+        <location filename="../history/replay_window.py" line="67"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
+    </message>
+    <message>
+        <location filename="../history/replay_window.py" line="86"/>
+        <source>From the recorded log, the robot&apos;s poses and the car profile as it is now: {changed} of {count} distances would change; the largest difference is {worst} mm.</source>
+        <translation>Podle zaznamenaného logu, poloh robota a nynějšího profilu auta: změnilo by se {changed} z {count} vzdáleností; největší rozdíl je {worst} mm.</translation>
     </message>
 </context>
 <context>
@@ -6416,6 +6477,21 @@
         <location filename="../texts/application.py" line="9"/>
         <source>The line was skipped by the Operator.</source>
         <translation>Přímku přeskočila obsluha.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test in {} does not say which car profile it had; name one (--car-profile).</source>
+        <translation>Test v {} neříká, jaký profil auta měl; uveďte jej (--car-profile).</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>There is no recording of the test in {}; tests of this version and later have one.</source>
+        <translation>V {} není záznam testu; mají jej testy od této verze.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Of {} lines nothing was recorded ({}).</source>
+        <translation>O {} přímkách není nic zaznamenáno ({}).</translation>
     </message>
 </context>
 <context>

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from typing import Callable
+from typing import TYPE_CHECKING, Callable
 
 from PyQt5.QtCore import QSize, Qt, QTimer
 from PyQt5.QtGui import QCloseEvent
@@ -23,6 +23,7 @@ from ..flow import Flow, Step
 from ..header.header_bar import HeaderBar
 from ..history.comparison_window import ComparisonWindow
 from ..history.history_screen import HistoryScreen
+from ..history.replay_window import ReplayWindow
 from ..screens.measurement import MeasurementScreen
 from ..screens.measurement_type import MeasurementTypeScreen
 from ..screens.protocol import ProtocolScreen
@@ -33,6 +34,9 @@ from ..stopping import Stopping
 from ..theme.appearance import Appearance
 from .calibration_window import CalibrationWindow
 from .settings_window import SettingsWindow
+
+if TYPE_CHECKING:
+    from mtr_operator.replay.replay import ReplayedTest
 
 _SIZE = QSize(1360, 860)
 
@@ -156,6 +160,7 @@ class MainWindow(QMainWindow):
         self.history.file_wanted.connect(self._open)
         self.history.repeat_wanted.connect(self._repeat)
         self.history.compare_wanted.connect(self._show_comparison)
+        self.history.replayed.connect(self._show_replayed)
 
     def _settings_screen(self, name: str) -> SettingsScreen:
         screen = SettingsScreen(SCENARIOS[name], self._flow.model, self._appearance)
@@ -204,6 +209,11 @@ class MainWindow(QMainWindow):
 
     def _show_comparison(self, comparison: Comparison) -> None:
         window = ComparisonWindow(comparison, self._appearance, self)
+        window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        window.show()
+
+    def _show_replayed(self, path: pathlib.Path, found: ReplayedTest) -> None:
+        window = ReplayWindow(path.name, found, self)
         window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         window.show()
 

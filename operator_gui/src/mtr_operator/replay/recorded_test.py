@@ -1,0 +1,29 @@
+"""A test by its progress file, computed anew with the car profile that it names or another one."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+
+from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.results.session_record import CAR_PROFILE
+from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.recorded.recording import recording_folder
+
+from .replay import CannotReplay, ReplayedTest, replay
+
+
+def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.Path | None = None,
+                log: pathlib.Path | None = None) -> tuple[AnyScenario, ReplayedTest]:
+    """The test's scenario, and what was found; OperatorError says what is missing.
+
+    profile_name: empty for the one that the test had, as it is now. folder: of the recording, None for that beside the
+    file. log: see replay.
+    """
+    scenario, parameters, progress = open_progress(path, SCENARIOS)
+    name = profile_name or progress.session.get(CAR_PROFILE)
+    if not name:
+        raise CannotReplay(f"The test in {path} does not say which car profile it had; name one (--car-profile).")
+    recording = folder or recording_folder(path)
+    return scenario, replay(scenario, parameters, progress, recording, load_profile(name), log=log)
