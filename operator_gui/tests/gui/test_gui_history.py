@@ -13,7 +13,7 @@ from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.history.history_model import HistoryModel
 from mtr_operator.gui.history.replay_window import ReplayWindow
-from mtr_operator.replay import recorded_test
+from mtr_operator.replay import replay_file
 from mtr_operator.replay.replay import ReplayedTest
 from mtr_operator.storage.progress_file import open_progress, save_progress
 
@@ -195,7 +195,7 @@ def test_what_would_change_is_shown_in_a_window_that_leaves_the_stop_alive(lab, 
     last, name = recorded[-1], "d50_m" if recorded[-1].method == "adaptive" else "distance_m"
     now = [*recorded[:-1], dataclasses.replace(last, **{name: last.distances[0].distance_m + 0.01})]
     found = ReplayedTest(recorded, now, {}, ("Of 2 lines nothing was recorded (3, 4).",))
-    monkeypatch.setattr(recorded_test, "replay_file", lambda path: (SCENARIOS["key_press"], found))
+    monkeypatch.setattr(replay_file, "replay_file", lambda path: (SCENARIOS["key_press"], found))
     lab.click(history.anew)
     lab.wait(lambda: lab.window.findChildren(ReplayWindow))
     [window] = lab.window.findChildren(ReplayWindow)

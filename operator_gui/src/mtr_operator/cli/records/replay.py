@@ -16,7 +16,7 @@ def replay_test(options: argparse.Namespace) -> int:
     """Print what would change; the exit code."""
     path = options.results / FILE_NAME if options.results.is_dir() else options.results
     # Reads the database of a bus: not needed where nothing is replayed.
-    from mtr_operator.replay.recorded_test import replay_file
+    from mtr_operator.replay.replay_file import replay_file
     scenario, found = replay_file(path, options.car_profile or "", folder=options.recording, log=options.can_log)
     for notice in found.notices:
         print(notice, file=sys.stderr)

@@ -36,7 +36,7 @@ class Replaying(QThread):
         """See QThread."""
         try:
             # Reads logs and databases of buses, which nothing else of the window needs.
-            from mtr_operator.replay.recorded_test import replay_file
+            from mtr_operator.replay.replay_file import replay_file
             self.replayed.emit(self._path, replay_file(self._path)[1])
         except OperatorError as error:
             self.refused.emit(str(error))
