@@ -7,6 +7,7 @@ from typing import List, Optional, Tuple
 from mtr_core.liveness import is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_PRESS, DesiredState, PressReport
+from mtr_core.schedule import PERIPHERALS, STATE_MACHINE
 from mtr_core.states import State
 
 from . import problems
@@ -17,8 +18,13 @@ from .parameters import Parameters
 from .presses import Presses
 
 NS = 1e-9
+# Between two ticks nobody looks, neither here nor in the state machine, which stops the robot for it: a silence is told
+# so early that the robot knows of it when it has lasted as long as it may.
+TOLD_BEFORE_S = (PERIPHERALS.period_ns + STATE_MACHINE.period_ns) * NS
 # A person who holds the button wants the lift this far ahead; somewhat more than the period of its messages.
 MANUAL_LEAD_S = 0.3
+# States in which a part of the robot is not well, or the state machine does not say.
+UNWELL_STATES = (State.STARTING, State.FAULT)
 
 
 @dataclass(frozen=True)
@@ -88,7 +94,7 @@ class Peripherals:
     def step(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
         """Decide at now_ns of the steady clock; report is the firmware's newest one."""
         silence = self._silence(report, now_ns)
-        lift_height_m, refusal = self._lift(inputs, report)
+        lift_height_m, refusal = self._lift(inputs, report) if not silence else (math.nan, NO_PROBLEM)
         press = self._press(inputs, report, now_ns)
         self._count_manual_lift(inputs)
         fault = _fault(report) if report and not silence else NO_PROBLEM
@@ -104,7 +110,7 @@ class Peripherals:
         if report is None:
             return problems.FIRMWARE_NOT_REPORTED()
         age_s = (now_ns - report.stamp_ns) * NS
-        if not is_fresh(age_s, self._parameters.firmware_silent_after_s):
+        if not is_fresh(age_s, self._parameters.firmware_silent_after_s - TOLD_BEFORE_S):
             return problems.FIRMWARE_SILENT(age_s=age_s)
         return NO_PROBLEM
 
@@ -112,7 +118,8 @@ class Peripherals:
         desired = inputs.desired
         if desired.session_id:
             self._presses.take_up(desired.press, report, now_ns)
-        stop = inputs.emergency or (problems.STOPPED() if desired.stop else NO_PROBLEM)
+        is_stopped = desired.stop or inputs.is_held or inputs.mode in UNWELL_STATES
+        stop = inputs.emergency or (problems.STOPPED() if is_stopped else NO_PROBLEM)
         # A press that has begun ends by itself; a new one needs a live link.
         return self._presses.step(desired.press if desired.link_alive else NO_PRESS, report, now_ns, stop)
 
@@ -129,7 +136,7 @@ class Peripherals:
         if inputs.manual_lift_mps and report is not None:
             ahead_m = report.lift_height_m + MANUAL_LEAD_S * inputs.manual_lift_mps
             return self._key_lift.within_travel_m(ahead_m), NO_PROBLEM
-        if not inputs.desired.link_alive or inputs.desired.stop or inputs.is_held:
+        if not inputs.desired.link_alive or inputs.desired.stop or inputs.is_held or inputs.mode in UNWELL_STATES:
             return math.nan, NO_PROBLEM
         try:
             return self._key_lift.height_m(inputs.desired.key_height_m), NO_PROBLEM

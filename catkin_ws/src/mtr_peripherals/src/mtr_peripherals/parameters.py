@@ -13,7 +13,8 @@ class Parameters(ParameterSet):
     """What the node is started with.
 
     Attributes:
-        firmware_silent_after_s: age of the newest FirmwareState at which the firmware has failed.
+        firmware_silent_after_s: age of the newest FirmwareState at which the robot knows at the latest that the
+            firmware has failed; it is told two ticks earlier.
         order_silent_after_s: age of DesiredState and RobotMode at which they hold no longer.
         emergency_silent_after_s: age of an emergency stop's word at which it counts as engaged; it speaks every 0.1 s.
         emergency_owners: emergency stops that have to be heard; each other one counts from its first word on.
@@ -24,7 +25,7 @@ class Parameters(ParameterSet):
         calibration: of the servos.
     """
 
-    firmware_silent_after_s: float = number(1.0, 0.2, 5.0, "s")
+    firmware_silent_after_s: float = number(1.0, 0.4, 5.0, "s")
     order_silent_after_s: float = number(0.5, 0.2, 5.0, "s")
     emergency_silent_after_s: float = number(0.5, 0.2, 2.0, "s")
     emergency_owners: Tuple[str, ...] = ()

@@ -18,7 +18,7 @@ from mtr_peripherals.presses import PRESS_MARGIN_NS, firmware_id_of
 MS = 1_000_000
 TICK = 100 * MS
 START = 1_000 * MS
-READY, FOLLOWING, FAULT = 2, 4, 5
+STARTING, READY, FOLLOWING, FAULT = 1, 2, 4, 5
 LIVE = Inputs(DesiredState(session_id=3, link_alive=True, stop=False), FOLLOWING)
 PRESS = Press(1, 3, (2,), 0.8, 0.25)
 
@@ -202,6 +202,22 @@ def test_lift_of_a_robot_that_is_held_stands_for_the_application_and_moves_by_ha
     assert run(core, replace(held, is_held=False), firmware, 1).lift_height_m == pytest.approx(0.65)
 
 
+@pytest.mark.parametrize("mode", [STARTING, FAULT])
+def test_lift_stands_where_the_state_of_the_robot_is_a_fault_or_not_known_and_moves_by_hand(core, mode):
+    faulty, firmware = replace(desired(key_height_m=1.0), mode=mode), FakeFirmware()
+    assert math.isnan(run(core, faulty, firmware, 1).lift_height_m)
+    assert not math.isnan(run(core, replace(faulty, manual_lift_mps=0.1), firmware, 1).lift_height_m)
+    assert run(core, replace(faulty, mode=FOLLOWING), firmware, 1).lift_height_m == pytest.approx(0.65)
+
+
+def test_lift_stands_while_its_board_is_silent(core):
+    wanted, report = desired(key_height_m=1.0), FirmwareReport(START)
+    assert not math.isnan(core.step(wanted, report, START + 5 * TICK).lift_height_m)
+    for inputs in (wanted, replace(wanted, manual_lift_mps=0.1)):
+        outcome = core.step(inputs, report, START + 12 * TICK)
+        assert math.isnan(outcome.lift_height_m) and not outcome.alive
+
+
 ENGAGED = problems.EMERGENCY_ENGAGED(owner="controller_input")
 
 
@@ -216,8 +232,10 @@ def test_emergency_stop_holds_the_lift_whoever_moves_it_and_releases_the_servos(
     assert not after.stop and not math.isnan(after.lift_height_m), "the order still holds"
 
 
-@pytest.mark.parametrize("stopped", [replace(PRESSING_LIVE, emergency=ENGAGED), desired(PRESSING_LIVE, stop=True)],
-                         ids=["emergency", "operator"])
+@pytest.mark.parametrize("stopped", [
+    replace(PRESSING_LIVE, emergency=ENGAGED), desired(PRESSING_LIVE, stop=True), replace(PRESSING_LIVE, mode=FAULT),
+    replace(PRESSING_LIVE, mode=STARTING), replace(PRESSING_LIVE, is_held=True)],
+    ids=["emergency", "operator", "fault", "state unknown", "held"])
 def test_press_ordered_during_a_stop_is_refused_and_not_made_after_it(core, stopped):  # A3
     firmware = FakeFirmware()
     outcome = run(core, stopped, firmware, 5)
@@ -258,11 +276,12 @@ def test_reported_height_is_above_ground(core):
     assert outcome.key_height_m == pytest.approx(0.85) and outcome.lift_now_m == 0.5
 
 
-def test_silent_firmware_is_not_alive_and_says_so(core):
-    report = FirmwareReport(START)
-    assert core.step(LIVE, report, START + 1_000 * MS).alive
-    assert not core.step(LIVE, report, START - 1_001 * MS).alive, "A10: a report of the future is not alive"
-    outcome = core.step(LIVE, report, START + 1_001 * MS)
+def test_silent_firmware_is_not_alive_and_says_so_when_the_next_tick_would_be_too_late(core):
+    report, limit_ns = FirmwareReport(START), 1_000 * MS
+    assert core.step(LIVE, report, START + limit_ns - 2 * TICK).alive
+    assert not core.step(LIVE, report, START - limit_ns - MS).alive, "A10: a report of the future is not alive"
+    assert not core.step(LIVE, report, START + limit_ns - 2 * TICK + MS).alive, "a tick here, one of the state machine"
+    outcome = core.step(LIVE, report, START + limit_ns)
     assert not outcome.alive and "silent for 1.0 s" in outcome.message.text and outcome.led is Led.ERROR
 
 
