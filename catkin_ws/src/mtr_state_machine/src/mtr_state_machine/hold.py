@@ -1,5 +1,7 @@
-"""Holds: after a fault, an obstacle, manual driving or a restart of its board the robot stands until told to go on."""
+"""Holds: after a fault, an obstacle, manual driving, a restart of its board or a pause the robot stands until told."""
 # SPDX-License-Identifier: Apache-2.0
+import math
+
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Goal
 from mtr_core.states import Result
@@ -18,9 +20,12 @@ class Hold:
         reason: its sentence.
     """
 
-    def __init__(self, is_wanted: bool):
-        """is_wanted: false for a robot near which nobody comes, such as a simulated one."""
-        self._is_wanted = is_wanted
+    def __init__(self, is_wanted: bool, longest_pause_s: float):
+        """is_wanted: false for a robot near which nobody comes, such as a simulated one. longest_pause_s: between two
+        updates; after a longer one nobody knows what happened meanwhile.
+        """
+        self._is_wanted, self._longest_pause_s = is_wanted, longest_pause_s
+        self._updated_s = math.nan
         self._newest_id = self.id = 0
         self.reason = NO_PROBLEM
         self._seen_drives = self._seen_blockages = self._seen_resets = -1
@@ -29,7 +34,8 @@ class Hold:
         """Begin with what an observation shows, and end by the Operator's word."""
         if self.id and seen.desired.link_alive and seen.desired.resume_hold_id == self.id:
             self.id, self.reason = 0, NO_PROBLEM
-        drive = seen.drive
+        drive, pause_s = seen.drive, seen.now_s - self._updated_s
+        self._updated_s = seen.now_s
         was_blocked = 0 <= self._seen_blockages < drive.blockages
         was_driven = 0 <= self._seen_drives < drive.manual_drives
         was_reset = 0 <= self._seen_resets < seen.firmware_resets
@@ -43,6 +49,8 @@ class Hold:
             self.begin(problems.HELD_BLOCKED(), seen)
         elif was_reset:
             self.begin(problems.HELD_BOARD(), seen)
+        elif pause_s > self._longest_pause_s:
+            self.begin(problems.HELD_PAUSE(pause_s=pause_s), seen)
 
     def begin(self, reason: Problem, seen: Observation) -> None:
         """Hold the robot from now on, when an order could move it."""

@@ -30,6 +30,9 @@ HELD_BOARD = Sentence("state_machine.held_board",
                       "The board of lift and servos started again; the robot stands until the Operator has it go on.")
 HELD_START = Sentence("state_machine.held_start",
                       "The robot's state machine started anew; the robot stands until the Operator has it go on.")
+HELD_PAUSE = Sentence(
+    "state_machine.held_pause",
+    "The robot's state machine had stopped for {pause_s:.1f} s; the robot stands until the Operator has it go on.")
 
 # What it waits for or does
 WAITS_FOR_WAYPOINT = Sentence("state_machine.waits_for_waypoint", "Waits for the first waypoint to map the Car.")

@@ -180,6 +180,16 @@ def test_state_machine_that_was_restarted_during_a_test_moves_nothing_by_itself(
     assert robot.decision.message.code == "state_machine.held_start"
 
 
+def test_state_machine_that_was_stopped_for_a_while_during_a_test_moves_nothing_by_itself(robot):
+    robot.now_s += 0.35
+    assert not robot.step().hold_id, "a tick that is late is no pause"
+    robot.now_s += 0.45
+    assert robot.step().hold_id and robot.decision.goal == NO_GOAL
+    assert robot.decision.message.code == "state_machine.held_pause" and "0.6 s" in robot.decision.message.text
+    hold_id = robot.decision.hold_id
+    assert robot.step(desired=replace(WANTS, resume_hold_id=hold_id)).goal.waypoint == WAYPOINT
+
+
 def test_goal_and_hold_after_a_restart_have_ids_that_none_of_before_had():  # A9b
     before = Robot(now_s=50.0).follow()
     manual(before)
