@@ -18,7 +18,7 @@ class Parameters(ParameterSet):
         command_port: TCP port on which Command is received.
         lockstep_operator: simulated time waits for the application's answer to each Status.
         operator_lost_after_wall_s: wall time after which it stops waiting.
-        link_timeout_s: silence after which the robot stops.
+        link_timeout_s: silence after which the robot stops at the latest; one turn earlier it may.
         command_lifetime_s: age of the answered Status at which a Command has expired.
         takeover_after_s: silence of the application in control after which another may take over.
         default_speed_mps: maximum speed when a Command names none; not above platform_speed_mps.
@@ -38,7 +38,7 @@ class Parameters(ParameterSet):
     command_port: int = number(3333, 1, 65535)
     lockstep_operator: bool = False
     operator_lost_after_wall_s: float = number(5.0, 0.1, 60.0, "s")
-    link_timeout_s: float = number(1.0, 0.2, 5.0, "s")
+    link_timeout_s: float = number(1.0, 0.4, 5.0, "s")
     command_lifetime_s: float = number(1.0, 0.2, 5.0, "s")
     takeover_after_s: float = number(3.0, 1.0, 60.0, "s")
     default_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")

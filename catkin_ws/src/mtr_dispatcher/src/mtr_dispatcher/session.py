@@ -5,9 +5,10 @@ import math
 from dataclasses import dataclass
 from typing import Dict, Optional
 
-from mtr_core.liveness import is_fresh
+from mtr_core.liveness import NS, is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_PRESS, NO_WAYPOINT, DesiredState
+from mtr_core.schedule import DISPATCHER
 
 from . import problems
 from .command import Command, problem_of
@@ -95,8 +96,11 @@ class ControlSession:
         return self._accept(command)
 
     def link_alive(self, now_s: float) -> bool:
-        """True while the application in control has seen the robot of at most link_timeout_s ago."""
-        return bool(self.session_id) and is_fresh(now_s - self._seen_s, self._parameters.link_timeout_s)
+        """True while the application in control has seen the robot of less than link_timeout_s ago, also at the next
+        turn: nobody looks in between.
+        """
+        limit_s = self._parameters.link_timeout_s - DISPATCHER.period_ns * NS
+        return bool(self.session_id) and is_fresh(now_s - self._seen_s, limit_s)
 
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""

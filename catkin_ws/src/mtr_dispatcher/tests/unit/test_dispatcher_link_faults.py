@@ -79,10 +79,12 @@ def test_command_at_the_end_of_its_life_does_not_prolong_the_link():  # A5
     robot = Link()
     robot.command(robot.status())
     answered = robot.status()
-    robot.steady_s += 0.999
+    robot.steady_s += 0.899
     assert robot.command(answered) is CommandResult.REPEATED and robot.moves()
     robot.steady_s += 0.002
-    assert not robot.moves()
+    assert not robot.moves(), "at the next turn, 0.1 s later, more than a second would be over"
+    robot.steady_s += 0.098
+    assert robot.command(answered) is CommandResult.REPEATED and not robot.moves()
 
 
 @pytest.mark.parametrize("step_s", STEPS_S)
