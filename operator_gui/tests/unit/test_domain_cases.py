@@ -282,6 +282,12 @@ def test_other_notifications_are_no_trouble_of_the_link(car_link):
     assert trouble_between(None, status(notifications=(Notification("battery_low", 2, "Low."),)), car_link) == ""
 
 
+@pytest.mark.parametrize("code", ["fault", "state_machine_silent"])
+def test_a_robot_that_has_a_fault_is_trouble_though_nothing_had_to_stop_it(car_link, code):
+    faulty = status(notifications=(Notification(code, 3, "The motion planner is silent."),))
+    assert trouble_between(status(), faulty, car_link) == "The robot had a fault: The motion planner is silent."
+
+
 def test_a_car_that_does_not_say_its_locks_is_trouble(car_link, monkeypatch):
     monkeypatch.setattr(type(car_link), "lock_state", LockState.UNKNOWN)
     assert trouble_between(None, status(), car_link) == "The Car does not say whether it is locked."

@@ -10,6 +10,8 @@ from ..robot_status import RobotStatus
 # Robot time between two Status messages beyond which the link counts as interrupted. The robot stops by itself then.
 LINK_GAP_S = 1.0
 _LINK_LOST_CODE = "link_lost"
+# A robot whose state is a fault, or unknown, stands, whether or not a motion lock had to stop it.
+_FAULT_CODES = ("fault", "state_machine_silent")
 
 
 class LineInvalid(Exception):
@@ -39,7 +41,8 @@ class Cancelled(Exception):
 
 def trouble_between(before: RobotStatus | None, status: RobotStatus, car_link: CarLink) -> str:
     """Sentence that says why a measurement between two Status messages would be doubtful; empty when it would not."""
-    return _link_trouble(before, status) or _pose_trouble(before, status) or _car_trouble(car_link)
+    return (_link_trouble(before, status) or _pose_trouble(before, status) or _robot_trouble(status)
+            or _car_trouble(car_link))
 
 
 def _link_trouble(before: RobotStatus | None, status: RobotStatus) -> str:
@@ -56,6 +59,13 @@ def _pose_trouble(before: RobotStatus | None, status: RobotStatus) -> str:
         return "The robot does not know its position relative to the Car."
     if before is not None and before.car and before.car_frame != status.car_frame:
         return "The Car coordinate system was corrected during the measurement."
+    return ""
+
+
+def _robot_trouble(status: RobotStatus) -> str:
+    for notification in status.notifications:
+        if notification.code in _FAULT_CODES:
+            return f"The robot had a fault: {notification.text}"
     return ""
 
 

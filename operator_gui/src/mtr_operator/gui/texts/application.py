@@ -82,6 +82,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The link to the robot was interrupted for {} s."),
     QT_TRANSLATE_NOOP("Sentence", "The link to the robot was interrupted: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot does not know its position relative to the Car."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot had a fault: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The Car does not say whether it is locked."),
     QT_TRANSLATE_NOOP("Sentence", "The robot has restarted; the present order was sent to it again."),
     QT_TRANSLATE_NOOP("Sentence", "The robot is not connected."),

@@ -6493,6 +6493,11 @@
         <source>Of {} lines nothing was recorded ({}).</source>
         <translation>O {} přímkách není nic zaznamenáno ({}).</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The robot had a fault: {}</source>
+        <translation>Robot měl poruchu: {}</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
