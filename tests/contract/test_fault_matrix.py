@@ -7,14 +7,16 @@ from xml.etree import ElementTree
 import pytest
 import yaml
 
-from mtr_benchmarks.faults.matrix import BEGIN, END, GOES_ON, HELD, LOST, read_matrix, table
+from mtr_benchmarks.faults.matrix import BEGIN, END, GOES_ON, HELD, LOST, UNHEARD, read_matrix, table
+from mtr_benchmarks.faults.robots import ROBOTS
 from mtr_fault_injection.schedule import fault_of
 from mtr_fault_injection.set_clock import SettableClock
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 MATRIX = read_matrix()
 SENTENCES = yaml.safe_load((TOP / "operator_gui/src/mtr_operator/gui/translations/robot_cs.yaml").read_text("utf-8"))
-MODES = {"ready_to_map_car", "mapping_car", "following_waypoint", "checking_car", "fault"}
+# `unknown` where the state machine is silent, `unheard` where no Status comes.
+MODES = {"ready_to_map_car", "mapping_car", "following_waypoint", "checking_car", "fault", "unknown", UNHEARD}
 
 
 @pytest.mark.parametrize("cell", MATRIX.cells, ids=lambda cell: cell.name)
@@ -22,8 +24,9 @@ def test_cell_can_be_run_and_names_what_there_is(cell):
     fault_of(cell.part, cell.kind, cell.for_s, cell.amount, 0.0)
     must = cell.expected
     assert cell.state in MATRIX.states and must.mode in MODES and must.then in (GOES_ON, HELD, LOST)
-    assert not must.told or must.told in str(SENTENCES)
-    assert 0.0 < must.told_s <= 1.0 and (must.stands_s is None or must.stands_s <= 1.0)
+    assert cell.robot in ROBOTS and (not must.told or must.told in str(SENTENCES))
+    assert 0.0 < must.told_s <= 1.0 and (must.stands_s is None or must.stands_s <= 0.5)
+    assert must.lift_s is None or must.lift_s <= 1.3
 
 
 def test_no_cell_is_there_twice_and_some_are_part_of_every_test():
@@ -46,3 +49,12 @@ def test_clock_of_a_fault_is_set_for_nodes_too_that_preload_nothing_else(tmp_pat
     for value in own:
         name = re.fullmatch(r"\$\(optenv (\w+)\)", value).group(1)
         assert variables[name] == variables["LD_PRELOAD"]
+
+
+@pytest.mark.parametrize("kind", ROBOTS)
+def test_robots_of_the_matrix_are_started_with_what_the_launch_file_takes(kind):
+    launch = ElementTree.parse(TOP / "launch" / "launch" / "sim.launch").getroot()
+    taken = {each.get("name") for each in launch.findall("arg")}
+    assert {*ROBOTS[kind].arguments, "fault_disk_folder", "fault_clock_file", "fault_relay_status_port"} <= taken
+    handed_on = {each.get("name"): each.get("value") for each in launch.iter("arg") if each.get("value")}
+    assert handed_on["fault_disk_folder"] == "$(arg fault_disk_folder)"

@@ -28,6 +28,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="only the cells that are part of `make test`")
+    parser.add_argument("--only", default="", metavar="PATTERN", help="cells whose name has it, e.g. 'imu .* driving'")
     parser.add_argument("--table", action="store_true", help="print the matrix for docs/faults.md and run nothing")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation")
     options = parser.parse_args(arguments)
@@ -35,14 +36,14 @@ def main(arguments: Optional[List[str]] = None) -> int:
     if options.table:
         print("\n".join(table(matrix)))
         return 0
-    left = [cell for state in matrix.states for cell in matrix.of(state, options.short)]
     found: List[Found] = []
-    while left:
-        # A process is one node of one ROS graph only.
-        with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
-            ran = process.submit(one_robot, left, options.out / "faults" / str(len(found)), options.seed).result()
-        found += ran
-        left = left[len(ran):]
+    for course in matrix.courses(options.short, options.only):
+        wanted = len(found) + len(course)
+        while len(found) < wanted:
+            left, folder = course[len(found) - wanted:], options.out / "faults" / str(len(found))
+            # A process is one node of one ROS graph only.
+            with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
+                found += process.submit(one_robot, left, folder, options.seed).result()
     return finish(report(found), options.out / "faults.json")
 
 

@@ -7,6 +7,7 @@ from .course import Course
 from .judge import Outcome, wrong
 from .matrix import LOST, Cell
 from .robot import FaultyRobot, FaultyRobotError
+from .robots import ROBOTS
 
 
 class Found(NamedTuple):
@@ -18,9 +19,9 @@ class Found(NamedTuple):
 
 
 def one_robot(cells: List[Cell], folder: pathlib.Path, seed: int) -> List[Found]:
-    """Cells in their order until one is over from which the robot does not come back, or all are."""
+    """Cells of one kind of robot, in order, until one is over from which it does not come back, or all are."""
     ran: List[Found] = []
-    with FaultyRobot(folder, seed) as robot:
+    with FaultyRobot(folder, ROBOTS[cells[0].robot], seed) as robot:
         course = Course(robot)
         for cell in cells:
             try:

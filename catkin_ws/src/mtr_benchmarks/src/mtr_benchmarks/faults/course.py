@@ -4,13 +4,16 @@ from typing import Callable, Dict
 
 from mtr_proto import robot_link_pb2 as link
 
-from .judge import STANDS_MPS, Outcome, invalid_because, standstill_s, told_since
+from .judge import LIFT_STANDS_MPS, STANDS_MPS, Outcome, invalid_because, modes_during, standstill_s, told_since
 from .matrix import GOES_ON, HELD, LOST, Cell
 from .robot import MOVES_MPS, FaultyRobot
 
-# After a fault the robot has that long to come back by itself, s of its time.
+# After a fault what follows is seen for that long, s of the robot's time.
 SEEN_AFTER_S = 3.0
-READY, DRIVING, WAITING = "ready", "driving", "waiting"
+# Speed at which the lift is under way, m/s; it reaches 0.15.
+LIFTS_MPS = 0.12
+READY, MAPPING, DRIVING, WAITING, LIFTING = "ready", "mapping", "driving", "waiting", "lifting"
+OUT_OF_ORDER = (link.MODE_FAULT, link.MODE_STARTING, link.MODE_UNSPECIFIED)
 
 
 class Course:
@@ -19,7 +22,8 @@ class Course:
     def __init__(self, robot: FaultyRobot):
         self._robot = robot
         self._ways: Dict[str, Callable[[], None]] = {
-            READY: self._to_ready, DRIVING: self._to_driving, WAITING: self._to_waiting}
+            READY: self._to_ready, MAPPING: self._to_mapping, DRIVING: self._to_driving, WAITING: self._to_waiting,
+            LIFTING: self._to_lifting}
 
     def to(self, state: str) -> None:
         """Bring the robot into a state, held by nothing; FaultyRobotError when it does not get there."""
@@ -35,28 +39,40 @@ class Course:
         speed_mps, begun_s = robot.speed_mps, robot.begin(cell.part, cell.kind, cell.for_s, cell.amount)
         end_s = begun_s + cell.for_s
         robot.wait_until(lambda: robot.now_s > end_s + SEEN_AFTER_S, "the time after the fault")
-        statuses = [each for each in robot.statuses if each.stamp_s > begun_s - 1.0]
-        during = [each for each in statuses if begun_s < each.stamp_s <= end_s + 0.5]
-        return Outcome(speed_mps, standstill_s(robot.speeds, begun_s, end_s), told_since(statuses, begun_s),
-                       list(dict.fromkeys(each.mode.name.lower() for each in during)), self._then(),
-                       invalid_because(statuses, begun_s))
+        back_s = end_s + cell.expected.back_s
+        robot.wait_until(lambda: robot.now_s > back_s or robot.status.mode not in OUT_OF_ORDER, "its end")
+        seen = [each for each in robot.seen if each.time_s > begun_s - 1.0]
+        return Outcome(speed_mps, standstill_s(robot.speeds, begun_s, end_s), told_since(seen, begun_s),
+                       modes_during(seen, begun_s, end_s), self._then(), invalid_because(seen, begun_s),
+                       standstill_s(robot.lifts, begun_s, end_s, LIFT_STANDS_MPS))
 
     def _then(self) -> str:
         status = self._robot.status
-        if status.mode in (link.MODE_FAULT, link.MODE_STARTING):
+        if status.mode in OUT_OF_ORDER:
             return LOST
         return HELD if status.hold_id else GOES_ON
 
     def _to_ready(self) -> None:
         self._robot.wait_until(lambda: self._robot.status.mode == link.MODE_READY_TO_MAP_CAR, "readiness")
 
+    def _to_mapping(self) -> None:
+        robot = self._robot
+
+        def go_on() -> None:
+            robot.release_hold()
+            if robot.knows_car or not robot.maps_car:
+                robot.map_car()
+        if not robot.maps_car:
+            robot.wait_until(lambda: robot.status.mode not in OUT_OF_ORDER, "a robot that is well")
+        robot.wait_until(lambda: robot.status.mode == link.MODE_MAPPING_CAR and robot.speed_mps > MOVES_MPS,
+                         "a drive round the Car", go_on)
+
     def _to_mapped(self) -> None:
         robot = self._robot
-        if not robot.has_orders:
-            self._to_ready()
-            robot.order(map_car_id=1)
-        robot.wait_until(lambda: robot.status.car.mapped and robot.status.mode == link.MODE_FOLLOWING_WAYPOINT,
-                         "a map of the Car", robot.release_hold)
+        if not robot.has_mapped:
+            robot.wait_until(lambda: robot.status.mode not in OUT_OF_ORDER, "a robot that is well")
+            robot.map_car()
+        robot.wait_until(lambda: robot.knows_car, "a map of the Car", robot.release_hold)
 
     def _to_driving(self) -> None:
         robot = self._robot
@@ -76,3 +92,8 @@ class Course:
             self._to_driving()
         robot.wait_until(lambda: robot.has_arrived and robot.speed_mps < STANDS_MPS, "the end of the way",
                          robot.release_hold)
+
+    def _to_lifting(self) -> None:
+        self._to_waiting()
+        self._robot.lift()
+        self._robot.wait_until(lambda: self._robot.lift_mps > LIFTS_MPS, "a lift under way", self._robot.release_hold)

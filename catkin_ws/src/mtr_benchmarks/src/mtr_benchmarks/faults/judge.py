@@ -1,19 +1,39 @@
 """What a robot did during a fault, and whether that is what its cell of the matrix says. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
-from types import SimpleNamespace
-from typing import Any, Dict, List, Optional, Sequence, Set, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
 from mtr_operator.domain.actions.line_watch import INTERVENTIONS
-from mtr_operator.domain.actions.trouble import trouble_between
+from mtr_operator.domain.actions.trouble import LINK_GAP_S, trouble_between
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
-from .matrix import ANY_REASON, Cell
+from .matrix import ANY_REASON, UNHEARD, Cell
 
 STANDS_MPS = 0.02
-# A Car that is well: only what the robot says counts.
-CAR: Any = SimpleNamespace(problem="", lock_state=LockState.LOCKED)
+# Of the lift: its height is told to a tenth of a millimetre each 40 ms.
+LIFT_STANDS_MPS = 0.01
+# How long after a fault the state still counts as that of the fault.
+STATE_AFTER_S = 0.5
+
+
+class CarSeen(NamedTuple):
+    """What the application knows of the Car, as far as a line needs it."""
+
+    problem: str
+    lock_state: LockState
+
+
+# Where only what the robot says counts.
+WELL = CarSeen("", LockState.LOCKED)
+
+
+class Seen(NamedTuple):
+    """One Status, the robot's steady clock when it was sent, and the Car when it arrived."""
+
+    time_s: float
+    status: RobotStatus
+    car: CarSeen = WELL
 
 
 @dataclass(frozen=True)
@@ -23,8 +43,9 @@ class Outcome:
     Attributes:
         speed_mps: true speed when the fault began.
         stood_s: from the fault to standstill that lasts as long as it, s; None: it did not stand.
+        lift_stood_s: the same of the lift.
         told_s: codes that were new to the Operator, with the time from the fault to the Status, s.
-        modes: states while the fault lasted, without the one before.
+        modes: states while the fault lasted, without the one before; `unheard` where no Status came.
         then: how it went on.
         record: why a line at hand is invalid; empty: it counts.
     """
@@ -35,11 +56,13 @@ class Outcome:
     modes: List[str]
     then: str
     record: str
+    lift_stood_s: Optional[float] = None
 
 
-def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float) -> Optional[float]:
+def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float,
+                 stands_mps: float = STANDS_MPS) -> Optional[float]:
     """Time from a fault to standstill until its end, by (time, speed) of the true robot; None: it moved at the end."""
-    moving = [time_s for time_s, speed in speeds if begin_s <= time_s <= end_s and abs(speed) > STANDS_MPS]
+    moving = [time_s for time_s, speed in speeds if begin_s <= time_s <= end_s and abs(speed) > stands_mps]
     seen = [time_s for time_s, _ in speeds if begin_s <= time_s <= end_s]
     if not seen or (moving and moving[-1] == seen[-1]):
         return None
@@ -51,31 +74,42 @@ def codes(status: RobotStatus) -> Set[str]:
     return {problem.code for notice in status.notifications for problem in notice.problems}
 
 
-def told_since(statuses: Sequence[RobotStatus], begin_s: float) -> Dict[str, float]:
+def told_since(seen: Sequence[Seen], begin_s: float) -> Dict[str, float]:
     """Codes that were not there before the fault, with the time until the first Status that has them."""
     before: Set[str] = set()
     found: Dict[str, float] = {}
-    for status in statuses:
-        if status.stamp_s <= begin_s:
-            before = codes(status)
+    for each in seen:
+        if each.time_s <= begin_s:
+            before = codes(each.status)
             continue
-        for code in codes(status) - before - found.keys():
-            found[code] = status.stamp_s - begin_s
+        for code in codes(each.status) - before - found.keys():
+            found[code] = each.time_s - begin_s
     return found
 
 
-def invalid_because(statuses: Sequence[RobotStatus], begin_s: float) -> str:
+def modes_during(seen: Sequence[Seen], begin_s: float, end_s: float) -> List[str]:
+    """States that the Operator reads from a fault until shortly after its end, each once."""
+    during = [each for each in seen if begin_s < each.time_s <= end_s + STATE_AFTER_S]
+    found = [each.status.mode.name.lower() for each in during]
+    times = [begin_s, *(each.time_s for each in seen if begin_s < each.time_s < end_s), end_s]
+    silent = any(after - before > LINK_GAP_S for before, after in zip(times, times[1:]))
+    return list(dict.fromkeys(found + [UNHEARD] * silent))
+
+
+def invalid_because(seen: Sequence[Seen], begin_s: float) -> str:
     """Why the application would not let a line count that is measured now."""
-    before: Optional[RobotStatus] = None
-    for status in statuses:
-        if before is not None and status.stamp_s > begin_s:
-            trouble = trouble_between(before, status, CAR)
+    before: Optional[Seen] = None
+    for each in seen:
+        if before is not None and each.time_s > begin_s:
+            # In the order of the application.
+            for name, sentence in INTERVENTIONS.items():
+                if getattr(each.status.interventions, name) != getattr(before.status.interventions, name):
+                    return sentence
+            car: Any = each.car
+            trouble = trouble_between(before.status, each.status, car)
             if trouble:
                 return trouble
-            for name, sentence in INTERVENTIONS.items():
-                if getattr(status.interventions, name) != getattr(before.interventions, name):
-                    return sentence
-        before = status
+        before = each
     return ""
 
 
@@ -84,6 +118,8 @@ def wrong(cell: Cell, seen: Outcome) -> List[str]:
     must, found = cell.expected, []
     if must.stands_s is not None and (seen.stood_s is None or seen.stood_s > must.limit_s + must.stands_s):
         found.append(f"stands after {seen.stood_s} s, must {must.limit_s + must.stands_s:g}")
+    if must.lift_s is not None and (seen.lift_stood_s is None or seen.lift_stood_s > must.limit_s + must.lift_s):
+        found.append(f"lift stands after {seen.lift_stood_s} s, must {must.limit_s + must.lift_s:g}")
     if must.stands_s is None and seen.stood_s == 0.0 and seen.speed_mps > STANDS_MPS:
         found.append("stands, must drive on")
     if must.told and not seen.told_s.get(must.told, 1e9) <= must.limit_s + must.told_s:

@@ -1,33 +1,41 @@
-"""The simulated robot with all nodes in lock-step, a scripted Operator who answers each Status, and injected faults."""
+"""The simulated robot with all nodes, a scripted Operator who answers each Status, and injected faults."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import math
 import os
 import pathlib
 import time
 from types import SimpleNamespace
-from typing import Any, Callable, List, NamedTuple
+from typing import Any, Callable, Dict, List, NamedTuple
 
 import rospy
 from nav_msgs.msg import Odometry
 
 from mtr_bringup.stack import Stack, StackOptions, free_port
 from mtr_core import names
-from mtr_msgs.msg import ActiveFaults
+from mtr_fault_injection.set_clock import SettableClock
+from mtr_msgs.msg import ActiveFaults, FirmwareState
 from mtr_msgs.srv import InjectFault
-from mtr_operator.domain.robot_status import RobotStatus
+from mtr_operator.car_link.bus import CanCarLink
 from mtr_operator.robot_link.conversions import robot_status_from
 from mtr_proto import robot_link_pb2 as link
 
 from ..harness.operator_link import OperatorLink
 from ..harness.ros_shutdown import shut_down
+from .judge import WELL, CarSeen, Seen
+from .robots import RobotKind, small_disk
 
 # Wall time of a machine with much else to do.
-LIMIT_S = 120.0
+LIMIT_S = 400.0
 POLL_S = 0.005
 LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
 MOVES_MPS = 0.3
 # s of wall time for which simulated time waits for a part that is silent: each of the many silences costs it once.
 PATIENCE = "/lockstep_patience_s: 0.7\n"
+# Heights of the key between which the lift is sent, m above ground, and where one is nearer than the other.
+LOW_M, HIGH_M, MIDDLE_M = 0.4, 1.5, 0.95
+# The firmware's clock in a message, s.
+FIRMWARE_WRAP_S = 2 ** 32 * 1e-6
 ARGUMENTS = {"fault_injection": "true", "resume_by_operator": "true", "scenario": "lot"}
 
 
@@ -36,46 +44,68 @@ class FaultyRobotError(Exception):
 
 
 class Speed(NamedTuple):
-    """True speed of the robot at a time of the robot's clock, s, m/s."""
+    """True speed of the robot, or of its lift upwards, at a time of the robot's steady clock, s, m/s."""
 
     time_s: float
-    linear_mps: float
+    mps: float
 
 
 class FaultyRobot:
     """Use as a context manager.
 
     Attributes:
-        statuses: all that have come, as the application understands them.
-        speeds: of the robot as it really is.
+        seen: all Statuses that have come, as the application understands them, with what it knows of the Car.
+        speeds, lifts: of the robot and of its lift as they really are.
     """
 
-    def __init__(self, folder: pathlib.Path, seed: int = 1):
-        self.statuses: List[RobotStatus] = []
+    def __init__(self, folder: pathlib.Path, kind: RobotKind, seed: int = 1):
+        self.seen: List[Seen] = []
         self.speeds: List[Speed] = []
+        self.lifts: List[Speed] = []
         folder.mkdir(parents=True, exist_ok=True)
+        self._kind, self._open = kind, contextlib.ExitStack()
+        self._disk = folder.resolve() / "ros"
         parameters = folder.resolve() / "parameters.yaml"
         parameters.write_text(PATIENCE, encoding="utf-8")
-        relay = {"node_parameters": str(parameters),
-                 "fault_relay_status_port": str(free_port()), "fault_relay_command_port": str(free_port())}
-        self._stack = Stack(StackOptions(folder, seed=seed, arguments={**ARGUMENTS, **relay}))
-        self._begun_s = math.nan
-        self._legs, self._wanted = 0, SimpleNamespace(content={})
+        self._ports = free_port(), free_port()
+        arguments = {**ARGUMENTS, **kind.arguments, "node_parameters": str(parameters),
+                     "fault_relay_status_port": str(self._ports[0]), "fault_relay_command_port": str(self._ports[1])}
+        variables: Dict[str, str] = {}
+        if kind.has_small_disk:
+            arguments["fault_disk_folder"] = str(self._disk)
+        if not kind.is_simulated:
+            clock = SettableClock(folder.resolve() / "clock")
+            arguments["fault_clock_file"], variables = str(clock.file), clock.variables
+        self._stack = Stack(StackOptions(folder, seed, kind.real_time_factor, not kind.by_relay, arguments=arguments,
+                                         variables=variables))
+        self._begun_s = self._height_m = math.nan
+        self._legs = self._maps = 0
+        self._wanted = SimpleNamespace(content={})
 
     def __enter__(self) -> "FaultyRobot":
-        self._stack.__enter__()
-        os.environ.update(ROS_MASTER_URI=self._stack.master_uri, ROS_IP="127.0.0.1")
-        rospy.init_node("fault_matrix", disable_signals=True, disable_rostime=True)
-        rospy.Subscriber(names.SIM_TRUTH, Odometry, self._take_truth, queue_size=200, tcp_nodelay=True)
-        rospy.Subscriber(names.ACTIVE_FAULTS, ActiveFaults, self._take_faults, queue_size=10)
-        self._inject = rospy.ServiceProxy(names.INJECT_FAULT, InjectFault)
-        self._operator = OperatorLink(self._stack.status_port, self._stack.command_port, self._take_status)
+        with contextlib.ExitStack() as opened:
+            if self._kind.has_small_disk:
+                opened.enter_context(small_disk(self._disk))
+            opened.enter_context(self._stack)
+            os.environ.update(ROS_MASTER_URI=self._stack.master_uri, ROS_IP="127.0.0.1")
+            rospy.init_node("fault_matrix", disable_signals=True, disable_rostime=True)
+            opened.callback(shut_down, "The matrix is over.")
+            rospy.Subscriber(names.SIM_TRUTH, Odometry, self._take_truth, queue_size=200, tcp_nodelay=True)
+            rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_lift, queue_size=200, tcp_nodelay=True)
+            rospy.Subscriber(names.ACTIVE_FAULTS, ActiveFaults, self._take_faults, queue_size=10)
+            self._inject = rospy.ServiceProxy(names.INJECT_FAULT, InjectFault)
+            self._car = CanCarLink("slcan", str(self._stack.can_link)) if self._kind.hears_car else None
+            if self._car:
+                self._car.connect()
+                opened.callback(self._car.close)
+            ports = self._ports if self._kind.by_relay else (self._stack.status_port, self._stack.command_port)
+            self._operator = OperatorLink(*ports, self._take_status)
+            opened.callback(self._operator.close)
+            self._open = opened.pop_all()
         return self
 
     def __exit__(self, *_: object) -> None:
-        self._operator.close()
-        shut_down("The matrix is over.")
-        self._stack.stop()
+        self._open.close()
 
     @property
     def status(self) -> Any:
@@ -84,29 +114,56 @@ class FaultyRobot:
 
     @property
     def now_s(self) -> float:
-        """Robot's clock at the newest Status."""
-        return float(self.status.sent_time_s)
+        """Robot's steady clock at the newest Status."""
+        return float(self.status.steady_time_s)
 
     @property
     def speed_mps(self) -> float:
         """Newest true speed."""
-        return abs(self.speeds[-1].linear_mps) if self.speeds else 0.0
+        return abs(self.speeds[-1].mps) if self.speeds else 0.0
 
     @property
-    def has_orders(self) -> bool:
-        """True as soon as the Operator wanted something."""
-        return bool(self._wanted.content)
+    def lift_mps(self) -> float:
+        """Newest true speed of the lift, up or down."""
+        return abs(self.lifts[-1].mps) if self.lifts else 0.0
 
     def order(self, **content: Any) -> None:
         """What the Operator wants from now on."""
         self._wanted.content = content
         self._operator.order(**content)
 
+    def map_car(self) -> None:
+        """Order to map the Car, again if it was."""
+        self._maps += 1
+        self.order(map_car_id=self._maps)
+
+    @property
+    def knows_car(self) -> bool:
+        """True when the Car has been mapped as ordered last."""
+        return bool(self._maps and self.status.car.mapped and self.status.map_car_id == self._maps
+                    and self.status.mode == link.MODE_FOLLOWING_WAYPOINT)
+
+    @property
+    def has_mapped(self) -> bool:
+        """True as soon as the Operator wanted a map of the Car."""
+        return bool(self._maps)
+
+    @property
+    def maps_car(self) -> bool:
+        """True while nothing is wanted but a map of the Car."""
+        return bool(self._maps and "waypoint" not in self._wanted.content)
+
     def drive(self) -> None:
         """Order the next leg round the Car."""
         x, y, heading = LEGS[self._legs % len(LEGS)]
         self._legs += 1
-        self.order(map_car_id=1, max_speed_mps=1.0, waypoint=link.Waypoint(id=self._legs, x=x, y=y, heading=heading))
+        self.order(map_car_id=self._maps, max_speed_mps=1.0,
+                   waypoint=link.Waypoint(id=self._legs, x=x, y=y, heading=heading))
+
+    def lift(self) -> None:
+        """Order the key to the height that is farther from where it is, and else what was ordered."""
+        wanted = {name: value for name, value in self._wanted.content.items() if name != "device_height_m"}
+        self.order(**wanted, device_height_m=LOW_M if self.status.state.device_height > MIDDLE_M else HIGH_M)
 
     @property
     def is_under_way(self) -> bool:
@@ -144,12 +201,32 @@ class FaultyRobot:
             meanwhile()
             time.sleep(POLL_S)
 
+    def _time_s(self, stamp_s: float) -> float:
+        """The steady clock at a stamp that has just arrived: in simulation its own, else the machine's."""
+        return stamp_s if self._kind.is_simulated else time.clock_gettime(time.CLOCK_BOOTTIME)
+
     def _take_faults(self, active: ActiveFaults) -> None:
         if active.faults:
-            self._begun_s = active.header.stamp.to_sec()
+            self._begun_s = self._time_s(active.header.stamp.to_sec())
 
     def _take_status(self) -> None:
-        self.statuses.append(robot_status_from(self.status))
+        status, car = robot_status_from(self.status), WELL
+        if self._car:
+            self._car.observe(status)
+            car = CarSeen(self._car.problem, self._car.lock_state)
+        self.seen.append(Seen(float(self.status.steady_time_s), status, car))
 
     def _take_truth(self, odometry: Any) -> None:
-        self.speeds.append(Speed(odometry.header.stamp.to_sec(), odometry.twist.twist.linear.x))
+        self.speeds.append(Speed(self._time_s(odometry.header.stamp.to_sec()), odometry.twist.twist.linear.x))
+
+    def _take_lift(self, state: Any) -> None:
+        if not self.speeds:
+            return
+        time_s = state.time_us * 1e-6
+        time_s = self._time_s(time_s + FIRMWARE_WRAP_S * round((self.speeds[-1].time_s - time_s) / FIRMWARE_WRAP_S))
+        if self.lifts and time_s > self.lifts[-1].time_s:
+            mps = (state.lift_height_m - self._height_m) / (time_s - self.lifts[-1].time_s)
+            self.lifts.append(Speed(time_s, mps))
+        elif not self.lifts:
+            self.lifts.append(Speed(time_s, 0.0))
+        self._height_m = state.lift_height_m
