@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import uncertainties
+from uncertainties import ufloat
 
 from mtr_operator.domain.errors import InvalidCalibration
 from mtr_operator.domain.estimation.budget.calibration import Distribution
@@ -52,6 +54,16 @@ def test_correlation_is_the_share_of_the_common_errors_with_their_signs():
     expected = [[1.0, share, -share], [share, 1.0, -share], [-share, -share, 1.0]]
     assert np.array(correlations(budgets)) == pytest.approx(np.array(expected))
     assert correlations([]) == []
+
+
+def test_error_of_zero_is_no_variable_of_the_correlations(monkeypatch):
+    made = []
+    monkeypatch.setattr(uncertainties, "ufloat", lambda value, sigma: made.append(sigma) or ufloat(value, sigma))
+    budgets = [DistanceBudget(line, "unlock", 1.0, (term("place", 0.02), term("time", 0.0),
+                                                    term("lever", 0.02, is_common=True))) for line in (1, 2)]
+    assert correlations(budgets)[0] == pytest.approx([1.0, 0.5])
+    # Newer versions of the package warn of each on the terminal.
+    assert made and 0.0 not in made
 
 
 def test_correlations_are_those_of_drawn_errors():

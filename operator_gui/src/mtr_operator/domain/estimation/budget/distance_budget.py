@@ -80,8 +80,10 @@ def correlations(budgets: Sequence[DistanceBudget]) -> list[list[float]]:
 
 def _number(budget: DistanceBudget, common: dict[str, Any]) -> Any:
     """The distance as a number with its errors; common: variables of the errors that lines share, by name."""
-    number = uncertainties.ufloat(budget.distance_m, 0.0)
-    for term in budget.terms:
+    # The package warns of a number whose error is 0; one that is not known, NaN, counts.
+    terms = [term for term in budget.terms if term.sigma != 0.0]
+    number: Any = budget.distance_m if terms else uncertainties.ufloat(budget.distance_m, 0.0)
+    for term in terms:
         error = uncertainties.ufloat(0.0, term.sigma)
         if term.is_common:
             error = common.setdefault(term.name, error)
