@@ -1,5 +1,6 @@
 """What a Car tells beside its locks: causes, counters, keys and doors of other messages and buses."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import math
 import shutil
 import time
@@ -337,6 +338,18 @@ def frames_heard(car, channel):
             time.sleep(0.0)
     car.close()
     return car.frames_received
+
+
+def test_record_names_the_adapter_of_each_bus(tmp_path):
+    further = {name: AdapterSettings("virtual", f"{tmp_path}{name}", 125_000) for name in ("body", "doors")}
+    path = written(tmp_path, "buses: {body: car.dbc, doors: car.dbc}\n")
+    car = CanCarLink("virtual", f"{tmp_path}", profile=path, further=further)
+    car.connect()
+    with contextlib.closing(car):
+        assert dict(car.record) == {
+            "CAN adapter": f"virtual {tmp_path}, 500000 bit/s, listens only",
+            "CAN adapter of the bus body": f"virtual {tmp_path}body, 125000 bit/s, listens only",
+            "CAN adapter of the bus doors": f"virtual {tmp_path}doors, 125000 bit/s, listens only"}
 
 
 def test_choice_opens_an_adapter_for_each_bus(tmp_path):

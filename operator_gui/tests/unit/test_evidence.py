@@ -232,6 +232,15 @@ def test_adapters_have_every_line_and_distance(bundle):
     assert {len(values) for values in columns.values()} == {len(lines)}
 
 
+def test_equipment_of_ods_has_the_adapter_of_each_bus(bundle):
+    record = record_in(bundle)
+    adapters = {"CAN adapter": "slcan COM5", "CAN adapter of the bus body": "socketcan can1"}
+    record["session"] = {**record["session"], **adapters, "CAN frames timed by": "the adapter"}
+    equipment = ods_of(record, "here")["AoTestEquipment"]
+    assert [each for each in equipment if each["name"].startswith("CAN")] == [
+        {"name": name, "serial": text} for name, text in adapters.items()]
+
+
 def test_line_that_is_invalid_has_failed_with_its_reason(bundle):
     record = record_in(bundle)
     record["lines"][0] = {**record["lines"][0], "reason": "a <door> was open"}

@@ -172,7 +172,7 @@ class CanCarLink(CarLink, FrameSink):
         """See CarLink."""
         stamps = None if self._watch is None else self._watch.stamps
         timed = {} if stamps is None else {CAN_STAMPS: stamps.text}
-        return {CAN_ADAPTER: self._settings.text, **timed}
+        return {CAN_ADAPTER: self._settings.text, **self._further.record, **timed}
 
     @property
     def notices(self) -> Sequence[str]:

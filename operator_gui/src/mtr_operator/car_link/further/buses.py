@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Callable, Mapping
 
 from mtr_operator.domain.errors import BusRefused, ConnectionFailed
+from mtr_operator.domain.results.session_record import CAN_ADAPTER_OF_BUS
 
 from ..adapter import AdapterSettings, open_adapter
 from ..can_frame import CanFrame
@@ -55,6 +56,11 @@ class FurtherBuses:
         """Interface and channel of each adapter that is open."""
         used = (self._first, *(self._settings[name] for name in self._open))
         return {(settings.interface, settings.channel) for settings in used}
+
+    @property
+    def record(self) -> dict[str, str]:
+        """How the adapter of each bus is opened, for the record of a test."""
+        return {CAN_ADAPTER_OF_BUS.format(name): self._settings[name].text for name in self._open}
 
     def channel(self, name: str) -> int:
         """Of a bus in a log; 0 is that of the state."""

@@ -17,8 +17,10 @@ REFUSED_COMMANDS = "messages that the robot refused"
 # Only in the record of a test over an encrypted link.
 LINK, CONTROLLED_BY = "link", "robot controlled with the key of"
 ENCRYPTED = "encrypted"
-# Only in the record of a test on a real bus: how the adapter was opened, and which clock timed its frames.
+# Only in the record of a test on a real bus: how the adapter was opened, those of further buses, and which clock timed
+# the frames.
 CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
+CAN_ADAPTER_OF_BUS = CAN_ADAPTER + " of the bus {}"
 CAR_PROFILE = "car profile"
 # What stands in the record for the robot or the profile where a substitute took its part.
 SUBSTITUTE = "substitute"

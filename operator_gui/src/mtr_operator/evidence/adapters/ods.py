@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Mapping
 
+from mtr_operator.domain.results.session_record import CAN_ADAPTER
+
 _METRE = {"base": "AoUnit", "name": "m", "factor": 1.0, "offset": 0.0, "dimension": "length"}
 # Of a submatrix: one row for each line.
 _QUANTITIES = ("distance_m", "uncertainty_m", "low_m", "high_m")
@@ -18,7 +20,9 @@ def ods_of(record: Mapping[str, Any], station: str) -> dict[str, Any]:
         "AoUnitUnderTest": {"name": identity.get("car_vin", ""), "model": identity.get("car_model", ""),
                             "software": identity.get("car_software", ""), "key_serial": identity.get("key_serial", ""),
                             "key_type": identity.get("key_type", ""), "key_battery_v": identity.get("key_battery_v")},
-        "AoTestEquipment": [*identity.get("equipment", []), {"name": "robot", "serial": session.get("robot", "")}],
+        "AoTestEquipment": [*identity.get("equipment", []), {"name": "robot", "serial": session.get("robot", "")},
+                            *({"name": name, "serial": text} for name, text in session.items()
+                              if name.startswith(CAN_ADAPTER))],
         "AoUser": {"name": identity.get("operator", "")},
         "AoMeasurement": {
             "name": f"{record['scenario']} {session.get('started', '')}",
