@@ -96,6 +96,18 @@ def test_handle_is_asked_for_with_its_distance_and_taken_with_enter(stdin):
     assert not person.is_taken() and len(asked) == 1
 
 
+@pytest.mark.parametrize("is_on, word", [(True, "on"), (False, "off")])
+def test_extender_is_asked_for_with_its_state_and_switched_with_enter(stdin, is_on, word):
+    asked, enter, keys = stdin
+    person = HandleQuestion(asked.append, enter).person
+    person.switch(is_on)
+    assert asked == [f"Switch the extender {word} now, then press Enter."] and not person.is_switched()
+    keys.write("\n")
+    assert within_limit(person.is_switched)
+    person.release()
+    assert not person.is_switched()
+
+
 def test_enter_that_comes_after_the_car_has_unlocked_does_not_take_the_next_handle(stdin):
     asked, enter, keys = stdin
     person = HandleQuestion(asked.append, enter).person
