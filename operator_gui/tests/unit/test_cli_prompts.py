@@ -1,4 +1,4 @@
-"""Whole tests from the command line in which a person takes the handle and switches the extender, as the screen asks."""
+"""Whole tests from the command line in which a person takes the handle and switches the extender when asked."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 
@@ -104,11 +104,12 @@ def test_relay_resistance_asks_for_extender_and_handle_in_turn(person, tmp_path)
     assert switches == [f"{EXTENDER_QUESTION} {word} now, then press Enter." for word in ("off", "on")]
 
 
-@pytest.mark.parametrize("scenario, question, sentence", [
+@pytest.mark.parametrize("case", [
     ("handle_request", HANDLE_QUESTION, "Nobody has taken the Car's handle within 3 s"),
     ("sleep_time", HANDLE_QUESTION, "Nobody has taken the Car's handle within 3 s"),
     ("relay_resistance", f"{EXTENDER_QUESTION} on", "Nobody has switched the extender within 4 s")])
-def test_person_who_has_left_ends_the_test_with_a_sentence(person, tmp_path, capsys, scenario, question, sentence):
+def test_person_who_has_left_ends_the_test_with_a_sentence(person, tmp_path, capsys, case):
+    scenario, question, sentence = case
     person.leaves_at = question
     assert run(tmp_path, scenario) == 2
     told = capsys.readouterr().err

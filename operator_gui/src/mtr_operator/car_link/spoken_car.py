@@ -20,7 +20,9 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .adapter import AdapterSettings
 from .bus import CanCarLink
 from .further.entries import FIRST_BUS
-from .further.spoken_frames import SpokenFrames, state_raw
+from .further.spoken_frames import SpokenFrames, phone_frame, state_raw
+from .phone.car_signal import PhoneSignal
+from .phone.simulated import SimulatedPhone
 from .profile import CarProfile, load_profile
 from .simulated_car import SimulatedCarLink
 from .uds.declared import UdsPoll
@@ -63,6 +65,7 @@ class SpokenCar(RobotLink):
         self._buses[FIRST_BUS] = can.Bus(interface=_INTERFACE, channel=channel)
         self._ecu = None if self._profile.poll is None else _ecu(self._profile.poll, self._buses[FIRST_BUS])
         self._model = SimulatedCarLink(seed)
+        self._phone = SimulatedPhone(seed)
         self._events: collections.deque[CarEvent] = collections.deque()
         self._now_s = self._sent_s = 0.0
         self._sent = 0
@@ -76,6 +79,7 @@ class SpokenCar(RobotLink):
         """See RobotLink."""
         self._robot.connect()
         self._model.connect()
+        self._phone.connect()
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink."""
@@ -86,6 +90,7 @@ class SpokenCar(RobotLink):
         self._frames.source = KEY_BUTTON if status.presses else PASSIVE_ENTRY
         for time_s in self._due(status.stamp_s):
             self._speak(time_s)
+        self._speak_of_phone(status)
         self._now_s = status.stamp_s
         return status
 
@@ -116,6 +121,17 @@ class SpokenCar(RobotLink):
             self._answer(self._ecu)
             return
         for bus, message in self._frames.next():
+            self._buses[bus].send(message)
+            self._sent += 1
+        self._wait()
+
+    def _speak_of_phone(self, status: RobotStatus) -> None:
+        """As a Car that ranges to a phone would, where the profile names the signal."""
+        signal = self._profile.phone
+        if self.car.profile is None or not isinstance(signal, PhoneSignal):
+            return
+        for reported in self._phone.observe(status):
+            bus, message = phone_frame(signal, reported.distance_m)
             self._buses[bus].send(message)
             self._sent += 1
         self._wait()

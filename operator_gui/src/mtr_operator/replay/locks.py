@@ -13,17 +13,22 @@ from mtr_operator.car_link.profile import CarProfile
 from mtr_operator.domain.ports import BusMark, CarEvent
 from mtr_operator.storage.recorded.course_file import Moment
 
+from .phone import ReplayedPhone
+
 
 class ReplayedLocks:
     """The parts of the live link on a log, in the order in which frames and Statuses came.
+
+    phone: is given each frame, too.
 
     Attributes:
         watch: what follows the locks. facts: of the profile. frames: of the log so far. has_state: one of them was the
             message that tells the state.
     """
 
-    def __init__(self, profile: CarProfile, log: ReadLog):
+    def __init__(self, profile: CarProfile, log: ReadLog, phone: ReplayedPhone | None = None):
         self._profile = profile
+        self._phone = phone
         self.watch = LockWatch(profile)
         self.facts = profile.facts
         self.frames = 0
@@ -49,7 +54,10 @@ class ReplayedLocks:
             if frame is None:
                 return
             self.frames += 1
-            self.watch.frame(self._frame(frame, mark))
+            known = self._frame(frame, mark)
+            if self._phone is not None:
+                self._phone.frame(known)
+            self.watch.frame(known)
             self.has_state = self.has_state or self.watch.is_lock_message
 
     def _frame(self, frame: LoggedFrame, mark: BusMark) -> CanFrame:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any, Iterable, Mapping
 
 from mtr_operator.domain.actions.distance import Distance, measure, outline_sigma
@@ -17,10 +18,12 @@ from mtr_operator.domain.ports import CarEvent, LockState
 from mtr_operator.domain.results.course import ALLOWED, CLOSED, EXPECTED, HELD, UNWATCHED, WATCHED
 from mtr_operator.domain.results.journal import FURTHER, LINE, LINE_BEGUN, LINE_RESUMED, POINT
 from mtr_operator.domain.results.line_result import LineStatus
-from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
+from mtr_operator.domain.scenarios.digital_key.result import DigitalKeyResult
 from mtr_operator.storage.recorded.course_file import Entry, Moment
 
 from .locks import ReplayedLocks
+from .phone import ReplayedPhone
 
 
 @dataclass(frozen=True)
@@ -44,6 +47,8 @@ class Attempt:
     values: Mapping[str, Any] = field(default_factory=dict)
     # After the last point, for a line that was not kept valid.
     after: Point | None = None
+    # Of a place at which a phone's distance was read.
+    place: DigitalKeyResult | None = None
 
 
 class _Watch:
@@ -63,10 +68,12 @@ class _Watch:
 
 
 class Points:
-    """Fed with the course of one run after the other; rays: of the lines by their number."""
+    """Fed with the course of one run after the other; rays: of the lines by their number. phone: of a test that reads
+    a phone's distance from the Car's bus."""
 
-    def __init__(self, rays: Mapping[int, Ray], car: CarDimensions):
+    def __init__(self, rays: Mapping[int, Ray], car: CarDimensions, phone: ReplayedPhone | None = None):
         self.attempts: list[Attempt] = []
+        self.phone = phone
         self._current: Attempt | None = None
         self._rays = rays
         self._car = car
@@ -74,25 +81,37 @@ class Points:
     def follow(self, entries: Iterable[Entry], locks: ReplayedLocks) -> None:
         """One run."""
         poses, watch, before = PoseHistory(), None, None
+        self._forget(poses)
         for entry in entries:
             if isinstance(entry, Moment):
-                status = entry.status
-                if before is not None and (before.car_frame.revision != status.car_frame.revision
-                                           or before.robot_session_id != status.robot_session_id):
-                    poses.clear()
-                before = status
-                poses.add(status)
-                for event in locks.take(entry):
-                    if watch is not None and watch.is_on:
-                        self._feed(watch, event)
+                self._take(entry, before, poses)
+                before = entry.status
+                self._feed(watch, locks.take(entry))
+                if self.phone is not None:
+                    self.phone.observe(before)
             elif entry.kind == WATCHED:
                 watch = _Watch(_history(locks, entry.values))
+                if self.phone is not None and before is not None:
+                    self.phone.begin(before.stamp_s)
             elif entry.kind in (LINE_BEGUN, LINE_RESUMED, FURTHER):
                 self._begin_line(entry.kind, int(entry.values["line"]))
             elif entry.kind == LINE and self._current is not None:
                 self._end_line(self._current, entry.values["result"], watch, poses)
             elif watch is not None and before is not None:
                 self._note(entry.kind, entry.values, watch, poses, before.stamp_s)
+
+    def _take(self, moment: Moment, before: RobotStatus | None, poses: PoseHistory) -> None:
+        status = moment.status
+        if before is not None and (before.car_frame.revision != status.car_frame.revision
+                                   or before.robot_session_id != status.robot_session_id):
+            self._forget(poses)
+        poses.add(status)
+
+    def _forget(self, poses: PoseHistory) -> None:
+        """Another run, session or frame: what was known before says nothing of what comes."""
+        poses.clear()
+        if self.phone is not None:
+            self.phone.forget()
 
     def _begin_line(self, kind: str, number: int) -> None:
         former = next((each for each in reversed(self.attempts) if each.number == number), None)
@@ -102,8 +121,10 @@ class Points:
         self._current = former
 
     @staticmethod
-    def _feed(watch: _Watch, event: CarEvent) -> None:
-        watch.try_to(lambda: watch.history.take(event))
+    def _feed(watch: _Watch | None, events: Iterable[CarEvent]) -> None:
+        for event in events:
+            if watch is not None and watch.is_on:
+                watch.try_to(partial(watch.history.take, event))
 
     def _note(self, kind: str, values: Mapping[str, Any], watch: _Watch, poses: PoseHistory, now_s: float) -> None:
         history = watch.history
@@ -119,7 +140,21 @@ class Points:
             watch.expected = expected = _expected(values)
             watch.try_to(lambda: history.expect(expected))
         elif kind == POINT and self._current is not None:
-            self._current.points.append(self._point(self._current, values, watch, poses))
+            point = self._point(self._current, values, watch, poses)
+            if self.phone is not None:
+                point = self._at_place(self._current, self.phone, point, poses, now_s)
+            self._current.points.append(point)
+
+    @staticmethod
+    def _at_place(attempt: Attempt, phone: ReplayedPhone, point: Point, poses: PoseHistory, now_s: float) -> Point:
+        """By what the phone told: the locks do not matter."""
+        if point.new_distance is None:
+            return point
+        try:
+            attempt.place = phone.result(attempt.number, point.new_distance, poses, now_s)
+        except (LineInvalid, PoseUnknown) as error:
+            return dataclasses.replace(point, new_status=LineStatus.INVALID, doubt=str(error))
+        return dataclasses.replace(point, new_status=attempt.place.status, doubt=attempt.place.reason)
 
     def _end_line(self, attempt: Attempt, result: Mapping[str, Any], watch: _Watch | None, poses: PoseHistory) -> None:
         attempt.values = result

@@ -8,7 +8,6 @@ from typing import Iterator, Sequence
 
 from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.car_link.profile import CarProfile
-from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.results.line_result import LineResult, MeasuredDistance
 from mtr_operator.domain.results.progress import Progress
@@ -16,7 +15,9 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.storage.recorded.course_file import read_course
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs
 
+from .cannot import CannotReplay
 from .locks import ReplayedLocks
+from .phone import replayed_phone
 from .points import Attempt, Point, Points
 from .results import counted_attempts, results_anew
 
@@ -24,10 +25,6 @@ from .results import counted_attempts, results_anew
 SAME_M = 0.0001
 # A zone's presses are on many rays; its field has no distance to compare, only what the Car did.
 _WITHOUT_RAYS = ("zone_map",)
-
-
-class CannotReplay(OperatorError):
-    """What was recorded does not suffice; the text says what is missing."""
 
 
 @dataclass(frozen=True)
@@ -90,7 +87,7 @@ def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Prog
                            "take their place.")
     lines = scenario.lines(parameters, progress.car)
     rays: dict[int, Ray] = {} if scenario.name in _WITHOUT_RAYS else {line.number: line.ray for line in lines}
-    points = Points(rays, progress.car)
+    points = Points(rays, progress.car, replayed_phone(parameters, progress, profile))
     notices: list[str] = []
     for run in runs:
         notices += _follow(points, run, profile, log)
@@ -107,7 +104,7 @@ def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.
     if path is None:
         raise CannotReplay(f"No log of the Car's bus belongs to {run.course}; there was no bus, or none was wanted.")
     read = ReadLog(path)
-    locks = ReplayedLocks(profile, read)
+    locks = ReplayedLocks(profile, read, points.phone)
     points.follow(read_course(run.course), locks)
     if not locks.has_state:
         yield (f"The CAN log {path} tells no state of message {profile.message.name} (id "

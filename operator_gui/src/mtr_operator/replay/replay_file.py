@@ -5,13 +5,14 @@ from __future__ import annotations
 import pathlib
 
 from mtr_operator.car_link.profile import load_profile
-from mtr_operator.domain.results.session_record import CAR_PROFILE
+from mtr_operator.domain.results.session_record import CAR_PROFILE, SUBSTITUTE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.progress_file import open_progress
 from mtr_operator.storage.recorded.recording import recording_folder
 
-from .replay import CannotReplay, ReplayedTest, replay
+from .cannot import CannotReplay
+from .replay import ReplayedTest, replay
 
 
 def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.Path | None = None,
@@ -23,6 +24,9 @@ def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.P
     """
     scenario, parameters, progress = open_progress(path, SCENARIOS)
     name = profile_name or progress.session.get(CAR_PROFILE)
+    if name == SUBSTITUTE:
+        raise CannotReplay(f"The Car of the test in {path} was the simulated one, which has no bus: there is no log of "
+                           "which its distances could be computed anew.")
     if not name:
         raise CannotReplay(f"The test in {path} does not say which car profile it had; name one (--car-profile).")
     recording = folder or recording_folder(path)

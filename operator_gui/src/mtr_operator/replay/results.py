@@ -51,9 +51,10 @@ def counted_attempts(scenario: AnyScenario, attempts: Sequence[Attempt]) -> dict
 
 
 def anew(result: LineResult, attempt: Attempt) -> LineResult:
-    """One line by its measurements as they are now; an invalid line stays so, for it had a reason."""
-    if result.invalid_count or not attempt.points:
-        return result
+    """One line by its measurements as they are now; an invalid line stays so, for it had a reason. Not so a place at
+    which nothing but the phone's distance was wrong: that is of the bus, too."""
+    if attempt.place is not None or result.invalid_count or not attempt.points:
+        return attempt.place or result
     if isinstance(result, AutolockResult):
         return dataclasses.replace(result, **_autolock(result, attempt.points))
     if isinstance(result, KeyPressResult) and not result.was_searched:

@@ -8,6 +8,7 @@ import can
 
 from mtr_operator.domain.ports import LockState
 
+from ..phone.car_signal import PhoneSignal
 from ..profile import CarProfile
 from .declared import CauseSignal, MessageKey
 from .entries import FIRST_BUS
@@ -54,10 +55,8 @@ class SpokenFrames:
             self._was_locked = self.is_locked
             self._changes += 1
             self._shown = max(round(_SHOWN_S / self._profile.cycle_time_s), _FEWEST_FRAMES)
-        for (bus, can_id, is_extended), message in self._messages.items():
-            is_fd = bool(message.is_fd or message.length > 8)
-            yield SpokenFrame(bus, can.Message(arbitration_id=can_id, is_extended_id=is_extended, is_fd=is_fd,
-                                               bitrate_switch=is_fd, data=self._data(message)))
+        for (bus, _, _), message in self._messages.items():
+            yield SpokenFrame(bus, _sent(message, self._data(message)))
 
     def _data(self, message: Any) -> bytes:
         values = {signal.name: 0 for signal in message.signals}
@@ -96,6 +95,22 @@ class SpokenFrames:
     def _cause(self, cause: CauseSignal) -> int:
         idle = min(cause.idle, default=_other_than(frozenset(cause.sources)))
         return _raw_of(cause.sources, self.source, idle) if cause.stays or self._shown else idle
+
+
+def phone_frame(signal: PhoneSignal, distance_m: float) -> SpokenFrame:
+    """The distance of a phone, in the nearest step of the Car's signal; all other signals are 0."""
+    message, name = signal.place.message, signal.place.signal
+    declared = message.get_signal_by_name(name)
+    raw = round((distance_m / signal.metres - declared.offset) / declared.scale)
+    values = {each.name: 0 for each in message.signals}
+    values.update(_pages(message, {name: raw}), **{name: raw})
+    return SpokenFrame(signal.place.bus, _sent(message, bytes(message.encode(values, scaling=False, strict=False))))
+
+
+def _sent(message: Any, data: bytes) -> can.Message:
+    is_fd = bool(message.is_fd or message.length > 8)
+    return can.Message(arbitration_id=message.frame_id, is_extended_id=message.is_extended_frame, is_fd=is_fd,
+                       bitrate_switch=is_fd, data=data)
 
 
 def state_raw(profile: CarProfile, is_locked: bool) -> int:

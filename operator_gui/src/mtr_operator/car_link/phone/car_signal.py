@@ -21,6 +21,7 @@ _SIGNAL_KEYS = {"bus", "message", "signal", "unit", "no_distance"}
 # Metres of one of each.
 _UNITS = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001}
 _MAX_WAITING = 6000
+_NAME = "signal {} of the Car's message {}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,6 +74,12 @@ def feed_of(declared: PhoneSignal | FeedAddress | None) -> DistanceFeed | None:
     return CarSignalFeed(declared) if isinstance(declared, PhoneSignal) else feed_at(declared)
 
 
+def is_bus_feed(name: str) -> bool:
+    """True for the name of a CarSignalFeed, as it stands in the record of a test."""
+    head, _, _ = _NAME.partition("{}")
+    return name.startswith(head)
+
+
 class CarSignalFeed(DistanceFeed):
     """Fed with every frame of all buses by the link to the Car, under its lock."""
 
@@ -84,7 +91,7 @@ class CarSignalFeed(DistanceFeed):
     @property
     def name(self) -> str:
         """See DistanceFeed."""
-        return f"signal {self._signal.place.signal} of the Car's message {self._signal.place.message.name}"
+        return _NAME.format(self._signal.place.signal, self._signal.place.message.name)
 
     def connect(self) -> None:
         """See DistanceFeed: with the link to the Car."""

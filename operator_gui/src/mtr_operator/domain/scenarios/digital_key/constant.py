@@ -21,6 +21,14 @@ def constant_reason(figure_m: float, nearest_m: float, farthest_m: float) -> str
             f"{farthest_m:.2f} m away; the feed is frozen or at the end of its range.")
 
 
+def beside_others(result: DigitalKeyResult, measured: Sequence[DigitalKeyResult]) -> DigitalKeyResult:
+    """The same place, invalid when those measured before it show that its figure is none; an earlier result of its own
+    says nothing."""
+    earlier = [each for each in measured if each.number != result.number]
+    reason = is_constant_with(result, earlier) if result.status is LineStatus.OK else ""
+    return as_constant(result, reason) if reason else result
+
+
 def is_constant_with(result: DigitalKeyResult, earlier: Sequence[DigitalKeyResult]) -> str:
     """Why this result's figure is none, as far as the places before it show that; empty when they do not."""
     alike = [each for each in (*earlier, result) if _only_figure(each) is not None

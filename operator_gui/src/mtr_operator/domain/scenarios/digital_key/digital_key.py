@@ -2,16 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
 from typing import Sequence
 
-from ... import limits
 from ...actions.car import Car
-from ...actions.distance import Distance
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
-from ...estimation.interval import SIGMAS_OF_LEVEL
 from ...ports import LockFacts
 from ...prospect import Prospect
 from ...results.document import Texts
@@ -19,26 +14,18 @@ from ...results.line_result import LineStatus
 from ...results.picture import Picture
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
-from .constant import as_constant, is_constant_with, revised
+from .constant import beside_others, revised
 from .error_map import picture_of
 from .parameters import DigitalKeyParameters
-from .places import MapPlace, key_point, places_around, reference_of
-from .reading import Answer, Reading, read
-from .result import MAX_FIGURES, PHONE, DigitalKeyResult
+from .place_result import place_result, stood_at
+from .places import MapPlace, places_around
+from .reading import read
+from .result import PHONE, DigitalKeyResult
 from .summary import summary_of
 
 # Of each way beside its length by the speed: turning, speeding up, slowing down; as Zone map's.
 _MOVE_S = 3.0
 _MOVED = "The robot moved while the phone's distance was read."
-
-
-@dataclass(frozen=True)
-class _Stood:
-    """Where the phone was, on its radial and from the reference; car_point: in the Car coordinate system."""
-
-    made: Distance
-    reference: Distance
-    car_point: tuple[float, float]
 
 
 class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
@@ -66,15 +53,13 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
             car.wait_for_phone()
             start_s, end_s = _stand(line, parameters, robot, car)
             made = robot.key_distance(line.ray, (start_s + end_s) / 2.0, 0.0)
-            reference = reference_of(made, line.ray, parameters, car.dimensions(), robot)
+            stood = stood_at(line, made, parameters, car.dimensions(),
+                             lambda ray, time_s, sigma_m: robot.key_distance(ray, time_s, 0.0, sigma_m))
         except LineInvalid as error:
             return _unmeasured(line, parameters, str(error), error.evidence)
         reading = read(car.reported, (start_s, end_s), parameters)
-        result = _result(line, reading, _Stood(made, reference, key_point(line.ray, made)))
-        earlier = [each for each in robot.results
-                   if isinstance(each, DigitalKeyResult) and each.number != line.number]
-        reason = is_constant_with(result, earlier) if result.status is LineStatus.OK else ""
-        result = as_constant(result, reason) if reason else result
+        result = beside_others(place_result(line, reading, stood),
+                               [each for each in robot.results if isinstance(each, DigitalKeyResult)])
         robot.keep(PHONE, result.status, made)
         return result
 
@@ -123,40 +108,6 @@ def _stand(line: MapPlace, parameters: DigitalKeyParameters, robot: Robot, car: 
 def _unmeasured(line: MapPlace, parameters: DigitalKeyParameters, reason: str, evidence: Texts) -> DigitalKeyResult:
     return DigitalKeyResult(line.number, line.side, line.distance_m, parameters.key_height_m, LineStatus.INVALID,
                             reason=reason, evidence=evidence)
-
-
-def _result(line: MapPlace, reading: Reading, stood: _Stood) -> DigitalKeyResult:
-    made, reference, median = stood.made, stood.reference, reading.median
-    figures_m = tuple(round(figure_m, 6) for figure_m in reading.figures_m)
-    result = DigitalKeyResult(
-        line.number, line.side, line.distance_m, _rounded(made.key_height_m), LineStatus.INVALID,
-        answer=reading.answer.value, samples=len(figures_m),
-        age_s=None if reading.age_s is None else _rounded(reading.age_s), reference_m=_rounded(reference.distance_m),
-        robot_time_s=_rounded(made.robot_time_s), x_m=_rounded(stood.car_point[0]), y_m=_rounded(stood.car_point[1]),
-        along_m=_rounded(made.distance_m), lateral_offset_m=_rounded(made.lateral_m),
-        heading_offset_deg=_rounded(math.degrees(made.heading_rad)), reason=reading.reason,
-        figures_m=figures_m[::-(-len(figures_m) // MAX_FIGURES) or 1])
-    if median is None:
-        return result
-    result = replace(result, reported_m=_rounded(median.value_m), reported_spread_m=_rounded(median.spread_m),
-                     reported_sigma_m=_rounded(median.sigma_m))
-    if math.isnan(reference.uncertainty_m):
-        return replace(result, reason=reading.reason or "The robot does not say how sure it is of its position.",
-                       answer=Answer.NOT_MEASURED.value if reading.answer is Answer.DISTANCE else result.answer)
-    result = replace(result, uncertainty_m=_rounded(reference.uncertainty_m))
-    if reading.answer is not Answer.DISTANCE:
-        return result
-    error_m = median.value_m - reference.distance_m
-    reach_m = SIGMAS_OF_LEVEL * math.hypot(median.sigma_m, reference.uncertainty_m)
-    if not (limits.DISTANCE.allows(error_m - reach_m) and limits.DISTANCE.allows(error_m + reach_m)):
-        return replace(result, answer=Answer.NONE.value, reason=f"The phone's distance, {median.value_m:.1f} m, is off "
-                                                                f"by {abs(error_m):.1f} m; that is none.")
-    return replace(result, status=LineStatus.OK, error_m=_rounded(error_m), error_low_m=_rounded(error_m - reach_m),
-                   error_high_m=_rounded(error_m + reach_m))
-
-
-def _rounded(value: float) -> float:
-    return round(value, 6)
 
 
 SCENARIO = DigitalKey()

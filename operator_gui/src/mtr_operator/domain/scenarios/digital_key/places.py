@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Callable
 
 from ...actions.distance import Distance, distance_to_outline, outline_sigma
-from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
 from ...geometry.pose import Point
 from ...geometry.radials import radials_around
@@ -16,6 +16,8 @@ from ...verdict.requirement import side_of
 from ..zone_map.zones import from_outline
 from .parameters import ANCHOR, DigitalKeyParameters
 
+# Distance of the Remote key on a ray at an instant of robot time, with 1 sigma of the ray's origin in m.
+KeyDistance = Callable[[Ray, float, float], Distance]
 # The lift tells its height by counted steps; what the mast bends is in the calibration record.
 _HEIGHT_SIGMA_M = 0.01
 _NEAREST_M = 1e-6
@@ -50,7 +52,7 @@ def key_point(ray: Ray, made: Distance) -> Point:
 
 
 def reference_of(made: Distance, ray: Ray, parameters: DigitalKeyParameters, car: CarDimensions,
-                 robot: Robot) -> Distance:
+                 key_distance: KeyDistance) -> Distance:
     """The robot's distance of the phone from the reference at the same instant, with 1 sigma.
 
     made: on the place's ray. LineInvalid when the phone is at the reference itself, where there is no direction.
@@ -58,9 +60,9 @@ def reference_of(made: Distance, ray: Ray, parameters: DigitalKeyParameters, car
     point = key_point(ray, made)
     if parameters.reference == ANCHOR:
         to_key = _ray((parameters.anchor_x_m, parameters.anchor_y_m), point)
-        return _aslant(robot.key_distance(to_key, made.robot_time_s, 0.0), parameters)
+        return _aslant(key_distance(to_key, made.robot_time_s, 0.0), parameters)
     to_key = _ray(_nearest_of_outline(point, car), point)
-    return robot.key_distance(to_key, made.robot_time_s, 0.0, outline_sigma(to_key, car))
+    return key_distance(to_key, made.robot_time_s, outline_sigma(to_key, car))
 
 
 def _aslant(flat: Distance, parameters: DigitalKeyParameters) -> Distance:
