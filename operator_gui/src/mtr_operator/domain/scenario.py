@@ -13,6 +13,7 @@ from .ports import LockFacts
 from .prospect import Prospect
 from .results.line_result import LineResult
 from .results.picture import Picture
+from .results.quantity import Quantity
 from .robot_status import CarDimensions
 
 
@@ -108,6 +109,10 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def judged_shares(self, parameters: Parameters) -> tuple[int, ...]:
         """Shares of attempts, in percent, for whose distances the results have 95 % intervals; a limits file may ask
         for them."""
+        return ()
+
+    def judged_quantities(self, parameters: Parameters) -> tuple[Quantity, ...]:
+        """What else a limits file may ask for, beside distances."""
         return ()
 
     def unreached(self, parameters: Parameters, word: str) -> tuple[float | None, float | None]:

@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Sequence, TypeVar
 
 from .. import limits
 from .document import OptionalFloat, Texts, plain, read_record
+from .quantity import MeasuredQuantity
 
 # Where attempts work as often as they fail: what the distances of a line stand for.
 BOUNDARY_PERCENT = 50
@@ -122,6 +123,11 @@ class LineResult(ABC):
     def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
         """Distances at which this share of the attempts works, those that a limit may be about; () when not known."""
         return self.distances if share_percent == BOUNDARY_PERCENT else ()
+
+    @property
+    def quantities(self) -> tuple[MeasuredQuantity, ...]:
+        """What else a limit may be about, each of the scenario's also where the line does not tell it."""
+        return ()
 
     @property
     def findings(self) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 A distance passes a limit when its whole interval keeps it, and fails when its whole interval breaks it; in between
 nobody knows. So a Car that lies just beyond a limit passes in at most 2.5 % of the tests, and one that lies just inside
 fails in as many. Sources: JCGM 106:2012, 8.3 (guarded acceptance); ISO 14253-1, whose guard band is the expanded
-uncertainty.
+uncertainty. Another quantity is judged by its own interval in the same way; what that is worth its scenario says.
 
 Where nothing was reached the boundary lies beyond the end of the test, and one end of the interval is open. A key that
 sleeps looks like that as well: "at most" is passed by silence only when the key worked on some line of the test.
@@ -17,6 +17,7 @@ from typing import Callable, Sequence
 
 from ..estimation.interval import SIGMAS_OF_LEVEL
 from ..results.line_result import LineResult, LineStatus, MeasuredDistance
+from ..results.quantity import MeasuredQuantity
 from ..scenario import Line
 from .limits import Limits
 from .requirement import Requirement
@@ -38,6 +39,8 @@ class Circumstances:
 
 
 NOTHING_KNOWN = Circumstances()
+_UNTOLD = "The line does not tell this distance."
+_UNTOLD_QUANTITY = "The line does not tell this."
 
 
 @dataclass(frozen=True)
@@ -111,27 +114,47 @@ def judge(limits: Limits, lines: Sequence[Line], results: Sequence[LineResult],
 
 def _judge_line(requirement: Requirement, result: LineResult, alive: set[str],
                 circumstances: Circumstances) -> Judgement:
+    quantity = next((each for each in result.quantities if each.word == requirement.what), None)
+    if quantity is not None:
+        return _judge_quantity(requirement, result, quantity, circumstances)
     distance = _distance(requirement, result, circumstances)
     obstacle = _obstacle(requirement, result, distance, alive)
     if distance is None or obstacle:
         return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, obstacle)
     low_m, high_m = guarded(distance, SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, distance.word))
-    wanted = f"Wanted is {requirement.text}"
-    if requirement.at_least_m is not None:
-        holes_m = result.holes_nearer_than(requirement.at_least_m)
-        if holes_m:
-            return Judgement(requirement, result.number, Verdict.FAIL,
-                             f"{wanted}; at {holes_m[0]:.2f} m attempts failed again and again.")
-        keeps, breaks = low_m >= requirement.at_least_m, high_m < requirement.at_least_m
+    holes_m = result.holes_nearer_than(requirement.limit) if requirement.is_at_least else ()
+    if holes_m:
+        return Judgement(requirement, result.number, Verdict.FAIL,
+                         f"Wanted is {requirement.text}; at {holes_m[0]:.2f} m attempts failed again and again.")
+    judged = _compared(requirement, result, low_m, high_m)
+    return replace(judged, is_undecided=judged.verdict is Verdict.INCONCLUSIVE)
+
+
+def _judge_quantity(requirement: Requirement, result: LineResult, quantity: MeasuredQuantity,
+                    circumstances: Circumstances) -> Judgement:
+    """Nothing is measured further for one: its scenarios have no such way."""
+    if not quantity.is_known:
+        return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, result.reason or _UNTOLD_QUANTITY)
+    guard = (SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, quantity.distance_word)
+             if quantity.distance_word else 0.0)
+    low, high = _widened(quantity.middle, (quantity.low, quantity.high), guard)
+    if quantity.is_magnitude:
+        low, high = 0.0 if low <= 0.0 <= high else min(abs(low), abs(high)), max(abs(low), abs(high))
+    return _compared(requirement, result, low, high)
+
+
+def _compared(requirement: Requirement, result: LineResult, low: float, high: float) -> Judgement:
+    """An interval beside a limit, both in its unit."""
+    if requirement.is_at_least:
+        keeps, breaks = low >= requirement.limit, high < requirement.limit
     else:
-        keeps, breaks = high_m <= requirement.limit_m, low_m > requirement.limit_m
+        keeps, breaks = high <= requirement.limit, low > requirement.limit
     if keeps:
         return Judgement(requirement, result.number, Verdict.PASS)
-    interval = _interval_text(low_m, high_m)
+    found = f"Wanted is {requirement.text}; it {_interval_text(low, high, requirement.unit)}"
     if breaks:
-        return Judgement(requirement, result.number, Verdict.FAIL, f"{wanted}; it {interval}.")
-    return Judgement(requirement, result.number, Verdict.INCONCLUSIVE,
-                     f"{wanted}; it {interval}, which holds the limit.", is_undecided=True)
+        return Judgement(requirement, result.number, Verdict.FAIL, f"{found}.")
+    return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, f"{found}, which holds the limit.")
 
 
 def _distance(requirement: Requirement, result: LineResult, circumstances: Circumstances) -> MeasuredDistance | None:
@@ -147,27 +170,30 @@ def _distance(requirement: Requirement, result: LineResult, circumstances: Circu
 def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDistance | None, alive: set[str]) -> str:
     """Why a limit cannot be judged on a line, empty when it can."""
     if distance is None or distance.status is LineStatus.INVALID:
-        return result.reason or "The line does not tell this distance."
+        return result.reason or _UNTOLD
     if distance.low_m is None and distance.high_m is None:
         return "The measurement does not say how sure it is."
-    if distance.low_m is None and requirement.at_most_m is not None and requirement.what not in alive:
+    if distance.low_m is None and not requirement.is_at_least and requirement.what not in alive:
         return "The key worked nowhere in this test; it may have been asleep."
     return ""
 
 
 def guarded(distance: MeasuredDistance, guard_m: float) -> tuple[float, float]:
     """Ends of the interval in m, each moved outwards by what it does not hold; infinite where one is open."""
-    low_m = -math.inf if distance.low_m is None else distance.low_m
-    high_m = math.inf if distance.high_m is None else distance.high_m
-    middle_m = distance.distance_m
-    if middle_m is None or not low_m <= middle_m <= high_m:
-        return low_m - guard_m, high_m + guard_m
-    return middle_m - math.hypot(middle_m - low_m, guard_m), middle_m + math.hypot(high_m - middle_m, guard_m)
+    return _widened(distance.distance_m, (distance.low_m, distance.high_m), guard_m)
 
 
-def _interval_text(low_m: float, high_m: float) -> str:
-    if math.isinf(low_m):
-        return f"is below {high_m:.2f} m"
-    if math.isinf(high_m):
-        return f"is above {low_m:.2f} m"
-    return f"lies between {low_m:.2f} and {high_m:.2f} m"
+def _widened(middle: float | None, ends: tuple[float | None, float | None], guard: float) -> tuple[float, float]:
+    low, high = -math.inf if ends[0] is None else ends[0], math.inf if ends[1] is None else ends[1]
+    if middle is None or not low <= middle <= high:
+        return low - guard, high + guard
+    return middle - math.hypot(middle - low, guard), middle + math.hypot(high - middle, guard)
+
+
+def _interval_text(low: float, high: float, unit: str) -> str:
+    digits = 2 if unit == "m" else 1
+    if math.isinf(low):
+        return f"is below {high:.{digits}f} {unit}"
+    if math.isinf(high):
+        return f"is above {low:.{digits}f} {unit}"
+    return f"lies between {low:.{digits}f} and {high:.{digits}f} {unit}"

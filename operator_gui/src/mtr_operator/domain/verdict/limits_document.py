@@ -3,8 +3,10 @@
     further_time_limit_s: 600          # 0 to 7200, default 600
     limits:                            # 1 to 200 of them
       - name: driver's door            # default: its number
-        what: unlock                   # a distance of the scenario: unlock, lock, press
-        at_least_m: 1.2                # or at_most_m
+        what: unlock                   # a distance of the scenario: unlock, lock, press; or sleep_time, phone_error,
+                                       # relay_probability
+        at_least_m: 1.2                # or at_most_m; at_least_s or at_most_s of sleep_time, at_most_error_m of
+                                       # phone_error, at_most_percent of relay_probability
         share_percent: 50              # 5, 50 or 95, default 50
         sides: [left, front_left]      # default: all
         angles_deg: [225, 315]         # clockwise from the Car's front, default: all
@@ -18,15 +20,29 @@ from typing import Any, Mapping
 from .. import limits as numbers
 from ..errors import InvalidLimits
 from .limits import DEFAULT_FURTHER_TIME_S, Limits
-from .requirement import SIDES, Requirement
+from .requirement import (
+    AT_LEAST_S,
+    AT_MOST_ERROR_M,
+    AT_MOST_PERCENT,
+    AT_MOST_S,
+    OF_DISTANCES,
+    SIDES,
+    UNITS,
+    Requirement,
+)
 
 # 24 zones of a Car with some limits each; more is no list that a person keeps.
 MAX_REQUIREMENTS = 200
 SHARES_PERCENT = (50, 95, 5)
 _MAX_TEXT = 60
 _KEYS = ("limits", "further_time_limit_s")
-_ENTRY_KEYS = ("name", "what", "at_least_m", "at_most_m", "share_percent", "sides", "angles_deg")
+_ENTRY_KEYS = ("name", "what", *UNITS, "share_percent", "sides", "angles_deg")
 _FURTHER_TIME = numbers.Limit("further_time_limit_s", 0.0, 7200.0, "s")
+_OF_KEY = {
+    **dict.fromkeys(OF_DISTANCES, numbers.DISTANCE), **dict.fromkeys((AT_LEAST_S, AT_MOST_S), numbers.Limit(
+        "a time", 0.0, 86_400.0, "s")),
+    AT_MOST_ERROR_M: numbers.Limit("an error", 0.0, 1000.0, "m"),
+    AT_MOST_PERCENT: numbers.Limit("a probability", 0.0, 100.0, "%")}
 _ANGLE = numbers.Limit("an angle", -360.0, 720.0, "deg")
 _WIDEST_DEG = 360.0
 
@@ -55,18 +71,25 @@ def _requirement(number: int, entry: Any) -> Requirement:
         raise InvalidLimits(f"{place}it has to consist of lines of the form 'name: value'.")
     _check_keys(entry, _ENTRY_KEYS, place)
     name = _text(entry.get("name", f"limit {number}"), "name", place)
-    bounds = [entry.get(key) for key in ("at_least_m", "at_most_m")]
-    if sum(bound is not None for bound in bounds) != 1:
-        raise InvalidLimits(f"{place}it needs either at_least_m or at_most_m.")
-    for bound in bounds:
-        if bound is not None:
-            _check_number(numbers.DISTANCE, bound, place)
+    bounds = {key: entry[key] for key in UNITS if entry.get(key) is not None}
+    if len(bounds) != 1:
+        raise InvalidLimits(f"{place}it needs either at_least_m or at_most_m; or, of what is no distance, one of "
+                            f"{', '.join(key for key in UNITS if key not in OF_DISTANCES)}.")
+    (key, bound), = bounds.items()
+    _check_number(_OF_KEY[key], bound, place)
+    of_distance: dict[str, Any] = dict.fromkeys(OF_DISTANCES)
+    return Requirement(name, _text(entry.get("what"), "what", place), **{**of_distance, key: float(bound)},
+                       share_percent=_share(entry, place, key), sides=_sides(entry.get("sides"), place),
+                       angles_deg=_angles(entry.get("angles_deg"), place))
+
+
+def _share(entry: Mapping[Any, Any], place: str, key: str) -> int:
     share = entry.get("share_percent", SHARES_PERCENT[0])
+    if "share_percent" in entry and key not in OF_DISTANCES:
+        raise InvalidLimits(f"{place}share_percent is for distances; leave it out beside {key}.")
     if isinstance(share, bool) or share not in SHARES_PERCENT:
         raise InvalidLimits(f"{place}share_percent has to be one of {', '.join(map(str, sorted(SHARES_PERCENT)))}.")
-    at_least_m, at_most_m = (None if bound is None else float(bound) for bound in bounds)
-    return Requirement(name, _text(entry.get("what"), "what", place), at_least_m, at_most_m, int(share),
-                       _sides(entry.get("sides"), place), _angles(entry.get("angles_deg"), place))
+    return int(share)
 
 
 def _sides(value: Any, place: str) -> tuple[str, ...]:

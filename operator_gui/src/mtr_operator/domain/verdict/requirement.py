@@ -7,6 +7,12 @@ from dataclasses import dataclass
 
 from ..geometry.ray import Ray
 
+# Entries of a limits file that limit something, with their units; the first are those of distances.
+AT_LEAST_M, AT_MOST_M, AT_LEAST_S, AT_MOST_S = "at_least_m", "at_most_m", "at_least_s", "at_most_s"
+AT_MOST_ERROR_M, AT_MOST_PERCENT = "at_most_error_m", "at_most_percent"
+UNITS = {AT_LEAST_M: "m", AT_MOST_M: "m", AT_LEAST_S: "s", AT_MOST_S: "s", AT_MOST_ERROR_M: "m", AT_MOST_PERCENT: "%"}
+OF_DISTANCES = (AT_LEAST_M, AT_MOST_M)
+_AT_LEAST = (AT_LEAST_M, AT_LEAST_S)
 # Sides and corners clockwise from the Car's front, each the middle of an eighth of the circle.
 SIDES = ("front", "front_right", "right", "rear_right", "rear", "rear_left", "left", "front_left")
 _FULL_DEG = 360.0
@@ -27,12 +33,12 @@ def side_of(ray: Ray) -> str:
 
 @dataclass(frozen=True)
 class Requirement:
-    """What has to be true of a distance on the lines that it names.
+    """What has to be true of a distance, or of another quantity, on the lines that it names.
 
     Attributes:
         name: for a person.
-        what: which distance of a line, of the scenario's distance_words.
-        at_least_m, at_most_m: the limit; one of them is None.
+        what: which distance of a line, of the scenario's distance_words, or the word of a quantity.
+        at_least_m, at_most_m, at_least_s, at_most_s, at_most_error_m, at_most_percent: the limit; all but one are None.
         share_percent: the limit is for the distance at which this share of the attempts works.
         sides: of the Car, as in SIDES; empty for all.
         angles_deg: from and to, clockwise from the Car's front, ends included, through 0 when from is larger; None
@@ -46,20 +52,42 @@ class Requirement:
     share_percent: int = 50
     sides: tuple[str, ...] = ()
     angles_deg: tuple[float, float] | None = None
+    at_least_s: float | None = None
+    at_most_s: float | None = None
+    at_most_error_m: float | None = None
+    at_most_percent: float | None = None
 
     @property
-    def limit_m(self) -> float:
-        """The one of both limits that there is."""
-        limit_m = self.at_least_m if self.at_least_m is not None else self.at_most_m
-        if limit_m is None:
-            raise ValueError(f"{self.name} has no limit")
-        return limit_m
+    def key(self) -> str:
+        """Which of the limits there is."""
+        return next(key for key in UNITS if getattr(self, key) is not None)
+
+    @property
+    def limit(self) -> float:
+        """The one limit that there is, in its unit."""
+        return float(getattr(self, self.key))
+
+    @property
+    def unit(self) -> str:
+        """Of the limit."""
+        return UNITS[self.key]
+
+    @property
+    def is_at_least(self) -> bool:
+        """False for one that is not to be passed upwards."""
+        return self.key in _AT_LEAST
+
+    @property
+    def is_of_distance(self) -> bool:
+        """False for one of another quantity, of which no share of the attempts is asked."""
+        return self.key in OF_DISTANCES
 
     @property
     def text(self) -> str:
-        """Such as "unlock at least 1.2 m for 50 % of the attempts"."""
-        bound = "at least" if self.at_least_m is not None else "at most"
-        return f"{self.what} {bound} {self.limit_m:g} m for {self.share_percent} % of the attempts"
+        """Such as "unlock at least 1.2 m for 50 % of the attempts", or "sleep_time at most 120 s"."""
+        bound = "at least" if self.is_at_least else "at most"
+        share = f" for {self.share_percent} % of the attempts" if self.is_of_distance else ""
+        return f"{self.what} {bound} {self.limit:g} {self.unit}{share}"
 
     def names(self, ray: Ray) -> bool:
         """True for a line that it is about."""

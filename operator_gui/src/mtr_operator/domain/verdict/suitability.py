@@ -7,33 +7,57 @@ from typing import Sequence
 
 from ..errors import InvalidLimits
 from ..geometry.ray import Ray
+from ..results.quantity import Quantity
 from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
 from .limits import Limits
-from .requirement import Requirement
+from .requirement import OF_DISTANCES, Requirement
 
 _POINT = CarDimensions(0.0, 0.0, 0.0, 0.0)
 
 
 def check_distances(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
     """Raise InvalidLimits unless the scenario measures what is limited, with these parameters."""
-    shares = scenario.judged_shares(parameters)
-    low_m, high_m = scenario.distance_range(parameters)
+    quantities = {each.word: each for each in scenario.judged_quantities(parameters)}
     for requirement in limits.requirements:
-        name, what = requirement.name, requirement.what
-        if what not in scenario.distance_words:
-            raise InvalidLimits(f"Limit {name!r}: {scenario.title} measures no {what!r}; it measures "
-                                f"{', '.join(scenario.distance_words)}.")
-        if not shares:
-            raise InvalidLimits(f"Limit {name!r}: with these parameters {scenario.title} does not say how sure a "
-                                "distance is; no limit can be judged.")
-        if requirement.share_percent not in shares:
-            raise InvalidLimits(f"Limit {name!r}: {scenario.title} tells the distance for "
-                                f"{' or '.join(map(str, shares))} % of the attempts, not for "
-                                f"{requirement.share_percent} %.")
-        if not low_m < requirement.limit_m < high_m:
-            raise InvalidLimits(f"Limit {name!r}: it is at {requirement.limit_m:g} m, and the test measures from "
-                                f"{low_m:g} to {high_m:g} m only; no measurement could judge it.")
+        quantity = quantities.get(requirement.what)
+        if quantity is not None:
+            _check_quantity(requirement, quantity)
+        elif requirement.what in scenario.distance_words:
+            _check_distance(requirement, scenario, parameters)
+        else:
+            raise InvalidLimits(f"Limit {requirement.name!r}: {scenario.title} measures no {requirement.what!r}; it "
+                                f"measures {', '.join((*scenario.distance_words, *quantities))}.")
+
+
+def _check_quantity(requirement: Requirement, quantity: Quantity) -> None:
+    _check_key(requirement, quantity.keys)
+    if not quantity.low <= requirement.limit <= quantity.high:
+        unit = requirement.unit
+        raise InvalidLimits(f"Limit {requirement.name!r}: it is at {requirement.limit:g} {unit}, and with these "
+                            f"parameters only one from {quantity.low:.4g} to {quantity.high:.4g} {unit} can be judged.")
+
+
+def _check_distance(requirement: Requirement, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
+    name, shares = requirement.name, scenario.judged_shares(parameters)
+    low_m, high_m = scenario.distance_range(parameters)
+    _check_key(requirement, OF_DISTANCES)
+    if not shares:
+        raise InvalidLimits(f"Limit {name!r}: with these parameters {scenario.title} does not say how sure a "
+                            "distance is; no limit can be judged.")
+    if requirement.share_percent not in shares:
+        raise InvalidLimits(f"Limit {name!r}: {scenario.title} tells the distance for "
+                            f"{' or '.join(map(str, shares))} % of the attempts, not for "
+                            f"{requirement.share_percent} %.")
+    if not low_m < requirement.limit < high_m:
+        raise InvalidLimits(f"Limit {name!r}: it is at {requirement.limit:g} m, and the test measures from "
+                            f"{low_m:g} to {high_m:g} m only; no measurement could judge it.")
+
+
+def _check_key(requirement: Requirement, keys: Sequence[str]) -> None:
+    if requirement.key not in keys:
+        raise InvalidLimits(f"Limit {requirement.name!r}: {requirement.what} is limited by {' or '.join(keys)}, not by "
+                            f"{requirement.key}.")
 
 
 def check_before_start(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
@@ -60,5 +84,5 @@ def _of(limits: Limits, ray: Ray) -> list[Requirement]:
 
 def _contradict(lower: Requirement, upper: Requirement) -> bool:
     """A larger share works at a smaller distance; so a lower bound for it holds for the smaller share as well."""
-    return (lower.what == upper.what and lower.at_least_m is not None and upper.at_most_m is not None
-            and lower.share_percent >= upper.share_percent and lower.at_least_m >= upper.at_most_m)
+    return (lower.what == upper.what and lower.is_at_least and not upper.is_at_least
+            and lower.share_percent >= upper.share_percent and lower.limit >= upper.limit)

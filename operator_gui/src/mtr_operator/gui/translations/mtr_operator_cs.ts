@@ -4735,11 +4735,6 @@
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
-        <source>{}it needs either at_least_m or at_most_m.</source>
-        <translation>{}je potřeba buď at_least_m, nebo at_most_m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/limits.py" line="5"/>
         <source>{}share_percent has to be one of {}.</source>
         <translation>{}share_percent musí být jedno z {}.</translation>
     </message>
@@ -6498,6 +6493,71 @@
         <source>The robot had a fault: {}</source>
         <translation>Robot měl poruchu: {}</translation>
     </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}it needs either at_least_m or at_most_m; or, of what is no distance, one of {}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{}share_percent is for distances; leave it out beside {}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {}: it is at {} {}, and with these parameters only one from {} to {} {} can be judged.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>Limit {}: {} is limited by {}, not by {}.</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} at most {} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} at least {} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} at most {} m</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>{} at most {} %</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>is below {} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>is above {} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>lies between {} and {} s</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>lies between {} and {} %</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>The line does not tell this.</source>
+        <translation type="unfinished"></translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -7422,6 +7482,21 @@
         <location filename="../texts/keys/relay.py" line="53"/>
         <source>Stayed locked, extender on</source>
         <translation>Zůstalo zamčeno, extender zapnut</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>sleep_time</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>phone_error</source>
+        <translation type="unfinished"></translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>relay_probability</source>
+        <translation type="unfinished"></translation>
     </message>
 </context>
 </TS>

@@ -7,20 +7,23 @@ from typing import Sequence
 from ...actions.car import Car
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
+from ...distance_feed import REPORTED
 from ...ports import LockFacts
 from ...prospect import Prospect
 from ...results.document import Texts
 from ...results.line_result import LineStatus
 from ...results.picture import Picture
+from ...results.quantity import Quantity
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...verdict.requirement import AT_MOST_ERROR_M
 from .constant import beside_others, revised
 from .error_map import picture_of
 from .parameters import DigitalKeyParameters
 from .place_result import place_result, stood_at
 from .places import MapPlace, places_around
 from .reading import read
-from .result import PHONE, DigitalKeyResult
+from .result import PHONE, PHONE_ERROR, DigitalKeyResult
 from .summary import summary_of
 
 # Of each way beside its length by the speed: turning, speeding up, slowing down; as Zone map's.
@@ -67,6 +70,10 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
                   results: Sequence[DigitalKeyResult]) -> Sequence[DigitalKeyResult]:
         """See Scenario: a figure that never changes tells nothing of its first places either."""
         return revised(results)
+
+    def judged_quantities(self, parameters: DigitalKeyParameters) -> tuple[Quantity, ...]:
+        """See Scenario: an error within a step of the figures is none that they show."""
+        return (Quantity(PHONE_ERROR, (AT_MOST_ERROR_M,), parameters.resolution_m, REPORTED.high),)
 
     def picture(self, parameters: DigitalKeyParameters, car: CarDimensions,
                 results: Sequence[DigitalKeyResult]) -> Picture:

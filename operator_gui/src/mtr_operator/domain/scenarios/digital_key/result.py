@@ -11,9 +11,10 @@ from ...estimation.interval import SIGMAS_OF_LEVEL
 from ...results.carried import HEADING_DOC, LATERAL_DOC
 from ...results.document import Floats, OptionalFloat, Texts
 from ...results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ...results.quantity import MeasuredQuantity
 from .reading import Answer
 
-PHONE = "phone"
+PHONE, PHONE_ERROR = "phone", "phone_error"
 # Of a place at 20 figures a second for most of a minute; more are thinned out.
 MAX_FIGURES = 1000
 _ANSWERS = tuple(answer.value for answer in Answer)
@@ -71,6 +72,15 @@ class DigitalKeyResult(LineResult):
         reach_m = SIGMAS_OF_LEVEL * self.reported_sigma_m
         return (MeasuredDistance(PHONE, self.status, self.reported_m, self.uncertainty_m, self.reported_m - reach_m,
                                  self.reported_m + reach_m, key_m=self.along_m),)
+
+    @property
+    def quantities(self) -> tuple[MeasuredQuantity, ...]:
+        """See LineResult: by the scatter of the figures; the robot's own errors are those of its distance."""
+        if self.error_m is None or self.reported_sigma_m is None:
+            return (MeasuredQuantity(PHONE_ERROR, None, None),)
+        reach_m = SIGMAS_OF_LEVEL * self.reported_sigma_m
+        return (MeasuredQuantity(PHONE_ERROR, self.error_m - reach_m, self.error_m + reach_m, self.error_m, PHONE,
+                                 is_magnitude=True),)
 
     @property
     def is_unanswered(self) -> bool:

@@ -14,12 +14,14 @@ from ...geometry.ray import Ray
 from ...results.figure import figure_of
 from ...results.line_result import LineStatus
 from ...results.picture import Picture, PointRole, PointSet, Stretch
+from ...results.quantity import Quantity
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...verdict.requirement import AT_MOST_PERCENT
 from .axis_trial import RelayTrial, has_kept
 from .parameters import ALL_SIDES, RelayResistanceParameters
-from .result import RELAY, RelayResistanceResult, valid_columns
-from .tally import DIGITS, tally_columns
+from .result import RELAY, RELAY_PROBABILITY, RelayResistanceResult, valid_columns
+from .tally import DIGITS, tally_columns, upper_bound
 
 
 @dataclass(frozen=True)
@@ -71,6 +73,11 @@ class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResist
     def unreached(self, parameters: RelayResistanceParameters, word: str) -> tuple[float | None, float | None]:
         """See Scenario: requests without an unlock bound a probability, and no distance."""
         return None, None
+
+    def judged_quantities(self, parameters: RelayResistanceParameters) -> tuple[Quantity, ...]:
+        """See Scenario: so many requests without an unlock bound the probability at best by this."""
+        requests = len(parameters.tried_places_m) * parameters.requests_per_place
+        return (Quantity(RELAY_PROBABILITY, (AT_MOST_PERCENT,), 100.0 * upper_bound(0, requests), 100.0),)
 
     def picture(self, parameters: RelayResistanceParameters, car: CarDimensions,
                 results: Sequence[RelayResistanceResult]) -> Picture:

@@ -10,9 +10,11 @@ from ...actions.distance import Distance, recorded_values
 from ...results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, KEY_NUMBER_DOC, LATERAL_DOC, carried_values
 from ...results.document import Floats, OptionalFloat, OptionalInt, Texts
 from ...results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
-from .tally import Resistance, Tried, resistance_of, tally_columns, upper_bound
+from ...results.quantity import MeasuredQuantity
+from .tally import Resistance, Tried, lower_bound, resistance_of, tally_columns, upper_bound
 
-RELAY = "relay"
+RELAY, RELAY_PROBABILITY = "relay", "relay_probability"
+_PERCENT = 100.0
 # Columns of the farthest unlock, as they are without one.
 _OF_FARTHEST: dict[str, Any] = {"lateral_offset_m": None, "heading_offset_deg": None, "cause": "", "key_number": None,
                                 "doors": ""}
@@ -75,6 +77,14 @@ class RelayResistanceResult(LineResult):
         """See LineResult: the farthest unlock with the extender on. A silence farther away is no end of the range: it
         bounds a probability, and no distance."""
         return (MeasuredDistance(RELAY, self.status, self.distance_m, self.uncertainty_m),)
+
+    @property
+    def quantities(self) -> tuple[MeasuredQuantity, ...]:
+        """See LineResult: in percent, with the extender on; each end holds in 95 % by itself."""
+        if self.status is LineStatus.INVALID or self.bound_on is None:
+            return (MeasuredQuantity(RELAY_PROBABILITY, None, None),)
+        low = lower_bound(self.unlocks_on, self.requests_on)
+        return (MeasuredQuantity(RELAY_PROBABILITY, _PERCENT * low, _PERCENT * self.bound_on),)
 
     @property
     def findings(self) -> tuple[str, ...]:

@@ -39,6 +39,13 @@ def upper_bound(unlocks: int, requests: int) -> float:
     return 1.0 if unlocks == requests else float(betaincinv(unlocks + 1, requests - unlocks, BOUND_LEVEL))
 
 
+def lower_bound(unlocks: int, requests: int) -> float:
+    """One-sided 95 % lower bound of that probability; 0 without an unlock."""
+    if not 0 <= unlocks <= requests:
+        raise ValueError(f"{unlocks} of {requests} requests")
+    return float(betaincinv(unlocks, requests - unlocks + 1, 1.0 - BOUND_LEVEL)) if unlocks else 0.0
+
+
 @dataclass(frozen=True)
 class Tally:
     """All requests with one state of the extender.

@@ -8,9 +8,10 @@ from typing import Any
 from ...results.carried import CAUSE_DOC, DOORS_DOC, KEY_NUMBER_DOC
 from ...results.document import Floats, OptionalFloat, OptionalInt, Texts
 from ...results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ...results.quantity import MeasuredQuantity
 from .waits import Asleep, Rests
 
-HELD = "held"
+HELD, SLEEP_TIME = "held", "sleep_time"
 _ASLEEP = tuple(asleep.value for asleep in Asleep)
 # Far beyond any trials_limit.
 _MAX_TRIALS = 1000
@@ -60,6 +61,12 @@ class SleepTimeResult(LineResult):
     def distances(self) -> tuple[MeasuredDistance, ...]:
         """See LineResult: where the key was held."""
         return (MeasuredDistance(HELD, self.status, self.distance_m, self.uncertainty_m),)
+
+    @property
+    def quantities(self) -> tuple[MeasuredQuantity, ...]:
+        """See LineResult: between these rests the key fell asleep."""
+        ends = (None, None) if self.status is LineStatus.INVALID else (self.answers_until_s, self.silent_from_s)
+        return (MeasuredQuantity(SLEEP_TIME, *ends),)
 
     @property
     def findings(self) -> tuple[str, ...]:

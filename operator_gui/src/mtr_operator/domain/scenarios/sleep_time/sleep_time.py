@@ -18,10 +18,12 @@ from ...results.carried import carried_values
 from ...results.figure import figure_of
 from ...results.line_result import LineStatus
 from ...results.picture import Picture, PointRole, PointSet, Stretch
+from ...results.quantity import Quantity
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...verdict.requirement import AT_LEAST_S, AT_MOST_S
 from .parameters import SleepTimeParameters
-from .result import HELD, SleepTimeResult, rest_columns
+from .result import HELD, SLEEP_TIME, SleepTimeResult, rest_columns
 from .still_trial import StillKey, has_kept
 from .waits import WaitSearch, WaitTrial, tried
 
@@ -79,6 +81,10 @@ class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult]):
     def can_go_on(self, line: HeldPlace, parameters: SleepTimeParameters, robot: Robot, car: Car) -> bool:
         """See Scenario: the search goes on with the trials that are kept."""
         return not robot.trouble() and has_kept(robot)
+
+    def judged_quantities(self, parameters: SleepTimeParameters) -> tuple[Quantity, ...]:
+        """See Scenario: between the shortest and the longest rest that is tried."""
+        return (Quantity(SLEEP_TIME, (AT_LEAST_S, AT_MOST_S), parameters.shortest_wait_s, parameters.longest_wait_s),)
 
     def picture(self, parameters: SleepTimeParameters, car: CarDimensions,
                 results: Sequence[SleepTimeResult]) -> Picture:
