@@ -15,7 +15,7 @@ from mtr_operator.car_link.profile import PROFILE_FOLDER
 from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.cli import main
 from mtr_operator.domain.actions.control_loop import ControlLoop
-from mtr_operator.domain.errors import ConnectionFailed, OutputError, ProgressFileError
+from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.eventlog.entry import INFO, EventEntry, EventKind
 from mtr_operator.domain.ports import BusMark, LockState
 from mtr_operator.domain.results.progress import Progress
@@ -125,6 +125,26 @@ def test_log_of_another_bus_has_no_reaction_in_it(autolock, capsys, tmp_path):
     notice, = document["notices"]
     assert "tells no state of message DoorLockStatus (id 0x320): it is of another car or bus" in notice
     assert code == 3 and not any(each["now"]["distance_m"] for line in document["lines"] for each in line["distances"])
+    assert not document["is_whole"]
+
+
+def run_of(autolock):
+    """Its log's frames."""
+    return list(ReadLog(autolock / "recording" / "bus_001.blf"))
+
+
+def test_log_that_ends_before_the_test_says_nothing_of_the_rest(autolock, capsys, tmp_path):
+    short = tmp_path / "short.asc"
+    log = BusLog(short)
+    frames = run_of(autolock)
+    for frame in frames[:len(frames) // 2]:
+        log.frame(CanFrame(frame.can_id, frame.is_extended, frame.data, frame.time_s), frame.time_s)
+    log.close()
+    code, document = replayed(autolock, capsys, "--can-log", str(short))
+    assert code == 3 and not document["is_whole"] and not document["is_unchanged"]
+    assert f"ends after {len(frames) // 2} frames, before the test does." in document["notices"][0]
+    assert main(["replay", str(autolock), "--can-log", str(short)]) == 3
+    assert "whether the others are as in the record it does not say." in capsys.readouterr().out
 
 
 def test_scan_of_key_presses_is_replayed(tmp_path, capsys):
@@ -138,85 +158,6 @@ def test_test_without_a_recording_says_so(tmp_path, capsys, autolock):
     shutil.copy(autolock / "progress.json", tmp_path)
     assert main(["replay", str(tmp_path)]) == 2
     assert "There is no recording of the test" in capsys.readouterr().err
-
-
-@pytest.mark.parametrize("suffix", ["blf", "asc", "trc"])
-def test_log_of_each_kind_is_read_as_it_was_written(tmp_path, suffix):
-    path = tmp_path / f"bus.{suffix}"
-    log, frames = BusLog(path), []
-    for index in range(2000):
-        frame = CanFrame(0x100 + index % 7, False, bytes([index % 256]) * (index % 9), 5.0 + 0.001 * index)
-        log.frame(frame, frame.arrival_s)
-        frames.append((frame.can_id, frame.data))
-    log.close()
-    read = list(ReadLog(path))
-    assert [(frame.can_id, frame.data) for frame in read] == frames
-    assert (log.frames, log.origin_s, log.problem) == (2000, 5.0, "")
-    assert [frame.time_s - read[0].time_s for frame in read] == pytest.approx(
-        [0.001 * index for index in range(2000)], abs=1e-4)
-
-
-def test_fd_frames_are_kept_as_such(tmp_path):
-    log = BusLog(tmp_path / "bus.blf")
-    log.frame(CanFrame(0x1ABCDEF, True, bytes(range(48)), 1.0, is_fd=True), 1.0)
-    log.error_frame()
-    log.close()
-    frame, = ReadLog(tmp_path / "bus.blf")
-    assert (frame.can_id, frame.is_extended, frame.is_fd, frame.data) == (0x1ABCDEF, True, True, bytes(range(48)))
-
-
-def test_log_that_is_cut_off_is_read_up_to_there_and_says_so(tmp_path):
-    whole = tmp_path / "whole.blf"
-    log = BusLog(whole)
-    for index in range(4000):
-        log.frame(CanFrame(0x100, False, index.to_bytes(8, "big"), 0.001 * index), 0.001 * index)
-    log.close()
-    torn = tmp_path / "torn.blf"
-    torn.write_bytes(whole.read_bytes()[:-2000])
-    read = ReadLog(torn)
-    frames = list(read)
-    assert 0 < len(frames) < 4000
-    assert "is cut off after" in read.notice or "is damaged after" in read.notice
-
-
-@pytest.mark.parametrize(("times_s", "words"), [
-    ((0.0, 0.5, 8.0), "has a gap of 7.5 s after 2 frames"), ((0.0, 20.0, 3.0), "jumps back by 17.0 s after 2 frames"),
-    ((0.0, 0.9, 0.85, 1.8), "")])
-def test_gaps_and_jumps_of_a_logs_time_are_told(tmp_path, times_s, words):
-    path = tmp_path / "bus.log"
-    path.write_text("".join(f"({100.0 + time_s:.6f}) can0 320#0000\n" for time_s in times_s))
-    read = ReadLog(path)
-    assert len(list(read)) == len(times_s)
-    assert words in read.notice and bool(words) == bool(read.notice)
-
-
-@pytest.mark.parametrize(("name", "content", "words"), [
-    ("log.blf", b"not a log at all" * 20, "damaged or of another format"), ("log.txt", b"", "is no CAN log"),
-    ("log.asc", b"date\n", "holds no frame"), ("log.blf", b"", "damaged or of another format")])
-def test_file_that_is_no_log_is_named(tmp_path, name, content, words):
-    path = tmp_path / name
-    path.write_bytes(content)
-    with pytest.raises(ConnectionFailed, match=words):
-        list(ReadLog(path))
-
-
-def test_missing_log_is_named(tmp_path):
-    with pytest.raises(ConnectionFailed, match="none.blf cannot be read"):
-        ReadLog(tmp_path / "none.blf")
-
-
-def test_log_ends_at_its_limit_and_the_test_does_not(tmp_path):
-    log = BusLog(tmp_path / "bus.asc", limit_bytes=50_000)
-    for index in range(4000):
-        log.frame(CanFrame(0x100, False, bytes(8), 0.001 * index), 0.001 * index)
-    log.close()
-    assert "has reached 0 MiB, the limit" in log.problem
-    assert (tmp_path / "bus.asc").stat().st_size < 200_000
-
-
-def test_mf4_needs_a_package_that_is_named(tmp_path):
-    with pytest.raises(OutputError, match="asammdf"):
-        BusLog(tmp_path / "bus.mf4")
 
 
 def test_log_is_played_as_the_car(autolock):

@@ -23,7 +23,7 @@ class ReplayedLocks:
 
     Attributes:
         watch: what follows the locks. facts: of the profile. frames: of the log so far. has_state: one of them was the
-            message that tells the state.
+            message that tells the state. is_short: the log has ended before the test did.
     """
 
     def __init__(self, profile: CarProfile, log: ReadLog, phone: ReplayedPhone | None = None):
@@ -32,7 +32,7 @@ class ReplayedLocks:
         self.watch = LockWatch(profile)
         self.facts = profile.facts
         self.frames = 0
-        self.has_state = False
+        self.has_state = self.is_short = False
         self._log: Iterator[LoggedFrame] = iter(log)
         self._restarts = 0
         self._first_s = math.nan
@@ -52,6 +52,7 @@ class ReplayedLocks:
         while self.frames < count:
             frame = next(self._log, None)
             if frame is None:
+                self.is_short = True
                 return
             self.frames += 1
             known = self._frame(frame, mark)

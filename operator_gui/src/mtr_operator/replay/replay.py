@@ -32,12 +32,14 @@ class ReplayedTest:
     """Attributes:
         recorded, now: results of the lines, in the same order. attempts: by line, those that are in the record.
         notices: sentences on what is missing or was used otherwise.
+        is_whole: the logs tell the state of the locks, and reach to the end of each run.
     """
 
     recorded: Sequence[LineResult]
     now: Sequence[LineResult]
     attempts: dict[int, Attempt]
     notices: Sequence[str]
+    is_whole: bool = True
 
     @property
     def points(self) -> list[tuple[int, Point]]:
@@ -88,26 +90,29 @@ def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Prog
     lines = scenario.lines(parameters, progress.car)
     rays: dict[int, Ray] = {} if scenario.name in _WITHOUT_RAYS else {line.number: line.ray for line in lines}
     points = Points(rays, progress.car, replayed_phone(parameters, progress, profile))
-    notices: list[str] = []
-    for run in runs:
-        notices += _follow(points, run, profile, log)
+    found = [_follow(points, run, profile, log) for run in runs]
+    notices = [notice for each, _ in found for notice in each]
     recorded, now = results_anew(scenario, parameters, progress, points.attempts)
     missing = [result.number for result in progress.results if result.number not in
                {attempt.number for attempt in points.attempts}]
     if missing:
         notices.append(f"Of {len(missing)} lines nothing was recorded ({', '.join(map(str, missing))}).")
-    return ReplayedTest(recorded, now, counted_attempts(scenario, points.attempts), notices)
+    return ReplayedTest(recorded, now, counted_attempts(scenario, points.attempts), notices,
+                        all(is_whole for _, is_whole in found))
 
 
-def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.Path | None) -> Iterator[str]:
+def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.Path | None) -> tuple[list[str], bool]:
+    """Notices on its log, and whether that tells the whole run."""
     path = log or run.log
     if path is None:
         raise CannotReplay(f"No log of the Car's bus belongs to {run.course}; there was no bus, or none was wanted.")
     read = ReadLog(path)
     locks = ReplayedLocks(profile, read, points.phone)
     points.follow(read_course(run.course), locks)
+    notices = [read.notice] if read.notice else []
     if not locks.has_state:
-        yield (f"The CAN log {path} tells no state of message {profile.message.name} (id "
-               f"0x{profile.message.frame_id:X}): it is of another car or bus, or the profile is.")
-    if read.notice:
-        yield read.notice
+        notices.append(f"The CAN log {path} tells no state of message {profile.message.name} (id "
+                       f"0x{profile.message.frame_id:X}): it is of another car or bus, or the profile is.")
+    elif locks.is_short and not read.ending:
+        notices.append(f"The CAN log {path} ends after {locks.frames} frames, before the test does.")
+    return notices, locks.has_state and not locks.is_short

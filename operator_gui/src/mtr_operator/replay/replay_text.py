@@ -35,21 +35,24 @@ def summary(found: ReplayedTest) -> str:
     """One line."""
     distances, points = sum(len(result.distances) for result in found.recorded), len(found.points)
     worst = f"the largest difference is {_MM_PER_M * found.worst_m:.3f} mm"
+    if not found.is_whole:
+        return (f"{len(found.changed_lines)} of {distances} distances would change as far as the log tells; whether "
+                "the others are as in the record it does not say.")
     if is_unchanged(found):
         return f"{distances} distances and {points} measurements are as in the record; {worst}."
     return f"{len(found.changed_lines)} of {distances} distances would change; {worst}."
 
 
 def is_unchanged(found: ReplayedTest) -> bool:
-    """True when all distances and outcomes are those of the record, to a tenth of a millimetre."""
-    return (not found.changed_lines and found.worst_m <= SAME_M
+    """True when the log tells that all distances and outcomes are those of the record, to a tenth of a millimetre."""
+    return (found.is_whole and not found.changed_lines and found.worst_m <= SAME_M
             and all(point.status is point.new_status for _, point in found.points))
 
 
 def replay_document(scenario: AnyScenario, found: ReplayedTest) -> dict[str, Any]:
     """The same as plain values."""
     return {"scenario": scenario.name, "is_unchanged": is_unchanged(found), "worst_m": found.worst_m,
-            "measurements": len(found.points), "notices": list(found.notices), "lines": [
+            "is_whole": found.is_whole, "measurements": len(found.points), "notices": list(found.notices), "lines": [
                 {"line": old.number, "place": old.place, "distances": [
                     {"word": former.word, "is_same": is_same(former, new), "recorded": _values(former),
                      "now": _values(new)} for former, new in zip(old.distances, now.distances)]}

@@ -17,6 +17,8 @@ from ..lock_watch import LockWatch
 from ..profile import CarProfile, load_profile
 from .read_log import LoggedFrame, ReadLog
 
+# For so long a gap or a jump of the log's time is told: longer than a Status takes to be looked at.
+_TOLD_S = 1.0
 _NOT_CONNECTED = "The CAN log is not open."
 
 
@@ -36,6 +38,7 @@ class LogCarLink(CarLink):
         self._bus_of: Callable[[int], str] = str
         self._next: LoggedFrame | None = None
         self._begin_s = self._stamp_s = math.nan
+        self._noted, self._noted_s = "", -math.inf
 
     def connect(self) -> None:
         """See CarLink; ConnectionFailed when the log holds no frame."""
@@ -46,6 +49,7 @@ class LogCarLink(CarLink):
         self._frames = iter(self._log)
         self._next = next(self._frames, None)
         self._begin_s = math.nan
+        self._noted, self._noted_s = self._log.newest, -math.inf
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
@@ -62,8 +66,14 @@ class LogCarLink(CarLink):
                                  bus=self._bus_of(frame.channel)))
             self._next = next(self._frames, None)
         self._stamp_s = status.stamp_s
+        self._look_at_log()
         watch.status(status, status.stamp_s)
         return watch.release(status.stamp_s)
+
+    def _look_at_log(self) -> None:
+        """A gap or jump is a trouble where it is, not before and not at the end of the log."""
+        if self._log is not None and self._log.newest != self._noted:
+            self._noted, self._noted_s = self._log.newest, self._stamp_s
 
     @property
     def lock_state(self) -> LockState:
@@ -91,7 +101,9 @@ class LogCarLink(CarLink):
         if self._watch is None or self._log is None:
             return _NOT_CONNECTED
         if self._next is None and self._watch.problem:
-            return self._log.notice or f"The CAN log {self._path} has come to its end."
+            return self._log.ending or f"The CAN log {self._path} has come to its end."
+        if self._next is not None and self._stamp_s - self._noted_s < _TOLD_S:
+            return self._noted
         return self._watch.problem
 
     def close(self) -> None:

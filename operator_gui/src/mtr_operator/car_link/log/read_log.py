@@ -35,13 +35,14 @@ class ReadLog:
     Attributes:
         count: frames so far.
         notice: sentences when the log is not whole, in its order; empty when it is.
+        newest: the newest of them, also beyond those that notice has. ending: why it ended too early; empty when it
+            did not, or has not ended yet.
     """
 
     def __init__(self, path: pathlib.Path):
         self.count = 0
-        self.notice = ""
+        self.notice = self.newest = self.ending = ""
         self._notes = 0
-        self._is_damaged = False
         self._path = path
         if path.suffix.lower() not in SUFFIXES:
             raise ConnectionFailed(f"{path} is no CAN log; known are files that end in {', '.join(SUFFIXES)}.")
@@ -72,12 +73,11 @@ class ReadLog:
         except GeneratorExit:
             raise
         except Exception:
-            self._note(self._ended("is damaged"))
-            self._is_damaged = True
+            self._end("is damaged")
         if not self.count:
             raise ConnectionFailed(f"The CAN log {self._path} holds no frame.")
-        if not self._is_damaged and self._is_cut_off():
-            self._note(self._ended("is cut off"))
+        if not self.ending and self._is_cut_off():
+            self._end("is cut off")
 
     def _look_at_time(self, time_s: float, before_s: float | None) -> None:
         step_s = 0.0 if before_s is None else time_s - before_s
@@ -90,6 +90,7 @@ class ReadLog:
 
     def _note(self, sentence: str) -> None:
         self._notes += 1
+        self.newest = sentence
         if self._notes <= _MAX_NOTES:
             self.notice = f"{self.notice} {sentence}".strip()
 
@@ -99,5 +100,6 @@ class ReadLog:
         return isinstance(reader, BLFReader) and (self._size < reader.file_size
                                                   or reader.file_size == FILE_HEADER_SIZE < self._size)
 
-    def _ended(self, what: str) -> str:
-        return f"The CAN log {self._path} {what} after {self.count} frames; those are used."
+    def _end(self, what: str) -> None:
+        self.ending = f"The CAN log {self._path} {what} after {self.count} frames; those are used."
+        self._note(self.ending)

@@ -1,0 +1,111 @@
+"""Logs of a Car's bus: written and read again in each format, damaged ones, and one that is played as the Car."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.fake_message import DemoLockMessage
+from mtr_operator.car_link.log.bus_log import BusLog
+from mtr_operator.car_link.log.log_car import LogCarLink
+from mtr_operator.car_link.log.read_log import ReadLog
+from mtr_operator.domain.errors import ConnectionFailed, OutputError
+from mtr_operator.domain.robot_status import RobotStatus
+
+
+@pytest.mark.parametrize("suffix", ["blf", "asc", "trc"])
+def test_log_of_each_kind_is_read_as_it_was_written(tmp_path, suffix):
+    path = tmp_path / f"bus.{suffix}"
+    log, frames = BusLog(path), []
+    for index in range(2000):
+        frame = CanFrame(0x100 + index % 7, False, bytes([index % 256]) * (index % 9), 5.0 + 0.001 * index)
+        log.frame(frame, frame.arrival_s)
+        frames.append((frame.can_id, frame.data))
+    log.close()
+    read = list(ReadLog(path))
+    assert [(frame.can_id, frame.data) for frame in read] == frames
+    assert (log.frames, log.origin_s, log.problem) == (2000, 5.0, "")
+    assert [frame.time_s - read[0].time_s for frame in read] == pytest.approx(
+        [0.001 * index for index in range(2000)], abs=1e-4)
+
+
+def test_fd_frames_are_kept_as_such(tmp_path):
+    log = BusLog(tmp_path / "bus.blf")
+    log.frame(CanFrame(0x1ABCDEF, True, bytes(range(48)), 1.0, is_fd=True), 1.0)
+    log.error_frame()
+    log.close()
+    frame, = ReadLog(tmp_path / "bus.blf")
+    assert (frame.can_id, frame.is_extended, frame.is_fd, frame.data) == (0x1ABCDEF, True, True, bytes(range(48)))
+
+
+def test_log_that_is_cut_off_is_read_up_to_there_and_says_so(tmp_path):
+    whole = tmp_path / "whole.blf"
+    log = BusLog(whole)
+    for index in range(4000):
+        log.frame(CanFrame(0x100, False, index.to_bytes(8, "big"), 0.001 * index), 0.001 * index)
+    log.close()
+    torn = tmp_path / "torn.blf"
+    torn.write_bytes(whole.read_bytes()[:-2000])
+    read = ReadLog(torn)
+    frames = list(read)
+    assert 0 < len(frames) < 4000
+    assert "is cut off after" in read.notice or "is damaged after" in read.notice
+
+
+@pytest.mark.parametrize(("times_s", "words"), [
+    ((0.0, 0.5, 8.0), "has a gap of 7.5 s after 2 frames"), ((0.0, 20.0, 3.0), "jumps back by 17.0 s after 2 frames"),
+    ((0.0, 0.9, 0.85, 1.8), "")])
+def test_gaps_and_jumps_of_a_logs_time_are_told(tmp_path, times_s, words):
+    path = tmp_path / "bus.log"
+    path.write_text("".join(f"({100.0 + time_s:.6f}) can0 320#0000\n" for time_s in times_s))
+    read = ReadLog(path)
+    assert len(list(read)) == len(times_s)
+    assert words in read.notice and bool(words) == bool(read.notice)
+
+
+@pytest.mark.parametrize(("name", "content", "words"), [
+    ("log.blf", b"not a log at all" * 20, "damaged or of another format"), ("log.txt", b"", "is no CAN log"),
+    ("log.asc", b"date\n", "holds no frame"), ("log.blf", b"", "damaged or of another format")])
+def test_file_that_is_no_log_is_named(tmp_path, name, content, words):
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(ConnectionFailed, match=words):
+        list(ReadLog(path))
+
+
+def test_missing_log_is_named(tmp_path):
+    with pytest.raises(ConnectionFailed, match="none.blf cannot be read"):
+        ReadLog(tmp_path / "none.blf")
+
+
+def test_log_ends_at_its_limit_and_the_test_does_not(tmp_path):
+    log = BusLog(tmp_path / "bus.asc", limit_bytes=50_000)
+    for index in range(4000):
+        log.frame(CanFrame(0x100, False, bytes(8), 0.001 * index), 0.001 * index)
+    log.close()
+    assert "has reached 0 MiB, the limit" in log.problem
+    assert (tmp_path / "bus.asc").stat().st_size < 200_000
+
+
+def test_mf4_needs_a_package_that_is_named(tmp_path):
+    with pytest.raises(OutputError, match="asammdf"):
+        BusLog(tmp_path / "bus.mf4")
+
+
+@pytest.mark.parametrize(("step_s", "words"), [
+    (3.0, "has a gap of 3.0 s after 300"), (-2.98, "jumps back by 3.0 s after 300")])
+def test_gap_or_jump_of_a_log_that_is_played_is_a_trouble_where_it_is(tmp_path, step_s, words):
+    path, message = tmp_path / "bus.log", DemoLockMessage()
+    times_s = [0.02 * index + (step_s if index >= 300 else 0.0) for index in range(900)]
+    path.write_text("".join(f"({100.0 + time_s:.6f}) can0 320#{message.next().hex()}\n" for time_s in times_s))
+    car = LogCarLink(path, "mtr_demo_car")
+    car.connect()
+    problems = []
+    for index in range(1, 300):
+        time_s = 50.0 + 0.1 * index
+        car.observe(RobotStatus(index, 1, time_s, sent_s=time_s, steady_s=time_s))
+        problems.append(car.problem)
+    told = [index for index, problem in enumerate(problems) if words in problem]
+    # Once, at 6 s of the log, and for a second.
+    assert told and 55 <= told[0] <= 62 and told[-1] - told[0] <= 10
+    assert set(problems[30:told[0]]) == {""}
+    assert problems[-1] == f"The CAN log {path} has come to its end."
+    car.close()
