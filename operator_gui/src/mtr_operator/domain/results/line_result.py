@@ -161,6 +161,23 @@ class LineResult(ABC):
         return {name: plain(getattr(self, name)) for name in names if getattr(self, name) != defaults[name]}
 
 
+class OnAxis:
+    """What results of an axis have in common; before LineResult among the bases."""
+
+    axis: int
+    side: str
+
+    @property
+    def number(self) -> int:
+        """See LineResult."""
+        return self.axis
+
+    @property
+    def place(self) -> str:
+        """See LineResult."""
+        return self.side.replace("_", " ")
+
+
 def result_from_document(result_type: type[Result], document: Any) -> Result:
     """Result in a progress file; KeyError, TypeError or ValueError when it is damaged."""
     result = read_record(result_type, document)

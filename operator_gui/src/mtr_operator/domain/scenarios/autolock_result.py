@@ -8,7 +8,7 @@ from typing import Any
 from ..geometry.ray import Ray
 from ..results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, HEIGHT_DOC, KEY_NUMBER_DOC, LATERAL_DOC, SPEED_DOC
 from ..results.document import Floats, OptionalFloat, OptionalInt, Texts
-from ..results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ..results.line_result import LineResult, LineStatus, MeasuredDistance, OnAxis, column, stored
 
 UNLOCK, LOCK = "unlock", "lock"
 
@@ -42,7 +42,7 @@ _OF_PASSES = tuple(f"{word}_{name}" for word in (UNLOCK, LOCK) for name in (
 
 
 @dataclass(frozen=True)
-class AutolockResult(LineResult):
+class AutolockResult(OnAxis, LineResult):
     """Distances are those of the Remote key from the Car's side or corner, along the axis."""
 
     FILE_ORDER = ("axis", "side", "origin_x_m", "origin_y_m", "direction_x", "direction_y", "reason",
@@ -111,16 +111,6 @@ class AutolockResult(LineResult):
                              "its bus does not tell them apart", default="")
     told_every_s: OptionalFloat = stored(None)
     evidence: Texts = stored(())
-
-    @property
-    def number(self) -> int:
-        """See LineResult."""
-        return self.axis
-
-    @property
-    def place(self) -> str:
-        """See LineResult."""
-        return self.side.replace("_", " ")
 
     @property
     def ray(self) -> Ray:

@@ -17,11 +17,12 @@ from ...results.carried import carried_values
 from ...results.document import Texts
 from ...results.line_result import LineStatus
 from ...robot_status import CarDimensions
+from ..handle.fields import ALL_SIDES
 from ..line_search.attempt import AttemptMade, AttemptsMade
 from ..line_search.campaign import DIGITS
 from ..line_search.silence import MAX_SILENT_LINES
 from ..line_search.trial import Trial
-from .parameters import ALL_SIDES, HandleRequestParameters
+from .parameters import HandleRequestParameters
 from .request import Requester
 from .result import HANDLE_WORD, HandleRequestResult
 

@@ -8,19 +8,15 @@ from ...choice import choice
 from ...errors import InvalidParameter
 from ...estimation.press.plan import RobotTimes, SearchPlan
 from ...geometry.heights import check_heights, heights_between
-from ...parameters import CENTIMETRES, KILOMETRES_PER_HOUR, parameter
+from ...parameters import CENTIMETRES, parameter
 from ...scenario import ScenarioParameters
-from ...verdict.requirement import SIDES
-from ..handle.hand import BUTTON, ITSELF
+from ..handle.fields import ALL_SIDES, DRIVERS_SIDE, ROUNDING_M, SIDES_FROM_DRIVERS, HandleFields, check_clearance
 
-# The driver's door of most cars; a file without a side means it.
-DRIVERS_SIDE, ALL_SIDES = "left", "all"
-_SIDES = (DRIVERS_SIDE, *(side for side in SIDES if side != DRIVERS_SIDE), ALL_SIDES)
-# Rounding of a sum must not refuse what is allowed up to exactly there.
-_ROUNDING_M = 1e-9
 # From the request until an unlock is read and believed, as of a press; and the press that locks the Car again.
 _ANSWER_S, _LOCKED_S = 0.4, 1.5
 _MIN_PLACES = 3
+
+_HANDLE = HandleFields()
 
 
 @dataclass(frozen=True)
@@ -28,7 +24,8 @@ class HandleRequestParameters(ScenarioParameters):
     """Distances are those of the Remote key from the Car's side or corner, along the axis."""
 
     side: str = choice(
-        _SIDES, DRIVERS_SIDE, "Side or corner of the Car whose border is measured: that of the handle that is taken.")
+        (*SIDES_FROM_DRIVERS, ALL_SIDES), DRIVERS_SIDE,
+        "Side or corner of the Car whose border is measured: that of the handle that is taken.")
     minimum_distance_m: float = parameter(0.5, 0.0, 20.0, "m", "Nearest place at which the handle is taken.")
     maximum_distance_m: float = parameter(4.0, 0.1, 50.0, "m", "Starting distance of each axis.")
     straightening_distance_m: float = parameter(
@@ -43,45 +40,35 @@ class HandleRequestParameters(ScenarioParameters):
         shown=CENTIMETRES)
     attempts_limit: int = parameter(
         20, 6, 200, "", "Requests after which an axis ends although its interval is wider.")
-    key_height_m: float = parameter(1.0, 0.35, 1.55, "m", "Height of the Remote key above ground.", shown=CENTIMETRES)
+    key_height_m: float = _HANDLE.key_height_m
     highest_key_height_m: float = parameter(
         1.4, 0.35, 1.55, "m", "Highest of the heights at which the border is measured, if there are several.",
         shown=CENTIMETRES)
     heights: int = parameter(1, 1, 5, "", "Heights at which the border is measured.")
-    maximum_speed_mps: float = parameter(1.0, 0.05, 2.0, "m/s", "Speed limit on the whole way.",
-                                         shown=KILOMETRES_PER_HOUR)
-    settle_time_s: float = parameter(0.3, 0.0, 60.0, "s", "Standstill before each request.")
-    response_timeout_s: float = parameter(
-        1.5, 0.1, 60.0, "s", "How long after the handle was taken the Car may take to unlock; outside otherwise.")
-    handle_timeout_s: float = parameter(
-        120.0, 1.0, 3600.0, "s", "How long the Operator may take to come to the handle before the test is interrupted.")
-    relock: str = choice(
-        (BUTTON, ITSELF), BUTTON, "How the Car is locked again after each unlock. button: the robot presses the "
-        "key's lock button. itself: the robot drives away and waits, for a key whose button it cannot press.")
-    press_strength: float = parameter(1.0, 0.05, 1.0, "", "Travel of the button: 1 is pressed down fully.")
-    press_duration_s: float = parameter(0.3, 0.05, 5.0, "s", "How long the button is held down.")
-    lock_timeout_s: float = parameter(
-        60.0, 1.0, 3600.0, "s", "How long the Car may take to lock by itself, as the key goes away or by its timer.")
+    maximum_speed_mps: float = _HANDLE.maximum_speed_mps
+    settle_time_s: float = _HANDLE.settle_time_s
+    response_timeout_s: float = _HANDLE.response_timeout_s
+    handle_timeout_s: float = _HANDLE.handle_timeout_s
+    relock: str = _HANDLE.relock
+    press_strength: float = _HANDLE.press_strength
+    press_duration_s: float = _HANDLE.press_duration_s
+    lock_timeout_s: float = _HANDLE.lock_timeout_s
     half_wavelength_m: float = parameter(
         0.35, 0.02, 2.0, "m", "Requests so far apart meet another field; half a wavelength of the Remote key's radio: "
         "0.35 m at 434 MHz, 0.17 m at 868 MHz.")
-    key_rest_limit_s: float = parameter(
-        45.0, 5.0, 55.0, "s", "Standstill after which the Remote key is moved before the handle is taken, so that it "
-        "does not sleep.")
-    clearance_m: float = parameter(0.3, 0.0, 5.0, "m", "Gap that has to remain between Remote key and Car.")
+    key_rest_limit_s: float = _HANDLE.key_rest_limit_s
+    clearance_m: float = _HANDLE.clearance_m
 
     def check(self) -> None:
         """Constraints between parameters."""
         low, high = self.minimum_distance_m, self.farthest_m
-        if low < self.clearance_m:
-            raise InvalidParameter(f"Parameter minimum_distance_m is {low:g} m; allowed is clearance_m, "
-                                   f"{self.clearance_m:g} m, and more.")
+        check_clearance(self.minimum_distance_m, self.clearance_m)
         needed_m = _MIN_PLACES * self.half_wavelength_m
         if high - low < needed_m:
             raise InvalidParameter(
                 f"Parameter minimum_distance_m leaves {high - low:.2f} m up to the first request at {high:g} m; the "
                 f"search needs {needed_m:.2f} m.")
-        if self.border_requests and not low <= self.border_distance_m <= high + _ROUNDING_M:
+        if self.border_requests and not low <= self.border_distance_m <= high + ROUNDING_M:
             raise InvalidParameter(f"Parameter border_distance_m is {self.border_distance_m:g} m; allowed is {low:g} "
                                    f"to {high:g} m, where requests are made.")
         if self.border_requests > self.attempts_limit:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from ...results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, KEY_NUMBER_DOC, LATERAL_DOC
 from ...results.document import Floats, OptionalFloat, OptionalInt, Texts
-from ...results.line_result import LineStatus, column, stored
+from ...results.line_result import LineStatus, OnAxis, column, stored
 from ..line_search.result import SearchColumns, SearchedResult
 
 HANDLE_WORD = "handle"
@@ -14,7 +14,7 @@ _SEARCH = SearchColumns("requests", "axes")
 
 
 @dataclass(frozen=True)
-class HandleRequestResult(SearchedResult):
+class HandleRequestResult(OnAxis, SearchedResult):
     """Distances are those of the Remote key from the Car's side or corner, along the axis. inside: the Car unlocked;
     outside: it did not."""
 
@@ -63,16 +63,6 @@ class HandleRequestResult(SearchedResult):
     failed_at_m: Floats = stored(())
     place_sigma_m: OptionalFloat = stored(None)
     evidence: Texts = stored(())
-
-    @property
-    def number(self) -> int:
-        """See LineResult."""
-        return self.axis
-
-    @property
-    def place(self) -> str:
-        """See LineResult."""
-        return self.side.replace("_", " ")
 
     @property
     def is_possible(self) -> bool:

@@ -18,8 +18,9 @@ from ...results.quantity import Quantity
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
 from ...verdict.requirement import AT_MOST_PERCENT
+from ..handle.fields import ALL_SIDES
 from .axis_trial import RelayTrial, has_kept
-from .parameters import ALL_SIDES, RelayResistanceParameters
+from .parameters import RelayResistanceParameters
 from .result import RELAY, RELAY_PROBABILITY, RelayResistanceResult, valid_columns
 from .tally import DIGITS, tally_columns, upper_bound
 

@@ -9,7 +9,7 @@ from typing import Any, Sequence
 from ...actions.distance import Distance, recorded_values
 from ...results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, KEY_NUMBER_DOC, LATERAL_DOC, carried_values
 from ...results.document import Floats, OptionalFloat, OptionalInt, Texts
-from ...results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ...results.line_result import LineResult, LineStatus, MeasuredDistance, OnAxis, column, stored
 from ...results.quantity import MeasuredQuantity
 from .tally import Resistance, Tried, lower_bound, resistance_of, tally_columns, upper_bound
 
@@ -24,7 +24,7 @@ _ROUNDING = 1e-5
 
 
 @dataclass(frozen=True)
-class RelayResistanceResult(LineResult):
+class RelayResistanceResult(OnAxis, LineResult):
     """Distances are those of the Remote key from the Car's side or corner, along the axis; off, on: the extender's
     state. All requests are beyond the nominal border."""
 
@@ -61,16 +61,6 @@ class RelayResistanceResult(LineResult):
     doors: str = column(f"of that request: {DOORS_DOC}", default="")
     reason: str = stored("")
     evidence: Texts = stored(())
-
-    @property
-    def number(self) -> int:
-        """See LineResult."""
-        return self.axis
-
-    @property
-    def place(self) -> str:
-        """See LineResult."""
-        return self.side.replace("_", " ")
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:

@@ -7,7 +7,7 @@ from typing import Any
 
 from ...results.carried import CAUSE_DOC, DOORS_DOC, KEY_NUMBER_DOC
 from ...results.document import Floats, OptionalFloat, OptionalInt, Texts
-from ...results.line_result import LineResult, LineStatus, MeasuredDistance, column, stored
+from ...results.line_result import LineResult, LineStatus, MeasuredDistance, OnAxis, column, stored
 from ...results.quantity import MeasuredQuantity
 from .waits import Asleep, Rests
 
@@ -19,7 +19,7 @@ _DIGITS = 6
 
 
 @dataclass(frozen=True)
-class SleepTimeResult(LineResult):
+class SleepTimeResult(OnAxis, LineResult):
     """The distance is that of the Remote key from the Car's side or corner; times are of rest, since it last moved."""
 
     axis: int = column("number of the axis, 1")
@@ -46,16 +46,6 @@ class SleepTimeResult(LineResult):
     doors: str = column(f"of the newest answer: {DOORS_DOC}", default="")
     reason: str = stored("")
     evidence: Texts = stored(())
-
-    @property
-    def number(self) -> int:
-        """See LineResult."""
-        return self.axis
-
-    @property
-    def place(self) -> str:
-        """See LineResult."""
-        return self.side.replace("_", " ")
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
