@@ -265,3 +265,13 @@ def test_closing_ends_a_running_test_and_keeps_its_lines(worker, post, four_line
 def test_port_that_is_none_is_refused(text):
     with pytest.raises(InvalidParameter, match="port"):
         robot_choice("127.0.0.1", text, "3333")
+
+
+def test_simulated_robot_needs_nobody_who_listens():
+    link = LinkOpener().robot(robot_choice(SIMULATED, "1", "2"))
+    link.connect()
+    try:
+        first, second = link.next_status(1.0), link.next_status(1.0)
+    finally:
+        link.close()
+    assert (second.id, second.stamp_s - first.stamp_s) == (first.id + 1, pytest.approx(0.1))

@@ -48,7 +48,7 @@ def argument_parser() -> argparse.ArgumentParser:
 
 def _add_window(parser: argparse.ArgumentParser) -> None:
     parser.description = "Opens the connection window, filled in with what is given here."
-    parser.add_argument("--robot", metavar="HOST", help="address of the robot")
+    parser.add_argument("--robot", metavar="HOST", help="address of the robot, or simulated for a substitute")
     parser.add_argument("--subscriber-port", type=_whole_number, metavar="N", help="TCP port of Status")
     parser.add_argument("--publisher-port", type=_whole_number, metavar="N", help="TCP port of Command")
     _add_unencrypted(parser)

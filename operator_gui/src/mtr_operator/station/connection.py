@@ -18,13 +18,13 @@ if TYPE_CHECKING:
 
 DEFAULT_BITRATE_BPS = 500_000
 DEFAULT_PROFILE = "mtr_demo_car"
-# Interface name of the Car's substitute inside the application.
+# Host of the robot's substitute and interface of the Car's, both inside the application.
 SIMULATED = "simulated"
 
 
 @dataclass(frozen=True)
 class RobotChoice:
-    """Address of the robot; the ports are named from the Operator's side.
+    """Address of the robot, or SIMULATED; the ports are named from the Operator's side.
 
     is_unencrypted: the person does without encryption, which another computer's robot has to allow too.
     """
@@ -98,6 +98,10 @@ class LinkOpener:
 
     def robot(self, choice: RobotChoice) -> RobotLink:
         """A new link of a new session, not connected yet; ConnectionFailed when the contract is not installed."""
+        if choice.host == SIMULATED:
+            from mtr_operator.robot_link.fake import FakeRobotLink
+            # A person watches, and a real bus may be beside it.
+            return FakeRobotLink(time_factor=1.0)
         try:
             from mtr_operator.robot_link.client import ZmqRobotLink
         except ModuleNotFoundError as error:
