@@ -6496,67 +6496,67 @@
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>{}it needs either at_least_m or at_most_m; or, of what is no distance, one of {}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{}je potřeba buď at_least_m, nebo at_most_m; u toho, co není vzdálenost, jedno z {}.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>{}share_percent is for distances; leave it out beside {}.</source>
-        <translation type="unfinished"></translation>
+        <translation>{}share_percent je pro vzdálenosti; u {} jej vynechte.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>Limit {}: it is at {} {}, and with these parameters only one from {} to {} {} can be judged.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mez {}: leží na {} {}, a s těmito parametry lze posoudit jen mez od {} do {} {}.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>Limit {}: {} is limited by {}, not by {}.</source>
-        <translation type="unfinished"></translation>
+        <translation>Mez {}: {} se omezuje pomocí {}, ne pomocí {}.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>{} at most {} s</source>
-        <translation type="unfinished"></translation>
+        <translation>{} nejvýše {} s</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>{} at least {} s</source>
-        <translation type="unfinished"></translation>
+        <translation>{} alespoň {} s</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>{} at most {} m</source>
-        <translation type="unfinished"></translation>
+        <translation>{} nejvýše {} m</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>{} at most {} %</source>
-        <translation type="unfinished"></translation>
+        <translation>{} nejvýše {} %</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>is below {} s</source>
-        <translation type="unfinished"></translation>
+        <translation>je pod {} s</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>is above {} s</source>
-        <translation type="unfinished"></translation>
+        <translation>je nad {} s</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>lies between {} and {} s</source>
-        <translation type="unfinished"></translation>
+        <translation>leží mezi {} a {} s</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>lies between {} and {} %</source>
-        <translation type="unfinished"></translation>
+        <translation>leží mezi {} a {} %</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>The line does not tell this.</source>
-        <translation type="unfinished"></translation>
+        <translation>Linie to neuvádí.</translation>
     </message>
 </context>
 <context>
@@ -7486,17 +7486,17 @@
     <message>
         <location filename="../texts/words.py" line="7"/>
         <source>sleep_time</source>
-        <translation type="unfinished"></translation>
+        <translation>doba do usnutí</translation>
     </message>
     <message>
         <location filename="../texts/words.py" line="7"/>
         <source>phone_error</source>
-        <translation type="unfinished"></translation>
+        <translation>chyba telefonu</translation>
     </message>
     <message>
         <location filename="../texts/words.py" line="7"/>
         <source>relay_probability</source>
-        <translation type="unfinished"></translation>
+        <translation>pravděpodobnost přenosu</translation>
     </message>
 </context>
 </TS>
