@@ -2,9 +2,12 @@
 """Localization says in time that a sensor is silent, and its pose never jumps."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import signal
 import sys
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
@@ -39,10 +42,23 @@ class Robot:
         """Speed from the next tick on."""
         self.wheels.message.twist.twist.linear.x = speed_mps
 
+    @property
+    def spoken(self):
+        """Messages of both so far."""
+        return self.wheels.spoken + self.gyro.spoken
+
     def move(self):
         """One tick of motion, whether anybody hears of it or not."""
         message = self.wheels.message
         message.pose.pose.position.x += message.twist.twist.linear.x * STEP_NS * NS
+
+
+def messages_read_by(node):
+    """Messages of wheels and gyro that a node has taken from its connections."""
+    master = rosgraph.Master(rospy.get_name())
+    _, subscribed = xmlrpc.client.ServerProxy(master.lookupNode(node)).getBusStats(rospy.get_name())
+    return sum(connection[2] for topic, connections in subscribed if topic in (names.IMU_DATA, names.WHEEL_ODOMETRY)
+               for connection in connections)
 
 
 class Localization(unittest.TestCase):
@@ -56,6 +72,10 @@ class Localization(unittest.TestCase):
         cls.time = ScriptedTime([], [cls.robot.gyro, cls.robot.wheels], [cls.pose])
 
     def setUp(self):
+        self.begin()
+
+    def begin(self):
+        """Start localization, and go on until the robot moves."""
         self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=False)
         # Also when the set-up fails: two nodes of one name end each other.
         self.addCleanup(self.end)
@@ -81,10 +101,13 @@ class Localization(unittest.TestCase):
             self.heard.append(self.pose.at(self.time.advance() - lag_ns))
 
     def advance_unanswered(self):
-        """Let the time pass for which localization waits for data."""
+        """Let the time pass for which localization waits for data, and no faster than it reads what comes."""
+        # All that was said before has been answered.
+        unread = messages_read_by("/localization") - self.robot.spoken
         for _ in range(GAP_LIMIT_NS // STEP_NS):
             self.robot.move()
             self.time.advance()
+            wait_for(lambda: messages_read_by("/localization") >= unread + self.robot.spoken, "reading in localization")
 
     def assert_no_jump(self):
         """No pose lies farther from the one before than the robot can drive."""
@@ -129,6 +152,28 @@ class Localization(unittest.TestCase):
         self.advance(STANDSTILL_S + 0.2)
         self.assertTrue(self.heard[-1].valid, self.heard[-1].message)
         self.assertAlmostEqual(self.heard[-1].x, before.x, places=6)
+        self.assert_no_jump()
+
+    def test_node_that_is_woken_late_calls_nobody_silent_who_has_spoken(self):
+        self.end()
+        rospy.set_param("/lockstep", False)
+        self.addCleanup(rospy.set_param, "/lockstep", True)
+        self.begin()
+        self.node.signal(signal.SIGSTOP)
+        begun_ns, steps = self.time.tick_ns, 2 * GAP_LIMIT_NS // STEP_NS
+        try:
+            for _ in range(steps):
+                self.robot.move()
+                self.time.advance()
+        finally:
+            self.node.signal(signal.SIGCONT)
+        late = [self.pose.at(begun_ns + step * STEP_NS) for step in range(1, steps + 1)]
+        self.heard += late
+        self.advance(0.3)
+        self.assertEqual([pose.message for pose in late if not pose.valid], [])
+        self.assertEqual([pose.header.stamp.to_nsec() - begun_ns for pose in late],
+                         [step * STEP_NS for step in range(1, len(late) + 1)])
+        self.assertTrue(self.heard[-1].valid, self.heard[-1].message)
         self.assert_no_jump()
 
     def test_short_gap_is_bridged(self):

@@ -11,6 +11,7 @@ from std_msgs.msg import Header
 
 from mtr_core import names
 from mtr_core.lockstep.clock import stamp_of
+from mtr_core.lockstep.publishers import direct_publisher
 from mtr_core.lockstep.samples import Samples
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS, Slot
 from mtr_simulation.clock.connections import wait_until_complete
@@ -30,13 +31,13 @@ class Speaker:
     Attributes:
         message: what it says; the stamp is set when it does.
         is_silent: True while it says nothing.
-        heard_ns: tick at which it spoke last.
+        heard_ns: tick at which it spoke last. spoken: messages so far.
     """
 
     def __init__(self, topic: str, message: Any, slot: Slot):
-        self.message, self.is_silent, self.heard_ns = message, False, 0
+        self.message, self.is_silent, self.heard_ns, self.spoken = message, False, 0, 0
         self._slot = slot
-        self._publisher = rospy.Publisher(topic, type(message), queue_size=50, tcp_nodelay=True)
+        self._publisher = direct_publisher(topic, type(message))
 
     def speak(self, tick_ns: int) -> None:
         """Say the message if it is time."""
@@ -44,6 +45,7 @@ class Speaker:
             self.message.header.stamp = stamp_of(tick_ns)
             self.heard_ns = tick_ns
             self._publisher.publish(self.message)
+            self.spoken += 1
 
 
 class Listener:
@@ -110,7 +112,8 @@ class ScriptedTime:
         self.tick_ns = SIMULATION_START_NS
         self.holds = Holds(tuple(nodes))
         self.speakers, self._listeners = list(speakers), list(listeners)
-        self._clock = rospy.Publisher("/clock", Clock, queue_size=50, tcp_nodelay=True)
+        # Without a queue: the time is on its way after all that was said before.
+        self._clock = direct_publisher("/clock", Clock)
 
     def start(self) -> None:
         """Start the clock when all nodes are there and connected, and go to the first tick that all nodes have."""

@@ -7,6 +7,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/Imu.h>
 
+#include <optional>
 #include <utility>
 
 #include "localizer.hpp"
@@ -106,6 +107,15 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
 void Node::spin() {
   while (mtr_core::run_callbacks(mtr_core::kShutdownCheckS)) {
     answer_waiting();
+    check_silence();
+  }
+}
+
+void Node::check_silence() {
+  const auto now_ns = std::exchange(silence_due_ns_, std::nullopt);
+  // In lock-step nobody is late: the clock waits.
+  if (now_ns && (silence_turn_.counts(*now_ns) || mtr_core::is_lockstep())) {
+    publish(source_->check_silence(*now_ns));
   }
 }
 
@@ -122,16 +132,14 @@ void Node::subscribe_to_time(ros::NodeHandle& node) {
     // By the simulated clock's own steps, so that silence is noticed at the same instant on any machine.
     clock_ = node.subscribe<rosgraph_msgs::Clock>(
         "/clock", 1,
-        [this](const rosgraph_msgs::Clock::ConstPtr& message) {
-          publish(source_->check_silence(mtr_core::to_ns(message->clock)));
-        },
+        [this](const rosgraph_msgs::Clock::ConstPtr& message) { silence_due_ns_ = mtr_core::to_ns(message->clock); },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   } else {
     // Before the first message has come the stamps of what is sent are the ROS clock's already.
     std::int64_t age_ns = 0;
     time_of(mtr_core::to_ns(ros::Time::now()), age_ns);
     timer_ = node.createSteadyTimer(ros::WallDuration(kPeriodS), [this](const ros::SteadyTimerEvent&) {
-      publish(source_->check_silence(mtr_core::boot_time_ns()));
+      silence_due_ns_ = mtr_core::boot_time_ns();
     });
   }
 }

@@ -8,13 +8,17 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "external_pose.hpp"
+#include "motion/silence_turn.hpp"
+#include "mtr_core/clock.hpp"
 #include "mtr_core/parameter_reader.hpp"
 #include "mtr_core/samples.hpp"
 #include "pose_source.hpp"
@@ -62,6 +66,8 @@ class Node {
   void receive_order(const mtr_msgs::MappingOrder& message);
   void answer(const WheelSample& wheels);
   void answer_waiting();
+  /// After all that has come was taken: a node that was woken late would else call silent what has spoken meanwhile.
+  void check_silence();
   void publish(std::vector<Estimate> estimates);
   /// Publishes what came of the wheels or the gyro, whichever was the later; its work counts as load.
   void publish_measured(const std::function<std::vector<Estimate>()>& answer);
@@ -94,6 +100,8 @@ class Node {
   ros::Subscriber clock_;
   ros::SteadyTimer timer_;
   std::deque<WheelSample> waiting_;
+  std::optional<std::int64_t> silence_due_ns_;
+  SilenceTurn silence_turn_{mtr_core::kLocalization.period_ns};
   std::string scan_problem_;
 };
 
