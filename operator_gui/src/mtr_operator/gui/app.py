@@ -18,17 +18,14 @@ from mtr_operator.station.view_model import ViewModel
 from .alerts.sounds import Sounds
 from .bridge import Bridge
 from .defects import Defects
-from .evidence.bundle_check import BundleCheck
 from .fitting.screen_watch import ScreenWatch
 from .flow import Flow
 from .header.stop_button import add_stop
-from .history.history_reader import HistoryReader
-from .history.replaying import Replaying
 from .i18n import Language
-from .report_writer import ReportWriter
 from .stopping import Stopping
 from .theme.appearance import Appearance
 from .theme.sheet import ICON
+from .waited_thread import WaitedThread
 from .windows.connection_window import ConnectionWindow
 from .windows.main_window import MainWindow
 
@@ -73,10 +70,7 @@ class Application:
         self.flow.close()
         self.stopping.remove()
         self.screens.remove()
-        ReportWriter.finish_all()
-        HistoryReader.finish_all()
-        BundleCheck.finish_all()
-        Replaying.finish_all()
+        WaitedThread.finish_all()
         self.defects.remove()
 
     def _show_main(self) -> None:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import logging
 import pathlib
-from typing import ClassVar, Sequence
+from typing import Sequence
 
-from PyQt5.QtCore import QThread, pyqtSignal
+from PyQt5.QtCore import pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.report import budget_json, results_csv
@@ -19,15 +19,14 @@ from mtr_operator.storage.photos import copy_photos, photo_folder
 from .pictures import export
 from .pictures.protocol_picture import Protocol
 from .pictures.protocol_sheet import ProtocolSheet
+from .waited_thread import WaitedThread
 
 CSV, PNG, PDF, SVG, BUNDLE = "csv", "png", "pdf", "svg", "bundle"
-# A large protocol in all its forms takes some seconds.
-FINISH_LIMIT_MS = 20_000
 _PERCENT = 100.0
 _PICTURES = {PNG: export.png, PDF: export.pdf, SVG: export.svg}
 
 
-class ReportWriter(QThread):
+class ReportWriter(WaitedThread):
     """Signals: written(paths), refused(text): of the files; not_annotated(text): nothing was written, for the notes or
     photos could not be kept. bundling(percent): how much of the bundle is done. bundled(Bundled): it is written, before
     written. not_bundled(text): the other files are written, and no bundle."""
@@ -38,7 +37,6 @@ class ReportWriter(QThread):
     bundling = pyqtSignal(int)
     bundled = pyqtSignal(object)
     not_bundled = pyqtSignal(str)
-    _running: ClassVar[set[ReportWriter]] = set()
 
     def __init__(self, protocol: Protocol, test: Test, folder: pathlib.Path, kinds: Sequence[str],
                  annotation: Annotation | None = None):
@@ -49,17 +47,6 @@ class ReportWriter(QThread):
         self._annotation = annotation
         self._folder = folder
         self._kinds = tuple(kinds)
-        self._running.add(self)
-        self.finished.connect(lambda: self._running.discard(self))
-
-    @classmethod
-    def finish_all(cls) -> None:
-        """Wait for what is being written: a thread that Qt ends with the window leaves half a file, or a crash."""
-        for writer in list(cls._running):
-            if not writer.wait(FINISH_LIMIT_MS):
-                # A bundle of a long recording: nothing of it is left.
-                writer.requestInterruption()
-                writer.wait(FINISH_LIMIT_MS)
 
     def run(self) -> None:
         """See QThread."""

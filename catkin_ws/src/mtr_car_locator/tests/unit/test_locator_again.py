@@ -1,6 +1,5 @@
 """The Car looked at again: self-check from two places, corrections of its frame at standstill."""
 # SPDX-License-Identifier: Apache-2.0
-import copy
 import math
 
 import numpy as np
@@ -14,19 +13,6 @@ CAR = car_with_bumpers()
 # A robot that goes on standing looks every 10 s; two looks have to agree.
 LOOKED_AGAIN_S = 15.0
 DOOR = closed(((1.0, 0.9), (1.0, 0.95), (0.6, 1.7), (0.55, 1.7)))
-
-
-@pytest.fixture(scope="module")
-def located():
-    running = World(Scene(CAR))
-    assert running.run().state == CarState.LOCATED
-    return running
-
-
-@pytest.fixture
-def world(located):
-    """A world of its own in which the Car has just been found."""
-    return copy.deepcopy(located)
 
 
 def moved(world, x, y, degrees):

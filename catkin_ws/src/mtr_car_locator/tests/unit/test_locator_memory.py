@@ -1,11 +1,10 @@
 """The Car that a locator is started again with."""
 # SPDX-License-Identifier: Apache-2.0
-import copy
 import json
 
 import numpy as np
 import pytest
-from locator_simulation import Scene, World, car_with_bumpers
+from locator_simulation import car_with_bumpers
 
 from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.memory.keeper import CarKeeper
@@ -16,19 +15,6 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check
 
 CAR = car_with_bumpers()
-
-
-@pytest.fixture(scope="module")
-def located():
-    running = World(Scene(CAR))
-    assert running.run().state == CarState.LOCATED
-    return running
-
-
-@pytest.fixture
-def world(located):
-    """A world in which the Car has just been found."""
-    return copy.deepcopy(located)
 
 
 def remembered(estimate):

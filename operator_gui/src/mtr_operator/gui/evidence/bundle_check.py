@@ -4,36 +4,26 @@ from __future__ import annotations
 
 import logging
 import pathlib
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
-from PyQt5.QtCore import QThread, pyqtSignal
+from PyQt5.QtCore import pyqtSignal
 
 from ..i18n import translate
 from ..sentences import translated
+from ..waited_thread import WaitedThread
 
 if TYPE_CHECKING:
     from mtr_operator.evidence.verification import Verification
 
-FINISH_LIMIT_MS = 20_000
 
-
-class BundleCheck(QThread):
+class BundleCheck(WaitedThread):
     """Signals: checked(path, Verification)."""
 
     checked = pyqtSignal(object, object)
-    _running: ClassVar[set[BundleCheck]] = set()
 
     def __init__(self, path: pathlib.Path):
         super().__init__()
         self._path = path
-        self._running.add(self)
-        self.finished.connect(lambda: self._running.discard(self))
-
-    @classmethod
-    def finish_all(cls) -> None:
-        """Wait for what is being verified: a thread that Qt ends with the window is a crash."""
-        for check in list(cls._running):
-            check.wait(FINISH_LIMIT_MS)
 
     def run(self) -> None:
         """See QThread."""

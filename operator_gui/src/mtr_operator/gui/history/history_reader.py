@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import logging
-from typing import ClassVar
 
-from PyQt5.QtCore import QObject, QThread, pyqtSignal
+from PyQt5.QtCore import QObject, pyqtSignal
 
 from mtr_operator.history.index import Index
 
-# One test that is being read.
-FINISH_LIMIT_MS = 5000
+from ..waited_thread import WaitedThread
 
 
-class HistoryReader(QThread):
+class HistoryReader(WaitedThread):
     """Brings an index up to date; the index belongs to the thread while it runs.
 
     Signals: told(entries): what is known so far. done(entries): all of it.
@@ -21,21 +19,14 @@ class HistoryReader(QThread):
 
     told = pyqtSignal(list)
     done = pyqtSignal(list)
-    _running: ClassVar[set[HistoryReader]] = set()
 
     def __init__(self, index: Index, parent: QObject | None = None):
         super().__init__(parent)
         self._index = index
-        self._running.add(self)
-        self.finished.connect(lambda: self._running.discard(self))
 
-    @classmethod
-    def finish_all(cls) -> None:
-        """End what is being read: a thread that Qt ends with the window is a crash."""
-        for reader in list(cls._running):
-            reader.requestInterruption()
-        for reader in list(cls._running):
-            reader.wait(FINISH_LIMIT_MS)
+    def prepare_to_finish(self) -> None:
+        """See WaitedThread: no more than the test that is being read."""
+        self.requestInterruption()
 
     def run(self) -> None:
         """See QThread."""

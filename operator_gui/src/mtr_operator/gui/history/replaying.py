@@ -4,33 +4,23 @@ from __future__ import annotations
 
 import logging
 import pathlib
-from typing import ClassVar
 
-from PyQt5.QtCore import QThread, pyqtSignal
+from PyQt5.QtCore import pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError
 
-FINISH_LIMIT_MS = 20_000
+from ..waited_thread import WaitedThread
 
 
-class Replaying(QThread):
+class Replaying(WaitedThread):
     """Signals: replayed(path, ReplayedTest). refused(text): why not."""
 
     replayed = pyqtSignal(object, object)
     refused = pyqtSignal(str)
-    _running: ClassVar[set[Replaying]] = set()
 
     def __init__(self, path: pathlib.Path):
         super().__init__()
         self._path = path
-        self._running.add(self)
-        self.finished.connect(lambda: self._running.discard(self))
-
-    @classmethod
-    def finish_all(cls) -> None:
-        """Wait for what is being computed: a thread that Qt ends with the window is a crash."""
-        for replaying in list(cls._running):
-            replaying.wait(FINISH_LIMIT_MS)
 
     def run(self) -> None:
         """See QThread."""
