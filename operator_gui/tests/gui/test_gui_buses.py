@@ -140,7 +140,7 @@ def test_adapters_of_all_buses_are_remembered_and_shown_in_the_settings(newcomer
 
 
 def test_adapter_of_a_further_bus_is_lent_to_learn_with(form, profile, tmp_path):
-    class Flow:
+    class Connecting:
         """Has adapters in use."""
 
         can_in_use = choice_of(tmp_path, profile)
@@ -152,7 +152,12 @@ def test_adapter_of_a_further_bus_is_lent_to_learn_with(form, profile, tmp_path)
         def use_can(self, choice):
             self.wanted.append(choice)
 
+    class Flow:
+        """Of the window."""
+
+        connecting = Connecting()
+
     loan = AdapterLoan(Flow())
     loan.take(CanChoice("virtual", f"{tmp_path}body"))
     loan.give_back()
-    assert Flow.wanted == [None, Flow.can_in_use]
+    assert Connecting.wanted == [None, Connecting.can_in_use]

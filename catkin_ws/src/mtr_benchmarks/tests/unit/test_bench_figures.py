@@ -11,6 +11,7 @@ from mtr_benchmarks.localization import real_time, report
 from mtr_benchmarks.localization.drives import selection
 from mtr_benchmarks.localization.drives.selection import (
     ABDUCT,
+    ANY_CAR,
     CAMPAIGN,
     KIDNAP,
     OPPOSED,
@@ -20,7 +21,8 @@ from mtr_benchmarks.localization.drives.selection import (
     TILT,
     BenchmarkDrive,
 )
-from mtr_benchmarks.localization.judging import abduction, campaign, kidnapping, position_rows
+from mtr_benchmarks.localization.judging import abduction, any_car, campaign, kidnapping, position_rows
+from mtr_benchmarks.localization.judging.any_car import CarVerdict
 from mtr_benchmarks.localization.judging.figures import joined, scene_figures
 from mtr_benchmarks.localization.methods.errors import PoseErrors
 from mtr_benchmarks.localization.methods.outcome import (
@@ -76,7 +78,8 @@ def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005, opposed_m=0.0025):
     lifted = kidnapped_errors({(4.0, 4.5): 2.0, (4.5, 9.0): float("nan")})
     return [*found, result("lot", CAMPAIGN, 1, key_m),
             DriveResult(drive("lot", KIDNAP, 1), {THIS_SYSTEM: MethodOutcome(lifted, 0.5, CAR)}, {}, SEGMENTS),
-            DriveResult(drive("lot", ABDUCT, 1), {}, {}, [], FOUND_AGAIN)]
+            DriveResult(drive("lot", ABDUCT, 1), {}, {}, [], FOUND_AGAIN),
+            DriveResult(drive("lot", ANY_CAR, 1), {}, {}, [], car=CarVerdict(any_car.RIGHT, "", {}, CAR))]
 
 
 def rows(results):
@@ -234,7 +237,7 @@ def test_rows_without_a_must_are_met_whatever_they_are():
 @pytest.mark.parametrize(("variant", "name"), [
     (RANGE_BIAS, position_rows.BIAS.name), (TILT, position_rows.TILTED.name),
     (OPPOSED, position_rows.OPPOSED_BIAS.name), (KIDNAP, kidnapping.DETECTION.name),
-    (ABDUCT, abduction.WRONG.name)])
+    (ABDUCT, abduction.WRONG.name), (ANY_CAR, any_car.FOUND_CARS.name)])
 def test_failed_drive_with_a_further_error_is_not_met(variant, name):
     assert rows(all_results())[name]["met"] is True
     assert rows([*all_results(), failed("lot", variant, THIS_SYSTEM)])[name]["met"] is False

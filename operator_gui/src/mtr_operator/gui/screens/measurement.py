@@ -63,7 +63,7 @@ class MeasurementScreen(QWidget):
         self.go_on = self._hold_button(self.tr("Hold to go on"), self.release_wanted)
         self.taken = self._button(self.tr("Handle taken"), "primary", self.prompt_answered)
         self.resume = self._hold_button(self.tr("Hold to resume"), self.resume_wanted)
-        self.skip = self._button("", "", self.skip_wanted)
+        self.skip = self._button(self.tr("Skip the line"), "", self.skip_wanted)
         self.skip.setToolTip(self.tr("Leave the line that is being measured and go on with the next one (Ctrl+K); it "
                                      "can be measured again when the test is done"))
         self.skip.clicked.connect(lambda: self.skip.setEnabled(False))

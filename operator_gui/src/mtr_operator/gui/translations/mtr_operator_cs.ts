@@ -184,12 +184,12 @@
 <context>
     <name>BundleCheck</name>
     <message>
-        <location filename="../evidence/bundle_check.py" line="56"/>
+        <location filename="../evidence/bundle_check.py" line="46"/>
         <source>{name} is not as it was signed: {problems}</source>
         <translation>{name} není tak, jak byl podepsán: {problems}</translation>
     </message>
     <message>
-        <location filename="../evidence/bundle_check.py" line="58"/>
+        <location filename="../evidence/bundle_check.py" line="48"/>
         <source>{name} is intact: {count} files, bundle {number} of {station}, signed {time} with the key {key}; compare it with the station&apos;s.</source>
         <translation>{name} je neporušený: {count} souborů, balíček {number} stanice {station}, podepsán {time} klíčem {key}; porovnejte jej s klíčem stanice.</translation>
     </message>

@@ -74,7 +74,7 @@ class DriveOptions(ParameterSet):
         super().__post_init__()
         named_scenario(self.scene)
         if self.car not in (RANDOM, *CAR_SHAPES):
-            raise ConfigurationError(f"Parameter car is '{self.car}'; allowed is {RANDOM}, {', '.join(CAR_SHAPES)}.")
+            raise ConfigurationError(f"Parameter car is '{self.car}'; allowed is {', '.join(CAR_SHAPES)}, {RANDOM}.")
         if self.kidnap and self.abduct:
             raise ConfigurationError("Parameters kidnap and abduct are both true; a robot is carried away in one way "
                                      "only.")
