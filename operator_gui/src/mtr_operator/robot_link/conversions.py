@@ -133,9 +133,7 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         session_id=message.session_id, command_id=message.command_id, waypoint_id=message.waypoint_id,
         waypoint_result=robot_status.WaypointResult(message.waypoint_result), waypoint_message=message.waypoint_message,
         waypoint_problems=_problems_from(message.waypoint_problems),
-        presses=tuple(robot_status.PressReport(p.id, p.start_s, p.end_s, p.error, _problems_from(p.problems))
-                      for p in message.presses),
-        map_car_id=message.map_car_id,
+        presses=tuple(map(_press_from, message.presses)), map_car_id=message.map_car_id,
         log=tuple(robot_status.LogMessage(m.id, m.stamp_s, m.severity, m.source, m.text) for m in message.log),
         notifications=tuple(robot_status.Notification(n.code, n.severity, n.text, _problems_from(n.problems))
                             for n in message.notifications),
@@ -149,22 +147,15 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         preflight=preflight_from(message.preflight) if message.HasField("preflight") else None)
 
 
+def _press_from(message: pb.PressConfirmation) -> robot_status.PressReport:
+    return robot_status.PressReport(message.id, message.start_s, message.end_s, message.error,
+                                    _problems_from(message.problems))
+
+
 def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
     """Status message that a robot in this state sends; NaN and None are absent fields."""
-    state = pb.RobotState(
-        speed=status.speed_mps, yaw_rate_radps=status.yaw_rate_radps, pose_valid=status.pose_valid,
-        key_x=status.key_x, key_y=status.key_y, pressed_device_buttons=status.pressed_buttons,
-        is_mapping_car=status.is_mapping_car, stamp_s=status.stamp_s)
-    for name, value in (("x", status.x), ("y", status.y), ("heading", status.heading),
-                        ("device_height", status.key_height_m), ("position_sigma_m", status.position_sigma_m),
-                        ("heading_sigma_rad", status.heading_sigma_rad), ("battery_level", status.battery_percent),
-                        ("localization_accuracy", status.localization_accuracy_cm),
-                        ("variance_x_m2", status.variance_x_m2), ("variance_y_m2", status.variance_y_m2),
-                        ("covariance_xy_m2", status.covariance_xy_m2)):
-        if value is not None and not math.isnan(value):
-            setattr(state, name, value)
     message = pb.Status(
-        id=status.id, robot_session_id=status.robot_session_id, state=state,
+        id=status.id, robot_session_id=status.robot_session_id, state=_state_message(status),
         sent_time_s=status.stamp_s if math.isnan(status.sent_s) else status.sent_s,
         emergency_stop=status.emergency_stop.value, motion_source=status.motion_source.value, hold_id=status.hold_id,
         interventions=pb.Interventions(**{name: getattr(status.interventions, name) for name in _COUNTS}),
@@ -193,6 +184,22 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
     if status.preflight is not None:
         message.preflight.CopyFrom(preflight_message(status.preflight))
     return message
+
+
+def _state_message(status: robot_status.RobotStatus) -> pb.RobotState:
+    state = pb.RobotState(
+        speed=status.speed_mps, yaw_rate_radps=status.yaw_rate_radps, pose_valid=status.pose_valid,
+        key_x=status.key_x, key_y=status.key_y, pressed_device_buttons=status.pressed_buttons,
+        is_mapping_car=status.is_mapping_car, stamp_s=status.stamp_s)
+    for name, value in (("x", status.x), ("y", status.y), ("heading", status.heading),
+                        ("device_height", status.key_height_m), ("position_sigma_m", status.position_sigma_m),
+                        ("heading_sigma_rad", status.heading_sigma_rad), ("battery_level", status.battery_percent),
+                        ("localization_accuracy", status.localization_accuracy_cm),
+                        ("variance_x_m2", status.variance_x_m2), ("variance_y_m2", status.variance_y_m2),
+                        ("covariance_xy_m2", status.covariance_xy_m2)):
+        if value is not None and not math.isnan(value):
+            setattr(state, name, value)
+    return state
 
 
 def _car_message(car: robot_status.CarDimensions, frame: robot_status.CarFrame) -> pb.CarDimensions:

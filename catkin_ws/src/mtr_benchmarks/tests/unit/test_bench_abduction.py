@@ -17,6 +17,7 @@ from mtr_benchmarks.localization.methods.key_track import KeyTrack, key_track
 from mtr_benchmarks.localization.methods.outcome import THIS_SYSTEM
 from mtr_benchmarks.localization.methods.this_system import NoMap, SystemFailure
 from mtr_benchmarks.localization.one_drive import RECORDING, DriveResult, DriveTask
+from mtr_benchmarks.localization.repeats import MAX_DRIVES
 from mtr_core.se2 import Pose2
 
 CARRIED_S = 4.0
@@ -193,9 +194,9 @@ def test_drive_that_proves_nothing_is_repeated_with_another_seed_and_told(monkey
 
 
 def test_drive_that_never_proves_anything_fails(monkeypatch, tmp_path):
-    Stage(monkeypatch, [NoMap("There is no map.")] * one_abduction.MAX_DRIVES)
+    Stage(monkeypatch, [NoMap("There is no map.")] * MAX_DRIVES)
     found = one_abduction.run_abduction(task(tmp_path))
-    assert found.fate is None and len(found.repeats) == one_abduction.MAX_DRIVES
+    assert found.fate is None and len(found.repeats) == MAX_DRIVES
     assert found.failures[RECORDING].startswith("5 drives gave nothing.")
 
 

@@ -18,6 +18,7 @@ from mtr_benchmarks.localization.judging import any_car
 from mtr_benchmarks.localization.methods.outcome import THIS_SYSTEM, CarErrors
 from mtr_benchmarks.localization.methods.this_system import NotLocated, SystemFailure
 from mtr_benchmarks.localization.one_drive import RECORDING, DriveResult, DriveTask
+from mtr_benchmarks.localization.repeats import MAX_DRIVES
 
 ROBOT_RADIUS_M = 0.35
 SEEDS = range(1, ANY_CARS + 1)
@@ -118,7 +119,7 @@ def test_drive_that_touches_something_is_made_with_another_car_and_told(tmp_path
 
     monkeypatch.setattr(one_any_car, "record", record)
     result = one_any_car.run_any_car(drawn(folder=tmp_path))
-    assert len(set(seeds)) == one_any_car.MAX_DRIVES == len(result.repeats) and RECORDING in result.failures
+    assert len(set(seeds)) == MAX_DRIVES == len(result.repeats) and RECORDING in result.failures
 
 
 def test_report_names_each_car_that_was_not_right():

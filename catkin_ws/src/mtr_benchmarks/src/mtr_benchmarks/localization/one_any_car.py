@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import shutil
 from dataclasses import asdict
-from typing import Any, Dict, List, Tuple
 
 from mtr_car_locator.conversions import scans_in
 from mtr_description.shipped import shipped_geometry
@@ -10,35 +9,21 @@ from mtr_description.shipped import shipped_geometry
 from .drives.random_car import random_car
 from .drives.record import DriveError, record
 from .drives.recording import BAG
-from .drives.selection import BenchmarkDrive, repeated
+from .drives.selection import BenchmarkDrive
 from .drives.truth import read_truth
 from .judging.any_car import ASKED, WRONG, CarVerdict, verdict
-from .methods.outcome import THIS_SYSTEM
-from .methods.this_system import NoMap, NotLocated, SystemFailure, car_errors, data_sheet, key_frames, locate, mapped
-from .one_drive import RECORDING, DriveResult, DriveTask
-
-MAX_DRIVES = 5
+from .methods.this_system import NoMap, NotLocated, car_errors, data_sheet, key_frames, locate, mapped
+from .one_drive import DriveResult, DriveTask
+from .repeats import run_until_it_proves
 
 
 def run_any_car(task: DriveTask) -> DriveResult:
     """A drive that touches something proves nothing and is repeated with the next seed, and told; what the system
     refuses counts. Of the recordings only those of Cars that were found wrong are kept."""
-    drive = task.drive
-    repeats: List[str] = []
-    for _ in range(MAX_DRIVES):
-        try:
-            found, segments = _drive(drive, task)
-            return DriveResult(drive, {}, {}, segments, None, repeats, found)
-        except DriveError as error:
-            repeats.append(f"{drive.name}: {error}")
-            drive = repeated(drive)
-        except SystemFailure as error:
-            return DriveResult(drive, {}, {THIS_SYSTEM: str(error)}, [], None, repeats)
-    return DriveResult(task.drive, {}, {RECORDING: f"{MAX_DRIVES} drives gave nothing. {repeats[-1]}"}, [], None,
-                       repeats)
+    return run_until_it_proves(task.drive, lambda drive: _drive(drive, task), (DriveError,))
 
 
-def _drive(drive: BenchmarkDrive, task: DriveTask) -> Tuple[CarVerdict, List[Dict[str, Any]]]:
+def _drive(drive: BenchmarkDrive, task: DriveTask) -> DriveResult:
     folder = task.folder / drive.name
     drawn = random_car(drive.options.seed)
     about = {**asdict(drawn.shape), "lidar_height_m": drawn.lidar_height_m, "rear_lidar": drawn.rear_lidar,
@@ -52,10 +37,10 @@ def _drive(drive: BenchmarkDrive, task: DriveTask) -> Tuple[CarVerdict, List[Dic
             car = locate(out, truth.meta, scans_in(folder / BAG, shipped_geometry().lidars()),
                          data_sheet(truth.meta) if drawn.knows_sheet else None)
         except (NoMap, NotLocated) as error:
-            return CarVerdict(ASKED, str(error), about), segments
+            return DriveResult(drive, {}, {}, segments, car=CarVerdict(ASKED, str(error), about))
         found = verdict(car_errors(car, key_frames(out), truth), about)
         is_kept = task.keep and found.verdict == WRONG
-        return found, segments
+        return DriveResult(drive, {}, {}, segments, car=found)
     finally:
         if not is_kept:
             shutil.rmtree(folder, ignore_errors=True)
