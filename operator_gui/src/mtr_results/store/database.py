@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import pathlib
+import sqlite3
+import time
 from typing import Any, Iterator
 
 from sqlalchemy import Connection, Engine, create_engine, event, inspect, text
@@ -16,6 +18,7 @@ from .sentences import told
 
 # So long a writer waits for another one; a test is written in some hundredths of a second.
 BUSY_S = 30.0
+_AGAIN_S = 0.01
 CONNECT_S = 10.0
 # Any number that no other program on the server locks.
 _LOCK = 7_304_121
@@ -51,8 +54,22 @@ def _url(address: str) -> URL:
 def _set_up_sqlite(connection: Any, _record: Any) -> None:
     # Transactions are begun below, not by the driver; readers do not wait for a writer.
     connection.isolation_level = None
-    for pragma in ("foreign_keys = ON", "journal_mode = WAL", "synchronous = FULL"):
+    _write_ahead(connection)
+    for pragma in ("foreign_keys = ON", "synchronous = FULL"):
         connection.execute(f"PRAGMA {pragma}")
+
+
+def _write_ahead(connection: sqlite3.Connection) -> None:
+    """SQLite waits for another program's lock everywhere but where it changes a new file to this journal."""
+    until_s = time.monotonic() + BUSY_S
+    while True:
+        try:
+            connection.execute("PRAGMA journal_mode = WAL")
+            return
+        except sqlite3.OperationalError as error:
+            if "locked" not in str(error) or time.monotonic() > until_s:
+                raise
+        time.sleep(_AGAIN_S)
 
 
 def _begin_sqlite(connection: Connection) -> None:

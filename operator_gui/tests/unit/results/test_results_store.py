@@ -1,7 +1,10 @@
 """The store: each test once, whole, with every point; two writers at once; nothing lost while it is away."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import sqlite3
 import threading
+import time
+from types import SimpleNamespace
 
 import measured
 import pytest
@@ -149,6 +152,16 @@ def test_two_programs_that_make_a_store_at_once_make_one(any_place):
     for each in makers:
         each.join(30.0)
     assert not problems
+
+
+def test_store_that_another_program_is_making_is_waited_for(place, monkeypatch):
+    other = sqlite3.connect(place.address, isolation_level=None)
+    other.execute("BEGIN IMMEDIATE")
+    clock = SimpleNamespace(monotonic=time.monotonic, sleep=lambda _: other.commit())
+    monkeypatch.setattr("mtr_results.store.database.time", clock)
+    with place.open().reading() as connection:
+        assert connection.execute(text("PRAGMA journal_mode")).scalar() == "wal"
+    other.close()
 
 
 def test_migrations_make_what_the_models_say(any_place):
