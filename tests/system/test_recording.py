@@ -28,6 +28,8 @@ def recorded(out):
     with Stack(StackOptions(out)) as stack:
         program = [sys.executable, str(SCRIPTS / "record"), "--profile", "full", "--out", str(out), "--limit", "800"]
         recording = subprocess.Popen(program, env=stack.environment(), text=True, stdout=subprocess.PIPE)
+        # It says so when it hears everything: a robot that has gone meanwhile would have its map elsewhere.
+        said = recording.stdout.readline()
         measuring = Application(stack).start("autolock", PARAMETERS / "autolock.yaml", out / "autolock")
         observer = Observer(stack.status_port)
         try:
@@ -38,7 +40,7 @@ def recorded(out):
             observer.close()
             for process in (recording, measuring):
                 process.send_signal(signal.SIGINT)
-            said, _ = recording.communicate(timeout=END_LIMIT_S)
+            recording.communicate(timeout=END_LIMIT_S)
             measuring.communicate(timeout=END_LIMIT_S)
     return pathlib.Path(said.split()[1].partition("_*.bag")[0])
 

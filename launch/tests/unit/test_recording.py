@@ -5,6 +5,7 @@ import math
 import pathlib
 import re
 import signal
+from types import SimpleNamespace
 
 import pytest
 import rosbag
@@ -12,7 +13,7 @@ import rospy
 from genpy.dynamic import generate_dynamic
 from geometry_msgs.msg import Twist
 
-from mtr_bringup.recording import mcap_file
+from mtr_bringup.recording import listening, mcap_file
 from mtr_bringup.recording.bags import decisions_in
 from mtr_bringup.recording.command_line import compare, parsed, run, written_as_mcap
 from mtr_bringup.recording.decisions import CarSeen, Decisions, differences
@@ -70,10 +71,28 @@ def test_program_is_ended_as_by_ctrl_c_and_waited_for(number):
     before = {each: signal.getsignal(each) for each in (signal.SIGINT, signal.SIGTERM)}
     program = f"trap 'exit 3' INT; kill -{number.value} $PPID; while :; do sleep 0.05; done"
     try:
-        assert run(["bash", "-c", program]) == 3
+        assert run(["bash", "-c", program], lambda: True, "It runs.") == 3
     finally:
         for each, handler in before.items():
             signal.signal(each, handler)
+
+
+def test_program_is_said_to_run_when_it_does(tmp_path, monkeypatch):
+    end, looks = tmp_path / "end", iter((False, False, True))
+    monkeypatch.setattr("builtins.print", lambda *_, **__: end.touch() if next(looks, None) is None else None)
+    program = f"for _ in $(seq 500); do [ -e {end} ] && exit 0; sleep 0.02; done; exit 5"
+    assert run(["bash", "-c", program], lambda: next(looks), "It runs.") == 0
+
+
+@pytest.mark.parametrize(("links", "is_heard"), [((), False), (("/a",), False), (("/a", "/b"), True)])
+def test_recorder_listens_when_it_is_connected_with_every_publisher(links, is_heard, monkeypatch):
+    state = ([["/scan", ["/a", "/b"]], ["/else", ["/a"]]], [["/scan", ["/record", "/c"]], ["/else", ["/c"]]], [])
+    master = SimpleNamespace(getSystemState=lambda: state, lookupNode=lambda _: "http://127.0.0.1:1")
+    info = [1, "", [[1, node, "i", "TCPROS", "/scan", True] for node in links] + [[2, "/c", "o", "TCPROS", "/rosout"]]]
+    monkeypatch.setattr(listening.rosgraph, "Master", lambda _: master)
+    monkeypatch.setattr(listening.xmlrpc.client, "ServerProxy", lambda _: SimpleNamespace(getBusInfo=lambda _: info))
+    assert listening.is_listening("/record") is is_heard
+    assert not listening.is_listening("/another")
 
 
 def decided(shift_m=0.0, turn_deg=0.0, longer_m=0.0, last=CarState.LOCATED):
@@ -100,6 +119,15 @@ def test_each_decision_counts_once_while_it_lasts():
 def test_what_was_decided_otherwise_is_told(replayed, words):
     found = " ".join(differences(decided(), replayed))
     assert (not found) if words is None else re.search(words, found)
+
+
+@pytest.mark.parametrize(("begun_with", "is_same"), [(0, True), (1, True), (2, True), (3, False)])
+def test_what_a_replay_decides_before_the_recording_began_does_not_count(begun_with, is_same):
+    recorded, replayed = decided(), decided()
+    replayed.modes = [(0, False), *replayed.modes]
+    recorded.modes = [*recorded.modes, (3, True)][begun_with:]
+    replayed.modes += [(3, True)] if is_same else [(3, False)]
+    assert (not differences(recorded, replayed)) is is_same
 
 
 def test_recording_without_decisions_proves_nothing():

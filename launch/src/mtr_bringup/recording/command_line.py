@@ -14,7 +14,8 @@ import shutil
 import signal
 import subprocess
 import sys
-from typing import Any, Dict, List, Optional
+import time
+from typing import Any, Callable, Dict, List, Optional
 
 import rospy
 import yaml
@@ -27,12 +28,14 @@ from ..graph_watch.environment import as_around
 from ..preflight.command_line import master_answers
 from .bags import decisions_in, messages_in
 from .decisions import differences
+from .listening import is_listening
 from .mcap_file import check_mcap, write_mcap
 from .player import RECORDED_IN_LOCKSTEP, Player
 from .profiles import DEFAULT_LIMIT_MB, MAX_LIMIT_MB, MIN_LIMIT_MB, PROFILES, CannotRecord, check_room, command_of
 
 CANNOT = 2
 MIN_RATE, MAX_RATE = 0.05, 20.0
+READY_EVERY_S, READY_LIMIT_S = 0.1, 10.0
 # Of nodes that are started again in a replay.
 KEPT_PARAMETERS = (names.ROBOT_DESCRIPTION, "/localization", "/car_locator", "/state_machine")
 
@@ -54,8 +57,9 @@ def record(arguments: Optional[List[str]] = None) -> int:
         return CANNOT
     mapped = rospy.names.load_mappings(given)
     command = command_of(options.profile, prefix, options.limit, lambda topic: mapped.get(topic, topic))
-    print(f"Recording {prefix}_*.bag, the newest {options.limit:.0f} MB; Ctrl-C ends it.", flush=True)
-    status = run(command)
+    recorder = f"record_{os.getpid()}"
+    status = run([*command, f"__name:={recorder}"], lambda: is_listening(f"/{recorder}"),
+                 f"Recording {prefix}_*.bag, the newest {options.limit:.0f} MB; Ctrl-C ends it.")
     return status or (written_as_mcap(prefix) if options.mcap else 0)
 
 
@@ -108,9 +112,14 @@ def keep_parameters(path: pathlib.Path) -> None:
     path.write_text(yaml.safe_dump(kept), encoding="utf-8")
 
 
-def run(command: List[str]) -> int:
+def run(command: List[str], is_ready: Callable[[], bool], sentence: str) -> int:
     """The program's exit status; Ctrl-C and the end of a service end it, and it is waited for, so that the bag is
-    closed."""
+    closed.
+
+    Args:
+        is_ready: looks whether the program does its work.
+        sentence: said when it does.
+    """
     started: List[subprocess.Popen[bytes]] = []
     asked: List[int] = []
 
@@ -126,6 +135,12 @@ def run(command: List[str]) -> int:
     started.append(subprocess.Popen(command, env=as_around(os.environ), start_new_session=True))
     if asked:
         started[0].send_signal(signal.SIGINT)
+    # A node that has died without a word is never heard.
+    until_s = time.monotonic() + READY_LIMIT_S
+    while started[0].poll() is None and not is_ready() and time.monotonic() < until_s:
+        time.sleep(READY_EVERY_S)
+    if started[0].poll() is None:
+        print(sentence, flush=True)
     return started[0].wait()
 
 
@@ -136,13 +151,14 @@ def play(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(prog="play", description=play.__doc__)
     parser.add_argument("bags", type=pathlib.Path, nargs="+", help="files of one recording")
     parser.add_argument("--rate", type=float, default=1.0, help="recorded seconds per second at most (1)")
+    parser.add_argument("--recorder", help="node that records what is decided, and is waited for")
     options = parser.parse_args(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
     problem = range_problem("Option --rate", options.rate, MIN_RATE, MAX_RATE, "")
     if problem:
         parser.error(problem)
     try:
         rospy.init_node("play")
-        rospy.loginfo(Player(options.bags, options.rate).play())
+        rospy.loginfo(Player(options.bags, options.rate, options.recorder).play())
     except RobotError as error:
         print(error, file=sys.stderr)
         return CANNOT

@@ -66,6 +66,9 @@ def differences(recorded: Decisions, replayed: Decisions) -> List[str]:
 
 
 def _sequence(what: str, recorded: List[str], replayed: List[str]) -> Optional[str]:
+    # A recording may begin when the robot has been going for a while, and a replay starts from nothing.
+    if recorded[0] in replayed:
+        replayed = replayed[replayed.index(recorded[0]):]
     if recorded == replayed:
         return None
     return f"{what} were {_listed(recorded)} when recorded, and {_listed(replayed)} when replayed."

@@ -10,7 +10,7 @@ import operator
 import pathlib
 import threading
 import time
-from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Sequence, Tuple
+from typing import Any, Dict, Iterable, Iterator, List, NamedTuple, Optional, Sequence, Tuple
 
 import rosbag
 import rosgraph
@@ -21,6 +21,7 @@ from rosgraph_msgs.msg import Clock
 from mtr_core import names
 from mtr_msgs.msg import CarEstimate, LocalizedPose, RobotMode
 
+from .listening import is_listening
 from .pace import Follower, Pace
 from .profiles import REPLAYED, CannotReplay
 
@@ -49,10 +50,14 @@ class Played(NamedTuple):
 
 
 class Player:
-    """Publishes /clock and the messages of the bags, at most `rate` times as fast as they were recorded."""
+    """Publishes /clock and the messages of the bags, at most `rate` times as fast as they were recorded.
 
-    def __init__(self, bags: Sequence[pathlib.Path], rate: float):
-        self._bags, self._rate = bags, rate
+    Attributes:
+        recorder: node that is waited for, too, so that it misses nothing; None: nobody records.
+    """
+
+    def __init__(self, bags: Sequence[pathlib.Path], rate: float, recorder: Optional[str] = None):
+        self._bags, self._rate, self.recorder = bags, rate, recorder
         self._topics = {rospy.resolve_name(name): name for name in REPLAYED}
         self._pace = Pace(list(FOLLOWERS.values()), PATIENCE_S)
         self._spoken = threading.Condition()
@@ -132,6 +137,8 @@ class Player:
             late = [node for node in LISTENERS if node not in nodes.get("/clock", set())]
             if odometry in self._publishers and LISTENERS[0] not in nodes.get(odometry, set()):
                 late.append(LISTENERS[0])
+            if self.recorder is not None and not is_listening(self.recorder):
+                late.append(self.recorder)
             unheard = [topic for topic, publisher in self._publishers.items()
                        if publisher.get_num_connections() < len(nodes.get(topic, set()) & set(LISTENERS))]
             if not late and not unheard:
