@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import datetime
 import enum
-import functools
+import json
+import math
 from typing import Any, Sequence
 
-from sqlalchemy import Connection, Dialect, bindparam, delete, insert, select, update
+from sqlalchemy import Connection, delete, insert, select, text, update
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
@@ -23,8 +24,6 @@ from .kept_files import KeptFiles
 
 # Another program may enter the same test between the look and the entry; then it is there.
 _ATTEMPTS = 3
-# Rows of one statement: databases take some ten thousand values at once.
-_ROWS = 500
 
 
 class Outcome(enum.Enum):
@@ -90,34 +89,29 @@ def _enter(connection: Connection, number: int, record: TestRecord, files: Seque
     for table, rows in ((TestEquipment, [{"equipment_id": instrument} for instrument in instruments]),
                         (Line, record.lines), (Measurement, record.measurements), (Trial, record.trials),
                         (Verdict, record.verdicts), (File, files)):
-        for start in range(0, len(rows), _ROWS):
-            part = [{"test_id": number, **row} for row in rows[start:start + _ROWS]]
-            if _is_remote(connection):
-                # A server answers each statement: one with many rows is quicker there.
-                _insert_at_once(connection, table, part)
-            else:
-                connection.execute(insert(table), part)
+        if not rows:
+            continue
+        entered = [{"test_id": number, **row} for row in rows]
+        if _is_remote(connection):
+            _insert_as_one_value(connection, table, entered)
+        else:
+            connection.execute(insert(table), entered)
 
 
-def _insert_at_once(connection: Connection, table: type[Base], rows: Sequence[Row]) -> None:
-    """Rows with the same columns in few statements, whose texts are made once: SQLAlchemy keeps none of many rows."""
-    start = 0
-    while start < len(rows):
-        # Powers of two, so that there are few texts.
-        count = 1 << ((len(rows) - start).bit_length() - 1)
-        text, order = _text_of(table, tuple(rows[start]), count, connection.dialect)
-        values = {f"{name}_{index}": value for index, row in enumerate(rows[start:start + count])
-                  for name, value in row.items()}
-        connection.exec_driver_sql(text, tuple(values[name] for name in order))
-        start += count
+def _insert_as_one_value(connection: Connection, table: type[Base], rows: Sequence[Row]) -> None:
+    """Rows with the same columns. A server takes longer to read a statement of thousands of values than to enter
+    them, so they come as one, which it takes apart."""
+    quote, columns = connection.dialect.identifier_preparer.quote, table.__table__.c
+    names = ", ".join(map(quote, rows[0]))
+    kinds = ", ".join(f"{quote(name)} {columns[name].type.compile(connection.dialect)}" for name in rows[0])
+    document = json.dumps([{name: _in_json(value) for name, value in row.items()} for row in rows])
+    connection.execute(text(f"INSERT INTO {quote(table.__tablename__)} ({names}) SELECT {names} FROM "
+                            f"json_to_recordset(CAST(:rows AS json)) AS entered({kinds})"), {"rows": document})
 
 
-@functools.lru_cache(maxsize=256)
-def _text_of(table: type[Base], columns: tuple[str, ...], count: int, dialect: Dialect) -> tuple[str, tuple[str, ...]]:
-    """Statement for the driver, and the order of its values, each named COLUMN_ROW."""
-    rows: list[Row] = [{name: bindparam(f"{name}_{index}") for name in columns} for index in range(count)]
-    compiled: Any = insert(table).values(rows).compile(dialect=dialect)
-    return str(compiled), tuple(compiled.positiontup)
+def _in_json(value: Any) -> Any:
+    """JSON has no infinity, the database reads it from a text."""
+    return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def _is_remote(connection: Connection) -> bool:
