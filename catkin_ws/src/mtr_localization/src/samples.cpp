@@ -16,7 +16,7 @@ bool ImuSample::is_plausible() const {
   return mtr_core::is_turn_rate(yaw_rate_radps) &&
          is_none_or(tilt_rate_radps.x(), mtr_core::is_turn_rate(tilt_rate_radps.x())) &&
          is_none_or(tilt_rate_radps.y(), mtr_core::is_turn_rate(tilt_rate_radps.y())) &&
-         std::all_of(force_mps2.begin(), force_mps2.end(),
+         std::all_of(force_mps2.data(), force_mps2.data() + force_mps2.size(),
                      [&](double value) { return is_none_or(value, mtr_core::is_force(value)); });
 }
 
