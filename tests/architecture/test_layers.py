@@ -24,7 +24,7 @@ ROS_OF_CORE = {"mtr_core.lockstep", "mtr_core.conversions"}
 
 # Files of a robot package that may import ROS: the shell around the core.
 SHELL = {"node.py", "conversions.py", "robot_description.py", "connections.py", "sensors.py", "calibrate_lift.py",
-         "inject.py"}
+         "inject.py", "replay.py"}
 # Packages whose job is the border itself.
 BORDER_PACKAGES = {"mtr_benchmarks", "mtr_bringup", "mtr_tests"}
 

@@ -36,6 +36,8 @@ struct SensorParameters {
   double bias_time_s = 1.0;
   /// A longer gap in wheel odometry or IMU data is an interruption.
   double gap_limit_s = 0.2;
+  /// Of a recording that begins while the robot drives: the gyro's bias is that of switch-on until it stands.
+  bool begins_in_motion = false;
 };
 
 using SensorRow = mtr_core::ParameterRow<SensorParameters>;

@@ -26,7 +26,11 @@ Odometry::Odometry(const SensorParameters& parameters)
     : parameters_(parameters),
       history_(PoseFilter(parameters), 0),
       standstill_(parameters),
-      problem_(problems::kStandStill()) {}
+      problem_(problems::kStandStill()) {
+  if (parameters.begins_in_motion) {
+    track();
+  }
+}
 
 mtr_core::Problem Odometry::predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map) {
   const WheelSample& wheels = sample.wheels;

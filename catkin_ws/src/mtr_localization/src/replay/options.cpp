@@ -10,7 +10,8 @@ namespace mtr_localization::replay {
 namespace {
 
 const char kUsage[] =
-    "Usage: replay BAG --out DIR [--front-only] [--parameter NAME=VALUE ...] [--loop-end STAMP_S | --map FILE]";
+    "Usage: replay BAG --out DIR [--front-only] [--in-motion] [--parameter NAME=VALUE ...] "
+    "[--loop-end STAMP_S | --map FILE [--begin-at X Y HEADING]]";
 
 double number_of(const std::string& text, const std::string& what) {
   try {
@@ -68,6 +69,8 @@ Options parse(const std::vector<std::string>& arguments) {
     };
     if (argument == "--front-only") {
       options.front_only = true;
+    } else if (argument == "--in-motion") {
+      options.parameters.sensors.begins_in_motion = true;
     } else if (argument == "--out") {
       options.folder = next();
     } else if (argument == "--parameter") {
@@ -76,6 +79,11 @@ Options parse(const std::vector<std::string>& arguments) {
       options.loop_end_ns = std::llround(number_of(next(), argument) * 1e9);
     } else if (argument == "--map") {
       options.map = next();
+    } else if (argument == "--begin-at") {
+      options.begin_at.emplace();
+      for (double& value : *options.begin_at) {
+        value = number_of(next(), argument);
+      }
     } else if (argument.rfind("--", 0) == 0 || !options.bag.empty()) {
       throw std::runtime_error("'" + argument + "' is not understood. " + kUsage);
     } else {
@@ -87,6 +95,9 @@ Options parse(const std::vector<std::string>& arguments) {
   }
   if (!options.map.empty() && options.loop_end_ns) {
     throw std::runtime_error("--loop-end makes a map and --map brings one; give one of them.");
+  }
+  if (options.begin_at && options.map.empty()) {
+    throw std::runtime_error("--begin-at is a place on a map; give --map, too.");
   }
   return options;
 }

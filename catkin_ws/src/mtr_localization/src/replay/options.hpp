@@ -40,6 +40,8 @@ struct Options {
   std::optional<std::int64_t> loop_end_ns;
   /// File map.bag of another replay: it is localized on, and none is made; empty: one is made.
   std::string map;
+  /// Where base_link is on that map at the first odometry: x, y (m), heading (rad); without it as the map remembers.
+  std::optional<std::array<double, 3>> begin_at;
   Parameters parameters;
   Mounting mounting;
 };

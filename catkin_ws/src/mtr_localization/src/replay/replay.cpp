@@ -16,6 +16,9 @@ namespace {
 
 // The map that is made when the bag has no orders bears this id.
 constexpr std::uint64_t kMapCarId = 1;
+// As well as a person tells a place.
+constexpr double kBeginSigmaM = 0.05;
+constexpr double kBeginSigmaRad = 0.02;
 
 double cpu_s(clockid_t clock) {
   timespec time{};
@@ -65,7 +68,20 @@ void Replay::go_on_with_map() {
   result_.map.revision = memory.revision;
   result_.is_map_new = false;
   has_map_ = true;
-  localizer_.go_on(std::move(memory));
+  if (options_.begin_at) {
+    // It is told for the first odometry, which has not been read yet.
+    memory_ = std::move(memory);
+  } else {
+    localizer_.go_on(std::move(memory));
+  }
+}
+
+void Replay::begin_at(const WheelSample& sample) {
+  const Eigen::Map<const PoseVector> place(options_.begin_at->data());
+  const Eigen::Vector3d sigma(kBeginSigmaM, kBeginSigmaM, kBeginSigmaRad);
+  memory_->pose = RememberedPose{place, sigma.cwiseAbs2().asDiagonal(), {sample.x_m, sample.y_m, sample.heading_rad}};
+  localizer_.go_on(*std::move(memory_));
+  memory_.reset();
 }
 
 void Replay::take(const ImuSample& sample) {
@@ -103,6 +119,9 @@ void Replay::take(Sweep sweep) {
 
 void Replay::take(WheelSample sample) {
   ++result_.wheel_samples;
+  if (memory_) {
+    begin_at(sample);
+  }
   if (!reader_.has_orders() && options_.map.empty()) {
     give_order(sample.stamp_ns);
   }

@@ -49,6 +49,7 @@ class Replay {
 
  private:
   void go_on_with_map();
+  void begin_at(const WheelSample& sample);
   void take(const ImuSample& sample);
   void take(MapOrder order);
   void take(const GnssFix& fix);
@@ -65,6 +66,8 @@ class Replay {
   Localizer localizer_;
   LoopDetector loop_;
   Result result_;
+  /// Until the first odometry says where the robot is in it.
+  std::optional<Memory> memory_;
   bool has_map_ = false;
 };
 

@@ -44,6 +44,18 @@ void write_trajectory(const std::vector<Estimate>& trajectory, const std::string
   }
 }
 
+/// As TUM's tools and evo read it: time, position, quaternion; valid poses alone.
+void write_tum(const std::vector<Estimate>& trajectory, const std::string& path) {
+  std::ofstream file = open(path);
+  file << std::fixed << "# timestamp tx ty tz qx qy qz qw\n";
+  for (const Estimate& estimate : trajectory) {
+    if (estimate.valid) {
+      file << seconds(estimate.stamp_ns) << ' ' << estimate.x_m << ' ' << estimate.y_m << " 0 0 0 "
+           << std::sin(0.5 * estimate.heading_rad) << ' ' << std::cos(0.5 * estimate.heading_rad) << '\n';
+    }
+  }
+}
+
 /// Text as JSON: control characters do not occur in sentences.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
@@ -109,6 +121,7 @@ void write_files(const Result& result, const std::string& bag, const std::string
     throw std::runtime_error("Folder " + folder + " cannot be made: " + error.message() + ".");
   }
   write_trajectory(result.trajectory, folder + "/trajectory.csv");
+  write_tum(result.trajectory, folder + "/trajectory.tum");
   if (result.is_map_new) {
     write_map(result.map, folder);
   }

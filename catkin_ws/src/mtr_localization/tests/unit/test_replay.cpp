@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -106,6 +108,8 @@ TEST(ReplayOptions, WhatIsNotUnderstoodIsASentence) {
   expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "surface_sigma_m=x"}); }, "no number");
   expect_sentence([] { parse({"a.bag", "--out", "b", "--loop-end", "nan"}); }, "no number");
   expect_sentence([] { parse({"a.bag", "--out", "b", "--loop-end", "9", "--map", "m"}); }, "give one of them");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--begin-at", "1", "2", "3"}); }, "give --map");
+  expect_sentence([] { parse({"a.bag", "--out", "b", "--map", "m", "--begin-at", "1", "2"}); }, "needs a value");
 }
 
 TEST(Replay, BagThatLacksSomethingIsASentence) {
@@ -161,6 +165,38 @@ TEST(Replay, ResultsAreWrittenAndTheSameEachTime) {
   for (const char* name : {"surfaces.csv", "key_frames.csv", "map.pgm", "map.yaml", "map.bag", "summary.json"}) {
     EXPECT_TRUE(std::ifstream(folder + "/" + name).good()) << name;
   }
+}
+
+TEST(Replay, ValidPosesAreWrittenForToolsThatReadTum) {
+  const std::string bag = bag_of("tum", {});
+  const Result result = replayed(bag);
+  write_files(result, bag, ::testing::TempDir() + "tum");
+  std::ifstream file(::testing::TempDir() + "tum/trajectory.tum");
+  std::string line;
+  std::getline(file, line);
+  EXPECT_EQ(line, "# timestamp tx ty tz qx qy qz qw");
+  for (const Estimate& pose : result.trajectory) {
+    if (!pose.valid) {
+      continue;
+    }
+    std::getline(file, line);
+    std::istringstream row(line);
+    std::array<double, 8> value{};
+    for (double& each : value) {
+      row >> each;
+    }
+    ASSERT_TRUE(row) << line;
+    EXPECT_NEAR(value[0], static_cast<double>(pose.stamp_ns) * 1e-9, 1e-6);
+    EXPECT_NEAR(value[1], pose.x_m, 1e-6);
+    EXPECT_NEAR(wrapped(2.0 * std::atan2(value[6], value[7]) - pose.heading_rad), 0.0, 1e-5);
+  }
+  EXPECT_FALSE(std::getline(file, line));
+}
+
+TEST(Replay, BagThatBeginsInMotionIsTrackedFromItsFirstPose) {
+  const std::string bag = bag_of("in_motion", {});
+  EXPECT_FALSE(replayed(bag).trajectory.front().valid);
+  EXPECT_TRUE(replayed(bag, {"--in-motion"}).trajectory.front().valid);
 }
 
 TEST(SavedMap, ComesBackFromItsFileAsItWas) {
@@ -220,6 +256,25 @@ TEST(Replay, AnotherDriveIsLocalizedOnTheMapOfAReplay) {
   EXPECT_TRUE(result.trajectory.back().valid) << result.trajectory.back().message.text;
   EXPECT_LT(largest_error_m(result, truth), 0.03);
   expect_sentence([&] { replayed(bag, {"--map", "/nowhere/map.bag"}); }, "File /nowhere/map.bag is not there");
+}
+
+TEST(Replay, PlaceOnTheMapThatIsToldIsTakenUpWhenTheLidarsAgree) {
+  std::vector<PoseVector> truth;
+  const std::string bag = bag_of("begin_at", {}, &truth);
+  const std::string folder = ::testing::TempDir() + "begin_at";
+  const Result mapped = replayed(bag);
+  write_files(mapped, bag, folder);
+  const auto valid = [&](const std::vector<std::string>& place) {
+    std::vector<std::string> options{"--map", folder + "/map.bag", "--in-motion", "--begin-at"};
+    options.insert(options.end(), place.begin(), place.end());
+    const Result result = replayed(bag, options);
+    EXPECT_LT(largest_error_m(result, truth), 0.05);
+    const auto is_valid = [](const Estimate& pose) { return pose.valid; };
+    return std::count_if(result.trajectory.begin(), result.trajectory.end(), is_valid);
+  };
+  const auto right = valid({"0.03", "-0.03", "0.01"});
+  EXPECT_GT(right, 9 * static_cast<std::ptrdiff_t>(mapped.trajectory.size()) / 10);
+  EXPECT_LT(valid({"2.0", "2.0", "1.0"}), right);
 }
 
 std::vector<KeyFrame> frames_at(const std::vector<Eigen::Vector2d>& places) {

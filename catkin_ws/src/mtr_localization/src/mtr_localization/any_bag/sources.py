@@ -1,0 +1,105 @@
+"""Which topic of a bag gives what: as asked for, else by its type."""
+# SPDX-License-Identifier: Apache-2.0
+from dataclasses import dataclass
+from typing import Dict, List, Optional, Tuple
+
+from mtr_core import names
+
+from .errors import BagUnusable
+
+SCAN, ODOMETRY, IMU = "sensor_msgs/LaserScan", "nav_msgs/Odometry", "sensor_msgs/Imu"
+TF = "tf"
+NONE = "none"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the person named, None for what is to be found.
+
+    Attributes:
+        front_scan, rear_scan, odometry, imu: topics; odometry may be TF, rear_scan and imu NONE.
+        base_frame: of the robot, in which x is ahead.
+        urdf: file with the mounts, where the bag has no transforms.
+        scan_delay_s: by how much the scans' stamps are late.
+        time_increment_s: from beam to beam where the scans do not say it.
+    """
+
+    front_scan: Optional[str] = None
+    rear_scan: Optional[str] = None
+    odometry: Optional[str] = None
+    imu: Optional[str] = None
+    base_frame: Optional[str] = None
+    urdf: Optional[str] = None
+    scan_delay_s: float = 0.0
+    time_increment_s: Optional[float] = None
+
+
+def is_own(topics: Dict[str, str], asked: Asked) -> bool:
+    """True for a recording of this robot, which is replayed as it is."""
+    return asked == Asked() and {names.FRONT_SCAN, names.IMU_DATA, names.WHEEL_ODOMETRY} <= set(topics)
+
+
+def scans_of(topics: Dict[str, str], asked: Asked) -> List[str]:
+    """One or two topics with scans: front and rear where they are named, else in any order."""
+    found = sorted(topic for topic, kind in topics.items() if kind == SCAN)
+    if asked.front_scan is not None:
+        wanted = [asked.front_scan]
+        if asked.rear_scan is not None and asked.rear_scan != NONE:
+            wanted.append(asked.rear_scan)
+        for topic in wanted:
+            _check(topics, topic, SCAN)
+        return wanted
+    if not found:
+        raise BagUnusable(f"The bag has no scans: no topic of type {SCAN}. It has {_listed(topics)}.")
+    if len(found) > 2 or (asked.rear_scan == NONE and len(found) > 1):
+        raise BagUnusable(f"The bag has scans on {', '.join(found)}; name those of a level LiDAR by --front-scan and "
+                          "--rear-scan.")
+    return found
+
+
+def odometry_of(topics: Dict[str, str], asked: Asked) -> str:
+    """Topic with odometry, or TF."""
+    if asked.odometry is not None and asked.odometry != TF:
+        _check(topics, asked.odometry, ODOMETRY)
+        return asked.odometry
+    found = sorted(topic for topic, kind in topics.items() if kind == ODOMETRY)
+    if asked.odometry == TF or not found:
+        return TF
+    if len(found) > 1:
+        raise BagUnusable(f"The bag has odometry on {', '.join(found)}; name that of the wheels by --odometry.")
+    return found[0]
+
+
+def imu_of(topics: Dict[str, str], asked: Asked) -> Optional[str]:
+    """Topic with a gyro; None: the wheels' turn has to do."""
+    if asked.imu == NONE:
+        return None
+    if asked.imu is not None:
+        _check(topics, asked.imu, IMU)
+        return asked.imu
+    found = sorted(topic for topic, kind in topics.items() if kind == IMU)
+    if len(found) > 1:
+        raise BagUnusable(f"The bag has IMUs on {', '.join(found)}; name one by --imu, or none.")
+    return found[0] if found else None
+
+
+def front_and_rear(places: List[Tuple[str, float]]) -> Tuple[str, Optional[str]]:
+    """Of one or two topics, each with the place of its LiDAR ahead of the base's origin in m, the front one first."""
+    if len(places) == 1:
+        return places[0][0], None
+    (rear, rear_m), (front, front_m) = sorted(places, key=lambda place: place[1])
+    if front_m == rear_m:
+        raise BagUnusable(f"The LiDARs of {rear} and {front} are equally far ahead; name them by --front-scan and "
+                          "--rear-scan.")
+    return front, rear
+
+
+def _check(topics: Dict[str, str], topic: str, kind: str) -> None:
+    if topic not in topics:
+        raise BagUnusable(f"The bag has no topic {topic}. It has {_listed(topics)}.")
+    if topics[topic] != kind:
+        raise BagUnusable(f"The topic {topic} is of type {topics[topic]}; {kind} is needed.")
+
+
+def _listed(topics: Dict[str, str]) -> str:
+    return ", ".join(sorted(topics)) or "nothing"

@@ -1,0 +1,151 @@
+"""Play a recorded bag through localization, offline and without a ROS master, and find the Car in the map it gives."""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+from typing import Dict, List, Optional, Tuple
+
+import rosbag
+from roslib.packages import find_node
+
+from mtr_core.errors import RobotError
+from mtr_core.se2 import Pose2
+
+from .any_bag.conversions import convert
+from .any_bag.errors import BagUnusable
+from .any_bag.sources import Asked, is_own
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Replay and print what came of it; the exit status is 1 after one sentence when the bag cannot be used."""
+    options = parser().parse_args(arguments)
+    programs = find_node("mtr_localization", "replay_bag")
+    if not programs:
+        print("The program replay_bag of mtr_localization is not built.", file=sys.stderr)
+        return 1
+    try:
+        asked = asked_of(options)
+        topics, start_s = seen_in(options.bag)
+        if is_own(topics, asked):
+            return replayed(programs[0], options, options.bag, {}, start_s)
+        with tempfile.TemporaryDirectory() as folder:
+            bag = pathlib.Path(folder) / "inputs.bag"
+            found = convert(pathlib.Path(options.bag), bag, asked, options.map is None, show)
+            print("\n".join(found.said), flush=True)
+            return replayed(programs[0], options, str(bag), found.parameters, start_s)
+    except RobotError as error:
+        print(error, file=sys.stderr)
+        return 1
+
+
+def replayed(program: str, options: argparse.Namespace, bag: str, parameters: Dict[str, float], start_s: float) -> int:
+    """The exit status of the replay of a bag with our topics."""
+    given = [f"{name}={value}" for name, value in parameters.items()]
+    done = subprocess.run([program, *arguments_of(options, bag, given, start_s)], check=False)
+    if done.returncode == 0:
+        report(options, bag)
+    return done.returncode
+
+
+def show(share: float) -> None:
+    """Of the conversion, for a person at a terminal."""
+    if sys.stderr.isatty():
+        print(f"\rreading {100.0 * share:3.0f} %", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+
+
+def seen_in(path: str) -> Tuple[Dict[str, str], float]:
+    """Types of the bag's topics, and when it begins, in s."""
+    try:
+        with rosbag.Bag(path) as bag:
+            topics = bag.get_type_and_topic_info().topics
+            return {topic: about.msg_type for topic, about in topics.items()}, float(bag.get_start_time())
+    except (rosbag.ROSBagException, OSError) as error:
+        raise BagUnusable(f"Bag {path} cannot be read: {error}.") from None
+
+
+def parser() -> argparse.ArgumentParser:
+    """The command line."""
+    parsed = argparse.ArgumentParser(prog="replay", description=__doc__)
+    parsed.add_argument("bag", help="recorded drive: scans, IMU, wheel odometry")
+    parsed.add_argument("--out", required=True, type=pathlib.Path, help="folder for the results")
+    parsed.add_argument("--front-only", action="store_true", help="leave out the rear LiDAR")
+    parsed.add_argument("--parameter", action="append", default=[], metavar="NAME=VALUE",
+                        help="parameter of localization, any number of times")
+    parsed.add_argument("--map", type=pathlib.Path, metavar="FILE",
+                        help="map.bag of another replay: localize on it, and make none")
+    end = parsed.add_mutually_exclusive_group()
+    end.add_argument("--loop-end", metavar="STAMP_S",
+                     help="end of the way round the Car; default: by the bag's orders, or when it closes")
+    end.add_argument("--loop-end-after", type=float, metavar="S", help="the same in seconds of the bag")
+    parsed.add_argument("--in-motion", action="store_true",
+                        help="the bag begins while the robot drives: the gyro's bias is not measured first")
+    parsed.add_argument("--begin-at", type=float, nargs=3, metavar=("X", "Y", "HEADING"),
+                        help="with --map: pose on it at the first odometry, m and rad; default: as the map has it")
+    parsed.add_argument("--no-car", action="store_true", help="do not look for the Car in the map")
+    other = parsed.add_argument_group("bags of other robots", "what is not named is found by its type")
+    other.add_argument("--front-scan", metavar="TOPIC", help="scans of the LiDAR ahead")
+    other.add_argument("--rear-scan", metavar="TOPIC|none", help="scans of the one behind")
+    other.add_argument("--odometry", metavar="TOPIC|tf", help="nav_msgs/Odometry, or transforms of the robot's frame")
+    other.add_argument("--imu", metavar="TOPIC|none", help="gyro; none: the turn of the wheels, with its noise")
+    other.add_argument("--base-frame", metavar="FRAME", help="the robot's frame, x ahead; default: the odometry's")
+    other.add_argument("--urdf", metavar="FILE", help="URDF or xacro with the mounts, instead of the bag's transforms")
+    other.add_argument("--scan-delay", type=float, default=0.0, metavar="S", help="by how much their stamps are late")
+    other.add_argument("--time-increment", type=float, metavar="S", help="from beam to beam, where scans do not say it")
+    parsed.add_argument("--prior", type=float, nargs=3, metavar=("X", "Y", "HEADING"),
+                        help="guessed pose of the Car in map, m and rad; default: from the starting place")
+    return parsed
+
+
+def asked_of(options: argparse.Namespace) -> Asked:
+    """What the person said of the bag."""
+    return Asked(options.front_scan, options.rear_scan, options.odometry, options.imu, options.base_frame, options.urdf,
+                 options.scan_delay, options.time_increment)
+
+
+def arguments_of(options: argparse.Namespace, bag: str, parameters: List[str], start_s: float) -> List[str]:
+    """The part of the command line that the replay itself takes. parameters: NAME=VALUE before those of the person."""
+    arguments = [bag, "--out", str(options.out)]
+    arguments += ["--front-only"] if options.front_only else []
+    end = options.loop_end if options.loop_end_after is None else f"{start_s + options.loop_end_after:.9f}"
+    arguments += ["--loop-end", end] if end else []
+    arguments += ["--map", str(options.map)] if options.map else []
+    arguments += ["--begin-at", *map(str, options.begin_at)] if options.begin_at else []
+    arguments += ["--in-motion"] if options.in_motion else []
+    return arguments + [part for each in [*parameters, *options.parameter] for part in ("--parameter", each)]
+
+
+def report(options: argparse.Namespace, bag: str) -> None:
+    """Print map and Car."""
+    summary = json.loads((options.out / "summary.json").read_text(encoding="utf-8"))
+    print(f"{summary['poses_valid']} of {summary['poses']} poses are valid; "
+          f"{summary['cpu_ms_per_scan']:.2f} ms of CPU per scan")
+    if options.map:
+        return
+    if not summary["map_valid"]:
+        print(f"No map: {summary['map_message']}")
+        return
+    print(f"Map of {summary['key_frames']} key-frames and {summary['surfels']} surfaces; range bias "
+          f"{1e3 * summary['range_bias_m']:.1f} mm (1 sigma {1e3 * summary['range_bias_sigma_m']:.1f} mm)")
+    if not options.no_car:
+        print("\n".join(car_lines(options, bag)))
+
+
+def car_lines(options: argparse.Namespace, bag: str) -> List[str]:
+    """The Car, or a sentence on why there is none."""
+    try:
+        from mtr_car_locator.conversions import scans_in
+        from mtr_car_locator.offline import fit_files, summary_of
+        from mtr_car_locator.parameters import LocatorParameters
+        from mtr_description.shipped import shipped_geometry
+    except ImportError:
+        return ["The Car is not looked for: package mtr_car_locator is not built."]
+    parameters = LocatorParameters()
+    scans = scans_in(pathlib.Path(bag), shipped_geometry().lidars(has_rear=not options.front_only))
+    try:
+        fit = fit_files(options.out, Pose2(*options.prior) if options.prior else None, parameters, scans)
+        return ["Car: " + line for line in summary_of(fit)]
+    except RobotError as error:
+        return [f"No Car: {error}"]

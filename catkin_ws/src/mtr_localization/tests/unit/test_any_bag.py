@@ -1,0 +1,213 @@
+"""A bag of any robot becomes the inputs that localization takes, or a sentence says what it lacks."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import pytest
+import rosbag
+import rospy
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from scipy.spatial.transform import Rotation
+from sensor_msgs.msg import Imu, LaserScan
+from tf2_msgs.msg import TFMessage
+
+from mtr_core import names
+from mtr_localization.any_bag import conversions
+from mtr_localization.any_bag.conversions import convert
+from mtr_localization.any_bag.errors import BagUnusable
+from mtr_localization.any_bag.sources import NONE, TF, Asked, is_own
+
+BEGIN_S, RATE_HZ, COUNT = 1000.0, 20.0, 60
+SPEED_MPS, TURN_RADPS = 0.5, 0.4
+MOUNTS = {"laser": (0.4, 0.05, (0.0, 0.0, 0.1)), "laser_behind": (-0.3, 0.0, (math.pi, 0.0, math.pi))}
+
+
+def transform(parent, child, place, rpy, time_s=BEGIN_S):
+    """One of tf."""
+    message = TransformStamped(child_frame_id=child)
+    message.header.frame_id, message.header.stamp = parent, rospy.Time.from_sec(time_s)
+    at = message.transform
+    at.translation.x, at.translation.y, at.translation.z = place
+    at.rotation.x, at.rotation.y, at.rotation.z, at.rotation.w = Rotation.from_euler("xyz", rpy).as_quat()
+    return message
+
+
+class Robot:
+    """Somebody's robot, whose bag is written: what is in it can be changed before.
+
+    Attributes:
+        scans: topic -> frame. has_odometry: on a topic, else as a transform. mounts: frames on the base.
+    """
+
+    def __init__(self, path):
+        self.path = path
+        self.scans = {"/scan": "laser", "/hokuyo_behind": "laser_behind"}
+        self.mounts = dict(MOUNTS)
+        self.has_odometry, self.has_imu, self.wanders = True, False, False
+        self.heights_m = {}
+        self.speed_mps, self.jump_s, self.scans_later_s = SPEED_MPS, 0.0, 0.0
+
+    def write(self):
+        """The bag."""
+        with rosbag.Bag(str(self.path), "w") as bag:
+            for number in range(COUNT):
+                self._step(bag, number)
+        return self.path
+
+    def _step(self, bag, number):
+        time_s = BEGIN_S + number / RATE_HZ + (self.jump_s if number > COUNT // 2 else 0.0)
+        stamp = rospy.Time.from_sec(time_s)
+        turn = TURN_RADPS if self.speed_mps else 0.0
+        heading, radius_m = turn * number / RATE_HZ, SPEED_MPS / TURN_RADPS
+        place = (radius_m * math.sin(heading), radius_m * (1.0 - math.cos(heading)), 0.0)
+        frames = [transform("base", frame, (x, y + 0.01 * number * self.wanders, self.heights_m.get(frame, 0.2)),
+                            rpy, time_s) for frame, (x, y, rpy) in self.mounts.items()]
+        if self.has_odometry:
+            odometry = Odometry(child_frame_id="base")
+            odometry.header.stamp = stamp
+            odometry.pose.pose.position.x, odometry.pose.pose.position.y = place[:2]
+            odometry.pose.pose.orientation.z = math.sin(0.5 * heading)
+            odometry.pose.pose.orientation.w = math.cos(0.5 * heading)
+            bag.write("/base/odom", odometry, stamp)
+        else:
+            frames.append(transform("odom", "base", place, (0.0, 0.0, heading), time_s))
+        bag.write("/tf", TFMessage(frames), stamp)
+        if self.has_imu:
+            imu = Imu()
+            imu.header.stamp, imu.header.frame_id, imu.angular_velocity.y = stamp, "imu", -turn
+            bag.write("/imu", imu, stamp)
+        for topic, frame in self.scans.items():
+            scan = LaserScan(angle_min=-1.0, angle_max=1.0, angle_increment=0.1, range_max=10.0, ranges=[5.0] * 21)
+            scan.header.frame_id = frame
+            scan.header.stamp = rospy.Time.from_sec(time_s + self.scans_later_s)
+            bag.write(topic, scan, stamp)
+
+
+@pytest.fixture(name="robot")
+def robot_fixture(tmp_path):
+    return Robot(tmp_path / "theirs.bag")
+
+
+@pytest.fixture(name="converted")
+def converted_fixture(robot, tmp_path):
+    """Converts, and reads what came of it: topic -> messages."""
+    def of(asked=None, needs_motion=True):
+        asked = Asked() if asked is None else asked
+        out = tmp_path / "ours.bag"
+        found = convert(robot.write(), out, asked, needs_motion, lambda _: None)
+        messages = {}
+        with rosbag.Bag(str(out)) as bag:
+            for topic, message, _ in bag.read_messages():
+                messages.setdefault(topic, []).append(message)
+        return found, messages
+    return of
+
+
+def test_topics_are_found_by_their_types_and_lidars_by_their_places(converted):
+    found, messages = converted()
+    assert {topic: frame for topic, (frame, _) in found.mounts.items()} == {
+        "/scan": "front_lidar", "/hokuyo_behind": "rear_lidar"}
+    assert {len(messages[topic]) for topic in (names.FRONT_SCAN, names.REAR_SCAN, names.WHEEL_ODOMETRY)} == {COUNT}
+    front, rear = messages["/tf_static"][0].transforms
+    assert (front.header.frame_id, front.child_frame_id) == (names.BASE, "front_lidar")
+    assert (front.transform.translation.x, front.transform.translation.y) == pytest.approx((0.4, 0.05))
+    assert rear.transform.translation.x == pytest.approx(-0.3) and "upside down" in " ".join(found.said)
+    assert messages[names.FRONT_SCAN][0].header.frame_id == "front_lidar"
+
+
+@pytest.mark.parametrize("has_odometry", [True, False])
+def test_odometry_comes_from_a_topic_or_from_transforms(robot, converted, has_odometry):
+    robot.has_odometry = has_odometry
+    found, messages = converted()
+    last = messages[names.WHEEL_ODOMETRY][-1]
+    assert found.base == "base" and found.odometry == ("/base/odom" if has_odometry else TF)
+    assert last.twist.twist.linear.x == pytest.approx(SPEED_MPS, rel=1e-3)
+    assert last.twist.twist.angular.z == pytest.approx(TURN_RADPS, rel=1e-6)
+
+
+def test_wheels_turn_stands_in_for_a_gyro_with_its_noise(converted):
+    found, messages = converted()
+    gyro = messages[names.IMU_DATA][-1]
+    assert gyro.angular_velocity.z == pytest.approx(TURN_RADPS) and gyro.linear_acceleration_covariance[0] == -1.0
+    assert found.parameters == conversions.WHEELS_TURN and "turn rate: of the wheels" in " ".join(found.said)
+
+
+def test_gyro_that_lies_on_its_side_is_turned_upright(robot, converted):
+    robot.has_imu = True
+    robot.mounts["imu"] = (0.0, 0.0, (-0.5 * math.pi, 0.0, 0.0))
+    found, messages = converted()
+    assert messages[names.IMU_DATA][-1].angular_velocity.z == pytest.approx(TURN_RADPS)
+    assert not found.parameters
+    assert converted(Asked(imu=NONE))[0].parameters
+
+
+def test_stamps_that_are_late_and_sweeps_without_their_time_are_told(converted):
+    _, messages = converted(Asked(scan_delay_s=0.04, time_increment_s=1e-4))
+    scan = messages[names.FRONT_SCAN][0]
+    assert scan.header.stamp.to_sec() == pytest.approx(BEGIN_S - 0.04) and scan.time_increment == pytest.approx(1e-4)
+    assert "do not say how long a sweep takes" in " ".join(converted()[0].said)
+    assert "do not say" not in " ".join(converted(Asked(time_increment_s=1e-4))[0].said)
+
+
+def test_lidars_are_those_that_are_named(robot, converted):
+    robot.scans["/top"] = "laser"
+    found, messages = converted(Asked(front_scan="/hokuyo_behind"))
+    assert list(found.mounts) == ["/hokuyo_behind"] and names.REAR_SCAN not in messages
+
+
+def test_lidar_that_looks_over_everything_is_left_out(robot, converted):
+    robot.heights_m["laser"] = 2.0
+    found, _ = converted()
+    assert list(found.mounts) == ["/hokuyo_behind"]
+    assert "/scan is left out: its LiDAR is 1.8 m above the lowest" in " ".join(found.said)
+
+
+def test_mounts_come_from_a_urdf_where_the_bag_has_none(robot, converted, tmp_path):
+    robot.mounts = {}
+    urdf = tmp_path / "robot.urdf"
+    urdf.write_text('<robot name="r"><link name="base"/><link name="laser"/><link name="laser_behind"/>'
+                    '<joint name="a" type="fixed"><parent link="base"/><child link="laser"/>'
+                    '<origin xyz="0.5 0 0.2" rpy="0 0 0.2"/></joint>'
+                    '<joint name="b" type="fixed"><parent link="base"/><child link="laser_behind"/></joint></robot>',
+                    encoding="utf-8")
+    found, _ = converted(Asked(urdf=str(urdf)))
+    place = found.mounts["/scan"][1]
+    assert place[:2, 3] == pytest.approx([0.5, 0.0]) and math.atan2(place[1, 0], place[0, 0]) == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(("change", "asked", "words"), [
+    ({"scans": {}}, Asked(), "has no scans"),
+    ({"scans": {"/a": "laser", "/b": "laser", "/c": "laser"}}, Asked(), "name those of a level LiDAR"),
+    ({"scans": {"/a": "laser", "/b": "laser"}}, Asked(), "equally far ahead"),
+    ({"mounts": {}}, Asked(), "Nothing says where laser"),
+    ({"wanders": True}, Asked(), "not fixed on the robot"),
+    ({"speed_mps": 0.0}, Asked(), "does not move"),
+    ({"jump_s": 60.0}, Asked(), "time jumps by 60"),
+    ({"jump_s": -60.0}, Asked(), "time jumps by 57"),
+    ({"scans_later_s": 3600.0}, Asked(), "clocks differ"),
+    ({}, Asked(odometry="/odom"), "has no topic /odom"),
+    ({}, Asked(imu="/scan"), "is of type sensor_msgs/LaserScan"),
+    ({}, Asked(odometry=TF, base_frame="body"), "no odometry of body"),
+    ({"has_odometry": False, "mounts": {}}, Asked(), "no odometry")])
+def test_what_a_bag_lacks_is_a_sentence(robot, converted, change, asked, words):
+    for name, value in change.items():
+        setattr(robot, name, value)
+    with pytest.raises(BagUnusable, match=words) as caught:
+        converted(asked)
+    assert str(caught.value).endswith(".")
+
+
+def test_robot_that_stands_may_be_localized_on_a_map(robot, converted):
+    robot.speed_mps = 0.0
+    assert converted(needs_motion=False)[1][names.FRONT_SCAN]
+
+
+def test_file_that_is_no_bag_is_a_sentence(robot, tmp_path):
+    robot.path.write_bytes(b"no bag")
+    with pytest.raises(BagUnusable, match="cannot be read"):
+        convert(robot.path, tmp_path / "out.bag", Asked(), True, lambda _: None)
+
+
+def test_own_recording_is_replayed_as_it_is():
+    own = {names.FRONT_SCAN: "", names.IMU_DATA: "", names.WHEEL_ODOMETRY: ""}
+    assert is_own(own, Asked()) and not is_own(own, Asked(imu=NONE)) and not is_own({names.FRONT_SCAN: ""}, Asked())
