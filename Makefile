@@ -6,7 +6,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth bench-results bench-campaign browser-test bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
+	bench-truth bench-real bench-results bench-campaign browser-test bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
 SEED ?= 1
@@ -145,6 +145,12 @@ bench-localization: setup build ## Localization and Car locator against the trut
 	@setup/install.sh setup/debian-bench-packages.txt
 	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
 	@$(RUN) python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
+
+bench-real: setup build ## Localization on recordings of real robots, beside MRPT's SLAM: BAGS=folder of them; REAL_OPTIONS
+	@test -n "$(BAGS)" || { echo "make bench-real needs BAGS=FOLDER, a folder of bags; the project has none of real robots."; exit 2; }
+	@setup/install.sh setup/debian-bench-packages.txt
+	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
+	@$(RUN) python -m mtr_benchmarks.real $(BAGS) --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(REAL_OPTIONS)
 
 RADIALS ?= 1000
 bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse and poll; figures in out/bench/range.json

@@ -4,8 +4,9 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PARTS = ("gazebo", "harness", "localization", "localization.drives", "localization.judging", "localization.methods",
-         "motion", "preflight", "serial", "simulation")
+PARTS = ("can_bus", "faults", "gazebo", "gui", "harness", "liveness", "localization", "localization.drives",
+         "localization.judging", "localization.methods", "motion", "preflight", "ranges", "real",
+         "real_time", "serial", "simulation", "truth")
 PACKAGES = ["mtr_benchmarks", *(f"mtr_benchmarks.{part}" for part in PARTS)]
 
 setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))

@@ -2,13 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
-from typing import Any, List, NamedTuple
+from typing import Any, List, Mapping, NamedTuple, Optional
 
 import numpy as np
 import rosbag
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
+from mtr_core.se2 import Pose2
 from mtr_description.shipped import shipped_geometry
 
 MOUNTS = {topic: shipped_geometry().mount(frame).level()
@@ -32,18 +33,19 @@ class SensorLog(NamedTuple):
     sweeps: List[Sweep]
 
 
-def read_sensors(bag: pathlib.Path) -> SensorLog:
-    """Everything but the requests to map."""
+def read_sensors(bag: pathlib.Path, mounts: Optional[Mapping[str, Pose2]] = None) -> SensorLog:
+    """Everything but the requests to map. mounts: base_from_lidar of each topic with scans; None: this robot's."""
+    mounts = MOUNTS if mounts is None else mounts
     wheels, gyro, sweeps = [], [], []
     with rosbag.Bag(str(bag)) as file:
-        for topic, message, _ in file.read_messages(topics=[names.WHEEL_ODOMETRY, names.IMU_DATA, *MOUNTS]):
+        for topic, message, _ in file.read_messages(topics=[names.WHEEL_ODOMETRY, names.IMU_DATA, *mounts]):
             stamp = message.header.stamp.to_sec()
             if topic == names.WHEEL_ODOMETRY:
                 wheels.append((stamp, message.twist.twist.linear.x))
             elif topic == names.IMU_DATA:
                 gyro.append((stamp, message.angular_velocity.z))
             else:
-                sweeps.append(_sweep(message, stamp, MOUNTS[topic].x, MOUNTS[topic].heading))
+                sweeps.append(_sweep(message, stamp, mounts[topic].x, mounts[topic].heading))
     return SensorLog(np.array(wheels), np.array(gyro), sorted(sweeps, key=lambda sweep: float(sweep.stamps_s[0])))
 
 
