@@ -1,108 +1,34 @@
 """What a Car tells beside its locks: causes, counters, keys and doors of other messages and buses."""
 # SPDX-License-Identifier: Apache-2.0
-import contextlib
 import math
 import shutil
-import time
 
-import can
 import pytest
+from further_car import (
+    ALIVE,
+    CAUSE,
+    CAUSE_ID,
+    COUNTER,
+    DATABASE,
+    DOORS,
+    DOORS_ID,
+    KEY,
+    PROFILE,
+    STATE_ID,
+    STAYING,
+    Bench,
+    written,
+)
 
-from mtr_operator.car_link.adapter import AdapterSettings
 from mtr_operator.car_link.bus import CanCarLink
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.further.companions import Companions
 from mtr_operator.car_link.further.cycles import CycleCheck
-from mtr_operator.car_link.lock_watch import LockWatch
-from mtr_operator.car_link.profile import bus_names, load_profile, profile_files
-from mtr_operator.cli.arguments import argument_parser
-from mtr_operator.cli.links import car_link
+from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.actions.lock_history import Expected, LockHistory
 from mtr_operator.domain.actions.trouble import LineInvalid
-from mtr_operator.domain.errors import BusRefused, ConnectionFailed, InvalidParameter
+from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, CarEvent, LockFacts, LockState
-from mtr_operator.domain.robot_status import RobotStatus
-from mtr_operator.station.connection import BusChoice, CanChoice, LinkOpener
-
-STATE_ID, CAUSE_ID, DOORS_ID, OTHER_ID = 0x120, 0x121, 0x122, 0x123
-DATABASE = f"""VERSION ""
-BU_: GW
-BO_ {STATE_ID} State: 2 GW
- SG_ Page M : 7|2@0+ (1,0) [0|3] "" GW
- SG_ Lock m1 : 5|2@0+ (1,0) [0|3] "" GW
- SG_ Lamp m0 : 5|2@0+ (1,0) [0|3] "" GW
-BO_ {CAUSE_ID} Cause: 4 GW
- SG_ Why : 7|4@0+ (1,0) [0|15] "" GW
- SG_ Key : 3|4@0+ (1,0) [0|15] "" GW
- SG_ Events : 8|8@1+ (1,0) [0|255] "" GW
- SG_ Alive : 16|4@1+ (1,0) [0|15] "" GW
-BO_ {DOORS_ID} Doors: 1 GW
- SG_ Driver : 0|1@1+ (1,0) [0|1] "" GW
- SG_ Passenger : 1|1@1+ (1,0) [0|1] "" GW
-VAL_ {STATE_ID} Lock 0 "locked" 1 "unlocked" 2 "driver" 3 "error" ;
-BA_DEF_ BO_ "GenMsgCycleTime" INT 0 10000;
-BA_DEF_DEF_ "GenMsgCycleTime" 0;
-BA_ "GenMsgCycleTime" BO_ {CAUSE_ID} 50;
-"""
-PROFILE = """database: car.dbc
-message: State
-signal: Lock
-states: {0: locked, 1: unlocked, 2: unlocked_driver, 3: unknown}
-cycle_time_s: 0.1
-"""
-CAUSE = "causes: [{message: Cause, signal: Why, sources: {1: passive_entry, 2: key_button}}]\n"
-STAYING = CAUSE.replace("}}]", "}, stays: true}]")
-COUNTER = "command_signal: {message: Cause, signal: Events}\n"
-ALIVE = "alive_signal: {message: Cause, signal: Alive}\n"
-KEY = "key_number: {message: Cause, signal: Key, under_test: 3}\n"
-DOORS = "doors: {driver: {message: Doors, signal: Driver}, passenger: {message: Doors, signal: Passenger}}\n"
-
-
-def written(folder, *lines, profile=PROFILE):
-    """Path of a profile of these lines, with its database."""
-    (folder / "car.dbc").write_text(DATABASE)
-    path = folder / "car.yaml"
-    path.write_text(profile + "".join(lines))
-    return str(path)
-
-
-class Bench:
-    """Frames every 50 ms of robot time, of the state every 100 ms; the robot's clock is the laptop's."""
-
-    def __init__(self, path):
-        self.watch = LockWatch(load_profile(path))
-        self.now_s, self.step, self.events = 10.0, 0, []
-        self.lock, self.page, self.why, self.key, self.count, self.alive, self.doors = 0, 1, 0, 3, 0, 0, 0
-        self.is_alive_counting = True
-        self.run(4.0)
-
-    def run(self, seconds):
-        """Let time pass."""
-        for _ in range(round(seconds / 0.05)):
-            self.step += 1
-            self.now_s = round(10.0 + 0.05 * self.step, 6)
-            self.alive += self.is_alive_counting
-            self.send(CAUSE_ID, bytes([self.why << 4 | self.key, self.count, self.alive % 16, 0]))
-            self.send(DOORS_ID, bytes([self.doors]))
-            if self.step % 2 == 0:
-                self.send(STATE_ID, bytes([self.page << 6 | self.lock << 4, 0]))
-                status = RobotStatus(self.step, 1, self.now_s, sent_s=self.now_s, steady_s=self.now_s)
-                self.watch.status(status, self.now_s)
-                self.events += self.watch.release(self.now_s)
-
-    def send(self, can_id, data, bus=""):
-        """A frame now."""
-        self.watch.frame(CanFrame(can_id, False, data, self.now_s, bus=bus))
-
-    def change(self, lock, why=0, count=1, key=3):
-        """The locks move; the cause comes with it and goes again. The event."""
-        before = len(self.events)
-        self.lock, self.why, self.count, self.key = lock, why, self.count + count, key
-        self.run(0.2)
-        self.why = 0
-        self.run(1.3)
-        event, = self.events[before:]
-        return event
 
 
 @pytest.fixture(name="bench")
@@ -297,88 +223,6 @@ def test_databases_may_be_in_another_folder(tmp_path):
     assert load_profile(path, tmp_path / "elsewhere").message.name == "State"
 
 
-def test_bundle_takes_the_databases_of_all_buses(tmp_path):
-    path = written(tmp_path, "buses: {body: body.dbc}\n")
-    assert [each.name for each in profile_files(path)] == ["car.yaml", "car.dbc", "body.dbc"]
-
-
-def test_bus_without_an_adapter_is_named(tmp_path):
-    (tmp_path / "body.dbc").write_text(DATABASE)
-    car = CanCarLink("virtual", f"{tmp_path}", profile=written(tmp_path, "buses: {body: body.dbc}\n"))
-    with pytest.raises(ConnectionFailed, match=r"needs the bus body, too; name its adapter \(--can-bus body="):
-        car.connect()
-    car.close()
-
-
-def test_bus_whose_adapter_cannot_be_opened_is_named(tmp_path):
-    further = {"body": AdapterSettings("slcan", f"{tmp_path}/none")}
-    car = CanCarLink("virtual", f"{tmp_path}", profile=written(tmp_path, "buses: {body: car.dbc}\n"), further=further)
-    with pytest.raises(BusRefused, match="^Further bus body: There is no CAN adapter at") as refused:
-        car.connect()
-    assert refused.value.bus == "body"
-
-
-def test_bus_on_the_adapter_of_another_one_is_named(tmp_path):
-    further = {name: AdapterSettings("virtual", f"{tmp_path}{name}") for name in ("body", "doors")}
-    path = written(tmp_path, "buses: {body: car.dbc, doors: car.dbc}\n")
-    for taken in (f"{tmp_path}", f"{tmp_path}body"):
-        car = CanCarLink("virtual", f"{tmp_path}", profile=path,
-                         further={**further, "doors": AdapterSettings("virtual", taken)})
-        with pytest.raises(BusRefused, match="^Further bus doors: The CAN adapter .* is that of another bus already"):
-            car.connect()
-
-
-def frames_heard(car, channel):
-    """Of one that is sent on a virtual bus."""
-    car.connect()
-    with can.Bus(interface="virtual", channel=channel) as bus:
-        bus.send(can.Message(arbitration_id=CAUSE_ID, is_extended_id=False, data=bytes(4)))
-        give_up_s = time.monotonic() + 10.0
-        while not car.frames_received and time.monotonic() < give_up_s:
-            time.sleep(0.0)
-    car.close()
-    return car.frames_received
-
-
-def test_record_names_the_adapter_of_each_bus(tmp_path):
-    further = {name: AdapterSettings("virtual", f"{tmp_path}{name}", 125_000) for name in ("body", "doors")}
-    path = written(tmp_path, "buses: {body: car.dbc, doors: car.dbc}\n")
-    car = CanCarLink("virtual", f"{tmp_path}", profile=path, further=further)
-    car.connect()
-    with contextlib.closing(car):
-        assert dict(car.record) == {
-            "CAN adapter": f"virtual {tmp_path}, 500000 bit/s, listens only",
-            "CAN adapter of the bus body": f"virtual {tmp_path}body, 125000 bit/s, listens only",
-            "CAN adapter of the bus doors": f"virtual {tmp_path}doors, 125000 bit/s, listens only"}
-
-
-def test_choice_opens_an_adapter_for_each_bus(tmp_path):
-    path = written(tmp_path, "buses: {body: car.dbc}\n")
-    assert bus_names(path) == ("body",) and bus_names("mtr_demo_car") == ()
-    choice = CanChoice("virtual", f"{tmp_path}", profile=path, further=(BusChoice("body", "virtual", f"{tmp_path}2"),))
-    assert choice.places == (("virtual", f"{tmp_path}"), ("virtual", f"{tmp_path}2"))
-    car = LinkOpener().car(choice)
-    assert frames_heard(car, f"{tmp_path}2") == 1
-
-
-def test_adapter_of_a_further_bus_that_cannot_be_is_named(tmp_path):
-    choice = CanChoice("virtual", f"{tmp_path}", further=(BusChoice("body", "virtual", "2", 0),))
-    with pytest.raises(BusRefused, match="^Further bus body: CAN bit rate is 0; allowed is") as refused:
-        LinkOpener().car(choice)
-    assert refused.value.bus == "body"
-
-
-def test_cause_of_another_bus_belongs_to_the_change(tmp_path):
-    cause = CAUSE.replace("message: Cause", "bus: body, message: Cause")
-    bench = Bench(written(tmp_path, "buses: {body: car.dbc}\n", cause))
-    bench.lock = 1
-    bench.run(0.1)
-    bench.send(CAUSE_ID, bytes([0x20, 0, 0, 0]), bus="body")
-    bench.run(1.0)
-    event, = bench.events
-    assert event.source == KEY_BUTTON
-
-
 def test_car_that_is_asked_needs_an_adapter_that_may_ask(tmp_path):
     poll = "uds_poll: {request_id: 0x7A0, response_id: 0x7A8, data_identifier: 0x1234}\n"
     path = tmp_path / "asked.yaml"
@@ -437,23 +281,3 @@ def test_frames_that_are_too_short_say_nothing(tmp_path):
     assert companions.frame(("", CAUSE_ID, False), b"", 1.0) == []
     assert companions.told(1.0) == ("", "", None, "")
     assert math.isfinite(load_profile(written(tmp_path, CAUSE)).facts.settles_s)
-
-
-def run_options(tmp_path, *further):
-    """Options of a run on virtual buses."""
-    return argument_parser().parse_args([
-        "run", "autolock", "--params", "none", "--out", str(tmp_path), "--can-interface", "virtual", "--can-channel",
-        f"{tmp_path}", *further])
-
-
-def test_command_line_names_the_adapters_of_further_buses(tmp_path):
-    path = written(tmp_path, "buses: {body: car.dbc}\n")
-    options = run_options(tmp_path, "--car-profile", path, "--can-bus", f"body=virtual:{tmp_path}:b:125000")
-    car = car_link(options)
-    assert frames_heard(car, f"{tmp_path}:b") == 1
-
-
-@pytest.mark.parametrize("text", ["body", "body=virtual", "body=virtual:b", "=virtual:b:500000", "body=virtual:b:fast"])
-def test_further_bus_that_is_not_complete_is_a_sentence(tmp_path, text):
-    with pytest.raises(InvalidParameter, match="--can-bus is .*; allowed is NAME=INTERFACE:CHANNEL:BITRATE"):
-        car_link(run_options(tmp_path, "--can-bus", text))
