@@ -1,11 +1,11 @@
 """A test is recorded with the whole bus, and its distances follow anew from log, poses and profile."""
 # SPDX-License-Identifier: Apache-2.0
-import json
 import pathlib
 import shutil
 
 import can
 import pytest
+from replayed import recorded, replayed
 
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.log.bus_log import BusLog
@@ -14,17 +14,13 @@ from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.car_link.profile import PROFILE_FOLDER
 from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.cli import main
-from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.eventlog.entry import INFO, EventEntry, EventKind
 from mtr_operator.domain.ports import BusMark, LockState
-from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import now, session_record
+from mtr_operator.domain.results.session_record import now
 from mtr_operator.domain.robot_status import RobotStatus
-from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.robot_link.fake import FakeRobotLink
-from mtr_operator.storage.progress_file import save_progress
 from mtr_operator.storage.recorded.course_file import CourseFile, Moment, Note, read_course
 from mtr_operator.storage.recorded.recording import Recording, recorded_runs
 
@@ -42,22 +38,7 @@ def measured(folder, name, parameters):
     chosen = scenario.parameters_type.from_mapping({**scenario.parameters_type.proposed(), **parameters})
     # A tenth of the frames of the demo car.
     slow = profile(folder)
-    progress = Progress(name, chosen.to_mapping(), session_record(now(), "substitute", slow))
-    spoken = SpokenCar(FakeRobotLink(1), f"{folder}", profile=slow)
-    recording = Recording(folder / "progress.json")
-    spoken.connect()
-    spoken.car.connect()
-    try:
-        loop = ControlLoop(spoken, spoken.car)
-        loop.course = recording.begin(spoken.car)
-        Runner(scenario, chosen, loop, progress, lambda _: None).run()
-    finally:
-        problems = [problem for problem in recording.end() if problem]
-        spoken.car.close()
-        spoken.close()
-    assert problems == []
-    save_progress(folder / "progress.json", progress)
-    return progress
+    return recorded(folder, scenario, chosen, slow)
 
 
 @pytest.fixture(name="autolock", scope="module")
@@ -66,13 +47,6 @@ def autolock_fixture(tmp_path_factory):
     folder = tmp_path_factory.mktemp("autolock")
     measured(folder, "autolock", AUTOLOCK)
     return folder
-
-
-def replayed(folder, capsys, *options):
-    """Exit code and document of a replay."""
-    capsys.readouterr()
-    code = main(["replay", str(folder), "--json", *options])
-    return code, json.loads(capsys.readouterr().out)
 
 
 def profile(folder, **changes):

@@ -5,19 +5,13 @@ import pathlib
 import shutil
 
 import pytest
+from replayed import recorded, replayed
 
-from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.cli import main
-from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.results.line_result import LineStatus
-from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import PHONE_FEED, now, session_record
-from mtr_operator.domain.runner import Runner
+from mtr_operator.domain.results.session_record import PHONE_FEED
 from mtr_operator.domain.scenarios.digital_key import SCENARIO
 from mtr_operator.domain.scenarios.digital_key.parameters import DigitalKeyParameters
-from mtr_operator.robot_link.fake import FakeRobotLink
-from mtr_operator.storage.progress_file import save_progress
-from mtr_operator.storage.recorded.recording import Recording
 
 DATABASE = """VERSION ""
 BU_: GW
@@ -53,28 +47,8 @@ def test_fixture(tmp_path_factory):
     """Folder and results of a recorded test."""
     folder = tmp_path_factory.mktemp("phone")
     profile = written(folder, PHONE)
-    progress = Progress(SCENARIO.name, PARAMETERS.to_mapping(), session_record(now(), "substitute", profile))
-    spoken, recording = SpokenCar(FakeRobotLink(1), f"{folder}", profile=profile), Recording(folder / "progress.json")
-    spoken.connect()
-    spoken.car.connect()
-    try:
-        loop = ControlLoop(spoken, spoken.car)
-        loop.course = recording.begin(spoken.car)
-        Runner(SCENARIO, PARAMETERS, loop, progress, lambda _: None).run()
-    finally:
-        problems = [problem for problem in recording.end() if problem]
-        spoken.car.close()
-        spoken.close()
-    assert problems == []
-    save_progress(folder / "progress.json", progress)
+    progress = recorded(folder, SCENARIO, PARAMETERS, profile)
     return folder, progress.results
-
-
-def replayed(folder, capsys, *options):
-    """Exit code and document of a replay."""
-    capsys.readouterr()
-    code = main(["replay", str(folder), "--json", *options])
-    return code, json.loads(capsys.readouterr().out)
 
 
 def now_of(document):
