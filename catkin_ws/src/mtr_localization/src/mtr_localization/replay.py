@@ -2,21 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import json
+import math
 import pathlib
 import subprocess
 import sys
 import tempfile
-from typing import Dict, List, Optional, Tuple
+from dataclasses import replace
+from typing import Any, Dict, List, Optional, Tuple
 
+import numpy as np
 import rosbag
 from roslib.packages import find_node
 
+from mtr_core import names
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
+from mtr_description.mounts import LidarMounts
 
-from .any_bag.conversions import convert
+from .any_bag.conversions import Found, convert
 from .any_bag.errors import BagUnusable
+from .any_bag.frames import yaw_of
 from .any_bag.sources import Asked, is_own
+
+# The first of a drive tells whether its sensors fit together.
+COMPARED_S = 60.0
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -34,7 +43,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
         with tempfile.TemporaryDirectory() as folder:
             bag = pathlib.Path(folder) / "inputs.bag"
             found = convert(pathlib.Path(options.bag), bag, asked, options.map is None, show)
-            print("\n".join(found.said), flush=True)
+            print("\n".join([*found.said, *against_each_other(bag, found)]), flush=True)
             return replayed(programs[0], options, str(bag), found.parameters, start_s)
     except RobotError as error:
         print(error, file=sys.stderr)
@@ -48,6 +57,48 @@ def replayed(program: str, options: argparse.Namespace, bag: str, parameters: Di
     if done.returncode == 0:
         report(options, bag)
     return done.returncode
+
+
+def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
+    """What LiDARs, wheels and gyro of a converted bag say of each other, a line each: mounts that contradict what is
+    seen are among it. Nothing without mtr_bringup, whose preflight judges."""
+    try:
+        from mtr_bringup.preflight.motion.judge import MotionJudge
+    except ImportError:
+        return []
+    places = [place for _, place in found.mounts.values()]
+    seen = [Pose2(float(place[0, 3]), float(place[1, 3]), yaw_of(place)) for place in places]
+    recording = motion_in(bag, [math.copysign(1.0, place[2, 2]) for place in places])
+    begin_s = recording.motion_start_s() or 0.0
+    findings = MotionJudge(LidarMounts(seen[0], seen[1] if len(seen) > 1 else None)).findings(
+        recording.until(begin_s + COMPARED_S))
+    theirs = {names.WHEEL_ODOMETRY: found.odometry, names.IMU_DATA: found.imu}
+    return [replace(finding, subject=theirs.get(finding.subject) or finding.subject).line() for finding in findings
+            if found.imu is not None or finding.subject != names.IMU_DATA]
+
+
+def motion_in(bag: pathlib.Path, senses: List[float]) -> Any:
+    """Recording of a converted bag, for the preflight. senses: of each LiDAR, -1 for one that hangs upside down; judged
+    are upright ones, and it turns the other way."""
+    from mtr_bringup.preflight.motion.recording import ImuSample, Recording, Sweep, WheelSample, scan_sample
+
+    recording = Recording()
+    scans = dict(zip((names.FRONT_SCAN, names.REAR_SCAN), zip((recording.front, recording.rear), senses)))
+    with rosbag.Bag(str(bag)) as read:
+        for topic, message, _ in read.read_messages(topics=[*scans, names.WHEEL_ODOMETRY, names.IMU_DATA]):
+            stamp_s = message.header.stamp.to_sec()
+            if topic == names.WHEEL_ODOMETRY:
+                twist = message.twist.twist
+                recording.wheels.append(WheelSample(stamp_s, twist.linear.x, twist.angular.z))
+            elif topic == names.IMU_DATA:
+                rate, force = message.angular_velocity, message.linear_acceleration
+                recording.imu.append(ImuSample(stamp_s, (rate.x, rate.y, rate.z), (force.x, force.y, force.z)))
+            else:
+                samples, sense = scans[topic]
+                samples.append(scan_sample(Sweep(
+                    stamp_s, sense * message.angle_min, sense * message.angle_increment, message.time_increment,
+                    message.range_min, message.range_max, np.array(message.ranges))))
+    return recording
 
 
 def show(share: float) -> None:

@@ -1,0 +1,97 @@
+"""The program replay on bags of other robots: what it makes of them, and what their sensors say of each other."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+
+import numpy as np
+import pytest
+import rosbag
+import rospy
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from scipy.spatial.transform import Rotation
+from sensor_msgs.msg import LaserScan
+from tf2_msgs.msg import TFMessage
+
+from mtr_localization import replay
+
+# A hall with a pillar, which no turn brings onto itself.
+WALLS = ((-4.0, -3.0, 6.0, -3.0), (6.0, -3.0, 6.0, 4.0), (6.0, 4.0, -4.0, 5.0), (-4.0, 5.0, -4.0, -3.0),
+         (2.0, 1.0, 2.6, 1.0), (2.6, 1.0, 2.6, 1.8), (2.6, 1.8, 2.0, 1.8), (2.0, 1.8, 2.0, 1.0))
+BEAMS, FIRST_RAD, STEP_RAD = 540, -0.75 * math.pi, 1.5 * math.pi / 540
+LIDAR_M, SPEED_MPS, TURN_RADPS, RATE_HZ, TURNS_FROM_S, END_S = 0.3, 0.4, 0.5, 10.0, 4.0, 12.0
+
+
+def ranges_at(x, y, heading, angles):
+    """Distances to the walls from a place, in the directions of the beams."""
+    directions = heading + angles
+    nearest = np.full(len(angles), np.inf)
+    for ax, ay, bx, by in WALLS:
+        along = np.array([bx - ax, by - ay])
+        dx, dy = np.cos(directions), np.sin(directions)
+        cross = dx * along[1] - dy * along[0]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            distance = ((ax - x) * along[1] - (ay - y) * along[0]) / cross
+            share = ((ax - x) * dy - (ay - y) * dx) / cross
+        hit = (distance > 0.0) & (share >= 0.0) & (share <= 1.0)
+        nearest = np.where(hit, np.minimum(nearest, distance), nearest)
+    return nearest
+
+
+def drive(path, told_rpy, hangs=False):
+    """A bag of a LiDAR that looks ahead; told_rpy is what its transform says. hangs: it is upside down."""
+    x = y = heading = 0.0
+    angles = FIRST_RAD + STEP_RAD * np.arange(BEAMS)
+    noise = np.random.default_rng(1)
+    with rosbag.Bag(str(path), "w") as bag:
+        for number in range(round(END_S * RATE_HZ)):
+            time_s = 100.0 + number / RATE_HZ
+            stamp, turn = rospy.Time.from_sec(time_s), TURN_RADPS * (number / RATE_HZ > TURNS_FROM_S)
+            odometry = Odometry(child_frame_id="base")
+            odometry.header.stamp = stamp
+            odometry.pose.pose.position.x, odometry.pose.pose.position.y = x, y
+            odometry.pose.pose.orientation.z = math.sin(0.5 * heading)
+            odometry.pose.pose.orientation.w = math.cos(0.5 * heading)
+            bag.write("/odom", odometry, stamp)
+            mount = TransformStamped(child_frame_id="laser")
+            mount.header.frame_id, mount.header.stamp, mount.transform.translation.x = "base", stamp, LIDAR_M
+            rotation = mount.transform.rotation
+            rotation.x, rotation.y, rotation.z, rotation.w = Rotation.from_euler("xyz", told_rpy).as_quat()
+            bag.write("/tf", TFMessage([mount]), stamp)
+            place = x + LIDAR_M * math.cos(heading), y + LIDAR_M * math.sin(heading)
+            ranges = ranges_at(*place, heading, -angles if hangs else angles) + noise.normal(0.0, 0.01, BEAMS)
+            scan = LaserScan(angle_min=FIRST_RAD, angle_increment=STEP_RAD, angle_max=float(angles[-1]), range_min=0.05,
+                             range_max=20.0, ranges=list(ranges))
+            scan.header.frame_id, scan.header.stamp = "laser", stamp
+            bag.write("/laser", scan, stamp)
+            speed = SPEED_MPS if not turn else 0.5 * SPEED_MPS
+            x, y = x + speed / RATE_HZ * math.cos(heading), y + speed / RATE_HZ * math.sin(heading)
+            heading += turn / RATE_HZ
+    return path
+
+
+@pytest.mark.parametrize(("told_rpy", "hangs", "words"), [
+    ((0.0, 0.0, 0.0), False, "ok  /odom: The wheels say 1.00"),
+    ((math.pi, 0.0, 0.0), True, "ok  /odom: The wheels say 1.00"),
+    ((math.pi, 0.0, 0.0), False, "BAD"),
+    ((0.0, 0.0, 0.6), False, "BAD"),
+    ((0.0, 0.0, math.pi), False, "BAD")])
+def test_mount_that_contradicts_what_is_seen_is_named(tmp_path, capsys, told_rpy, hangs, words):
+    bag = drive(tmp_path / "theirs.bag", told_rpy, hangs)
+    assert replay.main([str(bag), "--out", str(tmp_path / "out"), "--in-motion", "--no-car"]) == 0
+    said = capsys.readouterr().out
+    assert words in said and ("BAD" in said) is (words == "BAD"), said
+
+
+def test_other_robots_drive_is_tracked_and_written_for_other_tools(tmp_path):
+    bag = drive(tmp_path / "theirs.bag", (0.0, 0.0, 0.0))
+    options = ["--in-motion", "--no-car", "--loop-end-after", "11"]
+    assert replay.main([str(bag), "--out", str(tmp_path / "out"), *options]) == 0
+    rows = [line.split() for line in (tmp_path / "out" / "trajectory.tum").read_text(encoding="utf-8").splitlines()[1:]]
+    assert len(rows) > 100 and all(len(row) == 8 for row in rows)
+
+
+def test_bag_that_cannot_be_used_is_a_sentence(tmp_path, capsys):
+    bag = tmp_path / "none.bag"
+    bag.write_bytes(b"no bag")
+    assert replay.main([str(bag), "--out", str(tmp_path / "out")]) == 1
+    assert capsys.readouterr().err.startswith(f"Bag {bag} cannot be read")
