@@ -29,6 +29,9 @@ def main() -> None:
         # Work that takes this long on a slow machine.
         time.sleep(rospy.get_param("~work_wall_s"))
         seen, spin = odometry.at(tick_ns), imu.at(tick_ns)
+        if seen is None or spin is None:
+            # Started in the midst of time, where what is due now was said before it could hear it.
+            continue
         place = seen.pose.pose.position
         digest.update(repr((tick_ns, seen.header.stamp.to_nsec(), place.x, place.y, seen.twist.twist.linear.x,
                             spin.header.stamp.to_nsec(), spin.angular_velocity.z)).encode())

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The simulator waits for a slow node, so that it gets the same answer, and not for a dead one."""
+"""The simulator waits for a slow node, so that it gets the same answer, and neither for a silent nor for a dead one."""
 # SPDX-License-Identifier: Apache-2.0
+import signal
 import sys
 import threading
 import time
@@ -18,6 +19,8 @@ from mtr_core.schedule import SIMULATION_START_NS
 
 DRIVER = "lockstep_driver"
 TICKS = 25
+# Of a driver that is killed long before.
+MANY_TICKS = 100_000
 SLOW_WALL_S = 0.2
 # Of docs/lock-step.md: a silent node is dropped after 5 s of wall time; a slow machine notices it somewhat later.
 DROPPED_AFTER_WALL_S = (4.5, 15.0)
@@ -57,7 +60,17 @@ class LockStep(unittest.TestCase):
         self.assertEqual(len(fast.strip()), 64, "The driver did not end well.")
         self.assertEqual(slow, fast)
 
-    def test_dead_node_is_dropped_with_a_sentence_and_the_robot_stands(self):
+    def test_node_that_is_killed_and_started_again_at_once_comes_back(self):
+        watch = Watch()
+        self.start_driver(ticks=MANY_TICKS)
+        wait_for(lambda: watch.now_s > SIMULATION_START_NS * NS + 1.0, "a clock that goes on")
+        self.driver.signal(signal.SIGKILL)
+        self.driver.stop()
+        again = self.start_driver()
+        self.assertEqual(len(again.output().strip()), 64, "The driver that was started again did not end well.")
+        wait_for(lambda: any(f"/{DRIVER} has ended" in text for text in watch.warnings), "a sentence")
+
+    def test_silent_node_is_dropped_with_a_sentence_and_the_robot_stands(self):
         watch = Watch()
         last_tick_s = SIMULATION_START_NS * NS + TICKS * DRIVER_PERIOD_S
         self.start_driver(falls_silent=True)

@@ -1,6 +1,7 @@
 """The simulator as a ROS node: publishes sensors and /clock, listens to the base's and the firmware's topics."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
+import contextlib
 import math
 import threading
 from typing import Any, Callable, Deque, Iterable, List, Optional, Set, Tuple
@@ -54,7 +55,8 @@ class SimulatorNode:
                             loaded_base())
         self._firmware = firmware_topics(self._world.firmware)
         self._output = Output(parameters.rear_lidar, self._firmware.publishers)
-        self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output))
+        self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output), has_ended=self._has_ended)
+        self._holds: Optional[rospy.Subscriber] = None
         self._pace = Pace(parameters.real_time_factor)
         self._offset_ns = offset_of(rospy.get_param("/use_sim_time", False), parameters.real_time_factor)
         self._stopped = threading.Event()
@@ -106,7 +108,7 @@ class SimulatorNode:
         self._listen(names.ACTIVE_FAULTS, ActiveFaults, self._set_faults)
         for topic, message_type, handle in self._firmware.subscriptions:
             self._listen(topic, message_type, handle)
-        rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
+        self._holds = rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
 
     def _listen(self, topic: str, message_type: Any, handle: Callable[[Any], None]) -> None:
         """Each message is handled in the loop, before the step that follows its arrival."""
@@ -129,6 +131,11 @@ class SimulatorNode:
     def _hold(self, message: Header) -> None:
         self._barrier.hold(message.frame_id, message.stamp.to_nsec(), message.seq)
 
+    def _has_ended(self, node: str) -> bool:
+        """True when the connection over which its holds came was closed."""
+        connections_now = self._holds.impl.connections if self._holds else []
+        return all((each.header or {}).get("callerid") != node for each in connections_now)
+
     def _log(self, time_ns: int) -> None:
         report = self._pace.report(time_ns * 1e-9)
         if report:
@@ -146,7 +153,8 @@ class Output:
     """
 
     def __init__(self, rear_lidar: bool, further: Iterable[Any] = ()):
-        self._clock = direct_publisher("/clock", Clock)
+        # Latched: a node that is started while time waits for somebody has to know what time it is.
+        self._clock = direct_publisher("/clock", Clock, latch=True)
         self._front = direct_publisher(names.FRONT_SCAN, conversions.NumpyScan)
         self._rear = direct_publisher(names.REAR_SCAN, conversions.NumpyScan) if rear_lidar else None
         self._imu = direct_publisher(names.IMU_DATA, Imu)
@@ -173,6 +181,9 @@ class Output:
             with topic.c_lock:
                 if connection.endpoint_id == node and all(each.endpoint_id != node for each in topic.connections):
                     topic.connections = [*topic.connections, connection]
+            if topic is self._clock.impl:
+                # Time may wait for this node, which has missed what time it is.
+                self._tell_time(topic.latch, [connection])
         self._muted = [each for each in self._muted if each[1].endpoint_id != node]
 
     def has_scan_listener(self) -> bool:
@@ -181,12 +192,19 @@ class Output:
 
     def clock(self, time_ns: int, asleep: Set[str]) -> None:
         """The time, for all but the nodes that work later: each message wakes a process."""
-        topic, data = self._clock.impl, conversions.serialized(conversions.clock_message(time_ns))
-        for connection in [each for each in topic.connections if each.endpoint_id not in asleep]:
-            try:
-                connection.write_data(data)
-            except (OSError, TransportException):
-                topic.remove_connection(connection)
+        self._tell_time(conversions.clock_message(time_ns),
+                        (each for each in self._clock.impl.connections if each.endpoint_id not in asleep))
+
+    def _tell_time(self, message: Clock, connections_to: Iterable[Any]) -> None:
+        topic, data = self._clock.impl, conversions.serialized(message)
+        # rospy tells the latched time to whoever connects under the same lock, so nobody's time goes back.
+        with topic.publock or contextlib.nullcontext():  # None as soon as rospy has closed the topic
+            topic.latch = message
+            for connection in list(connections_to):
+                try:
+                    connection.write_data(data)
+                except (OSError, TransportException):
+                    topic.remove_connection(connection)
 
     def publish(self, sensors: Sensors, world: World, offset_ns: int) -> None:
         """Everything of a tick but the clock, which comes last; stamps are so far ahead of the simulated clock."""

@@ -137,6 +137,31 @@ def test_silent_node_is_dropped_with_a_sentence(barrier, clock, log):
     assert log == ["Node /a has been silent for 5 s; time goes on without it.", "dropped /a"]
 
 
+def test_node_that_has_ended_is_not_waited_for(log, clock):
+    ended = set()
+    barrier = Barrier(["/a"], Diary(log), clock, ended.__contains__)
+    barrier.hold("/a", STEP, 3)
+    thread, results = wait_in_thread(barrier, 2 * STEP)
+    ended.add("/a")
+    thread.join(10.0)
+    assert results == [True]
+    assert log == ["Node /a has ended; time goes on without it."]
+
+
+def test_node_that_was_started_again_is_waited_for_like_a_new_one(log, clock):
+    ended = {"/a"}
+    barrier = Barrier(["/a"], Diary(log), clock, ended.__contains__)
+    barrier.hold("/a", STEP, 3)
+    assert barrier.wait(2 * STEP)
+    ended.clear()
+    barrier.hold("/a", 3 * STEP, 1)
+    thread, results = wait_in_thread(barrier, 3 * STEP)
+    assert results == []
+    barrier.message("/a")
+    thread.join(10.0)
+    assert results == [True]
+
+
 def test_dropped_node_that_speaks_again_is_waited_for_again(barrier, clock, log):
     barrier.hold("/a", STEP, 0)
     clock.hurry_s = SILENT_AFTER_WALL_S + 1.0

@@ -7,6 +7,8 @@ from typing import Callable, Dict, Iterable, List, Optional, Set
 
 # A node that keeps the clock waiting and says nothing for this long (wall time) is taken for dead.
 SILENT_AFTER_WALL_S = 5.0
+# How often it is looked whether one that keeps the clock waiting still exists.
+LOOK_WALL_S = 0.1
 STILL_WAITING_WALL_S = 10.0
 
 
@@ -41,17 +43,19 @@ class Watcher:
 class Barrier:
     """Thread-safe; callbacks report, the simulator's loop waits.
 
-    A repeated hold is a sign of life: a node that has reason to let time stand still says its hold again.
+    A repeated hold is a sign of life: a node that has reason to let time stand still says its hold again. One that has
+    ended is not waited for; its next instance is as one that was never heard of.
 
     Attributes:
         waited_s: wall time that the clock waited, by the node that came last.
     """
 
-    def __init__(self, expected: Iterable[str], watcher: Watcher,
-                 wall_clock: Callable[[], float] = time.monotonic):
+    def __init__(self, expected: Iterable[str], watcher: Watcher, wall_clock: Callable[[], float] = time.monotonic,
+                 has_ended: Callable[[str], bool] = lambda name: False):
+        """has_ended: tells of a node that has said a hold whether its process is gone."""
         self.waited_s: Dict[str, float] = {}
         self._expected = sorted(expected)
-        self._watcher, self._wall_clock = watcher, wall_clock
+        self._watcher, self._wall_clock, self._has_ended = watcher, wall_clock, has_ended
         self._changed = threading.Condition()
         self._nodes: Dict[str, _Node] = {}
         self._awaited_ns: Optional[int] = None
@@ -102,12 +106,16 @@ class Barrier:
                 name = self._blocker(time_ns)
                 if name is None:
                     return True
+                if self._has_ended(name):
+                    self._watcher.warn(f"Node {name} has ended; time goes on without it.")
+                    del self._nodes[name]
+                    continue
                 now_s = self._wall_clock()
                 left_s = max(self._nodes[name].received_s, begun_s) + SILENT_AFTER_WALL_S - now_s
                 if left_s <= 0.0:
                     self._give_up(name, time_ns)
                     continue
-                last = self._last if self._changed.wait(left_s) else name
+                last = self._last if self._changed.wait(min(left_s, LOOK_WALL_S)) else name
                 self.waited_s[last] = self.waited_s.get(last, 0.0) + self._wall_clock() - now_s
             return False
 
