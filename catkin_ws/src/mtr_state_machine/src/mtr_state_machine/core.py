@@ -86,7 +86,7 @@ class StateMachine:
 
     def _problem(self, seen: Observation) -> Problem:
         for part in Part:
-            found = seen.part_problem(part, self._parameters.silent_after_s)
+            found = seen.part_problem(part, self._parameters.noticed_after_s)
             if found:
                 return found
         return self._car_problem(seen)
@@ -214,7 +214,7 @@ class StateMachine:
                         self._hold.id)
 
     def _note_lost(self, seen: Observation) -> None:
-        is_lost = self.state is State.FAULT and seen.only_position_is_lost(self._parameters.silent_after_s)
+        is_lost = self.state is State.FAULT and seen.only_position_is_lost(self._parameters.noticed_after_s)
         self._lost_since_s = (seen.now_s if self._lost_since_s is None else self._lost_since_s) if is_lost else None
 
     def _may_be_driven(self, seen: Observation) -> bool:

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 
+from mtr_core.liveness import NS
 from mtr_core.parameters import ParameterSet, number
+from mtr_core.schedule import STATE_MACHINE
 
 
 @dataclass(frozen=True)
@@ -10,10 +12,16 @@ class Parameters(ParameterSet):
     """What the state machine is started with.
 
     Attributes:
-        silent_after_s: age of a part's newest message at which the part has failed.
+        silent_after_s: age of a part's newest message at which the part has failed at the latest; one tick earlier it
+            may.
         resume_by_operator: after a fault, an obstacle or manual driving the robot stands until the Operator has it go
             on.
     """
 
-    silent_after_s: float = number(0.5, 0.2, 5.0, "s")
+    silent_after_s: float = number(0.5, 0.4, 5.0, "s")
     resume_by_operator: bool = True
+
+    @property
+    def noticed_after_s(self) -> float:
+        """Age at which a part has failed at a tick: before the next one silent_after_s would be over."""
+        return self.silent_after_s - STATE_MACHINE.period_ns * NS

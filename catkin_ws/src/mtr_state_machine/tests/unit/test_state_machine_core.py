@@ -356,7 +356,11 @@ def test_machine_that_has_done_nothing_confirms_nothing(machine):
 
 
 def test_part_that_is_as_old_as_allowed_is_well(machine):
-    assert machine.step(seen(age_s={part: 0.5 for part in Part})).state is not State.STARTING
+    assert machine.step(seen(age_s={part: 0.4 for part in Part})).state is not State.STARTING
+
+
+def test_part_whose_limit_is_over_at_the_next_tick_has_failed_at_this_one(following):
+    assert following.step(seen(age_s={**dict.fromkeys(Part, 0.1), Part.PERIPHERALS: 0.48})).state is State.FAULT
 
 
 @pytest.mark.parametrize("age_s", [-60.0, -0.6, 0.6, float("nan"), float("inf")])
