@@ -13,7 +13,7 @@ from mtr_operator.storage.given_files import load_calibration
 
 TODAY = datetime.date(2026, 11, 23)
 ORIGIN = Origin("MTR-1", "J. Nov\u00e1k", 0.25)
-NAMES = ("key_lever_m", "mast_lean_deg", "wheel_scale", "gyro_scale", "lift_height_m", "press_force_n")
+NAMES = ("key_lever_m", "mast_lean_deg", "lidar_yaw_deg", "wheel_scale", "gyro_scale", "lift_height_m", "press_force_n")
 
 
 def test_every_measurement_is_read_and_counts_where_it_has_a_term(tmp_path):
@@ -25,12 +25,12 @@ def test_every_measurement_is_read_and_counts_where_it_has_a_term(tmp_path):
     save(path, document)
     record = load_calibration(path)
     assert [check.name for check in record.checks] == list(NAMES)
-    assert record.made == TODAY - datetime.timedelta(10)
-    for name in ("key_lever_m", "mast_lean_deg"):
+    assert record.made == TODAY - datetime.timedelta(20)
+    for name in ("key_lever_m", "mast_lean_deg", "lidar_yaw_deg"):
         assert record.terms[name].sigma == pytest.approx(math.hypot(0.01, 0.002))
         assert record.terms[name].degrees_of_freedom == 5.0
     assert record.warning(TODAY) == ""
-    assert "press_force_n was measured 366 days ago" in record.warning(TODAY + datetime.timedelta(316))
+    assert "press_force_n was measured 366 days ago" in record.warning(TODAY + datetime.timedelta(306))
     assert calibration_document.calibration_from(record.to_document()) == record
 
 

@@ -226,14 +226,15 @@ def test_record_keeps_the_day_of_its_oldest_term_and_what_else_was_measured(tmp_
     assert before["terms"]["mast_lean_deg"]["degrees_of_freedom"] == 12.0
     assert before["terms"]["floor_slope_deg"]["distribution"] == "rectangular"
     late = overdue(before, TODAY)
-    assert [sentence.split()[0] for sentence in late] == ["key_lever_m", "wheel_scale"]
+    assert [sentence.split()[0] for sentence in late] == ["lidar_yaw_deg", "key_lever_m", "wheel_scale"]
     again = updated(before, ORIGIN, check("key_lever_m"), TODAY)
     assert again["date"] == (TODAY - datetime.timedelta(10)).isoformat() and len(again["checks"]) == 3
 
 
 def test_what_was_never_measured_is_told():
     record = updated(None, ORIGIN, check("wheel_scale"), TODAY)
-    assert [sentence.split()[0] for sentence in overdue(record, TODAY)] == ["mast_lean_deg", "key_lever_m"]
+    named = [sentence.split()[0] for sentence in overdue(record, TODAY)]
+    assert named == ["mast_lean_deg", "key_lever_m", "lidar_yaw_deg"]
 
 
 def test_error_that_is_to_be_mended_is_not_recorded():

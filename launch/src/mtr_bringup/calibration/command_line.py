@@ -1,4 +1,4 @@
-"""rosrun mtr_bringup calibrate lever|mast|wheels|lift|press|status: guided calibration of the robot, with a record.
+"""rosrun mtr_bringup calibrate lever|mast|wheels|lift|press|lidars|status: guided calibration, with a record.
 
 The person moves the robot, by the manual controller or by hand; this program only asks, listens and writes the record,
 which the Operator's application takes (--calibration FILE). `status` tells what was measured when, and what is overdue.
@@ -9,20 +9,24 @@ import argparse
 import datetime
 import pathlib
 import sys
-from typing import List, Optional
+from typing import Any, List, Mapping, Optional, Sequence
 
 import rospy
 
 from mtr_core.errors import RobotError
+from mtr_description.shipped import shipped_geometry
 
 from ..preflight.command_line import master_answers
 from .console import Console
 from .guides import GUIDES
-from .record import Origin, overdue, updated
+from .lidars import measured
+from .record import Check, Origin, overdue, updated
 from .record_file import load, save
 from .robot import Robot
 
 UNUSABLE = 2
+# By a recorded drive, without a robot.
+LIDARS = "lidars"
 DEFAULT_RECORD = pathlib.Path("~/mtr_calibration.yaml")
 
 
@@ -44,12 +48,17 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
     """Options of the command line."""
     parser = argparse.ArgumentParser(prog="calibrate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=[*GUIDES, "status"])
+    parser.add_argument("what", choices=[*GUIDES, LIDARS, "status"])
+    parser.add_argument("--bag", type=pathlib.Path, help="of lidars: a recorded drive, ahead, back and in turns")
     parser.add_argument("--record", type=pathlib.Path, default=DEFAULT_RECORD,
                         help=f"the robot's calibration record ({DEFAULT_RECORD})")
     parser.add_argument("--robot", default="", help="which robot it is; asked for when the record does not say")
     parser.add_argument("--by", default="", help="who measures; asked for otherwise")
-    return parser.parse_args(arguments)
+    options = parser.parse_args(arguments)
+    if (options.what == LIDARS) != (options.bag is not None):
+        parser.error("lidars needs --bag FILE, a recorded drive (rosrun mtr_bringup record --profile full), and the "
+                     "others take none.")
+    return options
 
 
 def status(path: pathlib.Path) -> int:
@@ -71,16 +80,26 @@ def calibrated(options: argparse.Namespace, path: pathlib.Path) -> int:
     """Ask, measure and write the record."""
     # A record that cannot be read is told before the work, not after it.
     document = load(path)
+    if options.what == LIDARS:
+        said, found = measured(options.bag)
+        print("\n".join(said))
+        key_ahead_m = document["key_ahead_m"] if document else shipped_geometry().key().x_m
+        return recorded(options, path, document, found, key_ahead_m)
     if not master_answers():
         print("There is no ROS master; start the robot first (roslaunch mtr_bringup robot.launch).", file=sys.stderr)
         return UNUSABLE
     rospy.init_node("calibrate", anonymous=True, disable_signals=True)
     robot, console = Robot(), Console(input, print)
-    key_ahead_m = robot.key().x_m
+    return recorded(options, path, document, GUIDES[options.what](console, robot), robot.key().x_m)
+
+
+def recorded(options: argparse.Namespace, path: pathlib.Path, document: Optional[Mapping[str, Any]],
+             found: Sequence[Check], key_ahead_m: float) -> int:
+    """Write what was measured into the record."""
     name = options.robot or (document or {}).get("robot") or input("Which robot is it? ").strip()
     by = options.by or input("Who measures? ").strip()
     origin = Origin(name or "unnamed", by or "unnamed", key_ahead_m)
-    for check in GUIDES[options.what](console, robot):
+    for check in found:
         document = updated(document, origin, check, datetime.date.today())
     if document is not None:
         save(path, document)

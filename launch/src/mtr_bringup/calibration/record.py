@@ -12,16 +12,16 @@ from typing import Any, Dict, List, Mapping, Optional
 from .readings import Estimate, ReadingsUnusable
 
 VALID_DAYS = 365
-LEVER, MAST = "key_lever_m", "mast_lean_deg"
+LEVER, MAST, LIDAR_YAW = "key_lever_m", "mast_lean_deg", "lidar_yaw_deg"
 # Beyond it the record is refused: something is to be mended, and not to be recorded.
-LARGEST = {LEVER: 0.1, MAST: 10.0}
+LARGEST = {LEVER: 0.1, MAST: 10.0, LIDAR_YAW: 10.0}
 # Terms of the design, as in operator_gui's calibration/default.yaml.
 DESIGN_TERMS: Dict[str, Dict[str, Any]] = {
     MAST: {"value": 0.0, "uncertainty": 0.5, "distribution": "rectangular", "source": "spirit level of 0.5 degrees"},
     "floor_slope_deg": {"value": 0.0, "uncertainty": 0.5, "distribution": "rectangular",
                         "source": "unevenness of a floor that looks level"},
     LEVER: {"value": 0.0, "uncertainty": 0.005, "distribution": "rectangular", "source": "fitted by hand with a rule"},
-    "lidar_yaw_deg": {"value": 0.0, "uncertainty": 1.0, "distribution": "rectangular", "source": "play of its screws"}}
+    LIDAR_YAW: {"value": 0.0, "uncertainty": 1.0, "distribution": "rectangular", "source": "play of its screws"}}
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ class Check:
     """One thing that was measured.
 
     Attributes:
-        name: key_lever_m, mast_lean_deg, wheel_scale, gyro_scale, lift_height_m or press_force_n; a promise.
+        name: key_lever_m, mast_lean_deg, lidar_yaw_deg, wheel_scale, gyro_scale, lift_height_m or press_force_n: a
+            promise.
         estimate: in the unit that its name ends with, scales without.
         how: what was done, in some words.
     """

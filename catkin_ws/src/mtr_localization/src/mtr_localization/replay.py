@@ -8,9 +8,8 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import replace
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Tuple
 
-import numpy as np
 import rosbag
 from roslib.packages import find_node
 
@@ -64,6 +63,7 @@ def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
     seen are among it. Nothing without mtr_bringup, whose preflight judges."""
     try:
         from mtr_bringup.preflight.motion.judge import MotionJudge
+        from mtr_bringup.recording.motion import motion_in
     except ImportError:
         return []
     places = [place for _, place in found.mounts.values()]
@@ -75,30 +75,6 @@ def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
     theirs = {names.WHEEL_ODOMETRY: found.odometry, names.IMU_DATA: found.imu}
     return [replace(finding, subject=theirs.get(finding.subject) or finding.subject).line() for finding in findings
             if found.imu is not None or finding.subject != names.IMU_DATA]
-
-
-def motion_in(bag: pathlib.Path, senses: List[float]) -> Any:
-    """Recording of a converted bag, for the preflight. senses: of each LiDAR, -1 for one that hangs upside down; judged
-    are upright ones, and it turns the other way."""
-    from mtr_bringup.preflight.motion.recording import ImuSample, Recording, Sweep, WheelSample, scan_sample
-
-    recording = Recording()
-    scans = dict(zip((names.FRONT_SCAN, names.REAR_SCAN), zip((recording.front, recording.rear), senses)))
-    with rosbag.Bag(str(bag)) as read:
-        for topic, message, _ in read.read_messages(topics=[*scans, names.WHEEL_ODOMETRY, names.IMU_DATA]):
-            stamp_s = message.header.stamp.to_sec()
-            if topic == names.WHEEL_ODOMETRY:
-                twist = message.twist.twist
-                recording.wheels.append(WheelSample(stamp_s, twist.linear.x, twist.angular.z))
-            elif topic == names.IMU_DATA:
-                rate, force = message.angular_velocity, message.linear_acceleration
-                recording.imu.append(ImuSample(stamp_s, (rate.x, rate.y, rate.z), (force.x, force.y, force.z)))
-            else:
-                samples, sense = scans[topic]
-                samples.append(scan_sample(Sweep(
-                    stamp_s, sense * message.angle_min, sense * message.angle_increment, message.time_increment,
-                    message.range_min, message.range_max, np.array(message.ranges))))
-    return recording
 
 
 def show(share: float) -> None:

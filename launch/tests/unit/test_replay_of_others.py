@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 import rosbag
 import rospy
+import yaml
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from scipy.spatial.transform import Rotation
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
+from mtr_bringup.calibration.command_line import main as calibrate
 from mtr_localization import replay
 
 # A hall with a pillar, which no turn brings onto itself.
@@ -80,6 +82,27 @@ def test_mount_that_contradicts_what_is_seen_is_named(tmp_path, capsys, told_rpy
     assert replay.main([str(bag), "--out", str(tmp_path / "out"), "--in-motion", "--no-car"]) == 0
     said = capsys.readouterr().out
     assert words in said and ("BAD" in said) is (words == "BAD"), said
+
+
+def test_drive_calibrates_the_lidar_and_the_record_has_it(tmp_path, capsys):
+    bag, record = drive(tmp_path / "theirs.bag", (0.0, 0.0, 0.02)), tmp_path / "robot.yaml"
+    options = ["--record", str(record), "--robot", "R", "--by", "Nov\u00e1k"]
+    assert calibrate(["lidars", "--bag", str(bag), *options]) == 0
+    said = capsys.readouterr().out
+    document = yaml.safe_load(record.read_text(encoding="utf-8"))
+    yaw = document["terms"]["lidar_yaw_deg"]
+    assert "front_lidar at 0.300, 0.000 m, x_m: not told by this drive" in said
+    assert yaw["value"] == pytest.approx(-math.degrees(0.02), abs=4.0 * yaw["uncertainty"]) and yaw["uncertainty"] < 0.3
+    assert calibrate(["lidars", "--bag", str(tmp_path / "none.bag"), *options]) == 1
+    assert "cannot be read" in capsys.readouterr().err
+    assert yaml.safe_load(record.read_text(encoding="utf-8")) == document
+
+
+@pytest.mark.parametrize("arguments", [["lidars"], ["wheels", "--bag", "a.bag"]])
+def test_bag_belongs_to_the_lidars(arguments, capsys):
+    with pytest.raises(SystemExit):
+        calibrate(arguments)
+    assert "lidars needs --bag FILE" in capsys.readouterr().err
 
 
 def test_other_robots_drive_is_tracked_and_written_for_other_tools(tmp_path):
