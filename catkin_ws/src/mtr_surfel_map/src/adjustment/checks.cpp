@@ -47,22 +47,23 @@ int shared(const std::set<int>& a, const std::set<int>& b) {
   return static_cast<int>(std::count_if(a.begin(), a.end(), [&](int surfel) { return b.count(surfel) > 0; }));
 }
 
-/// The path came back to an earlier place and saw the same from there.
+/// The path came back to an earlier place and saw the same from there. A LiDAR that does not look everywhere, and looks
+/// another way than before, sees more that is new: of the smaller of both views a share has to be in the other.
 bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observation>& observations,
                double closing_distance_m) {
   const int last = static_cast<int>(frames.size()) - 1;
-  const std::set<int> seen_last = surfels_seen_by(last, observations);
-  const double wanted = std::max<double>(kMinSharedSurfels, kSharedShare * static_cast<double>(seen_last.size()));
+  std::set<int> seen_before;
   double path_m = 0.0;
   for (int i = last - 1; i >= 0; --i) {
     path_m += (frames[i + 1].pose - frames[i].pose).head<2>().norm();
     const double distance_m = (frames[last].pose - frames[i].pose).head<2>().norm();
-    if (path_m > kMinLoop * closing_distance_m && distance_m < closing_distance_m &&
-        shared(seen_last, surfels_seen_by(i, observations)) >= wanted) {
-      return true;
+    if (path_m > kMinLoop * closing_distance_m && distance_m < closing_distance_m) {
+      seen_before.merge(surfels_seen_by(i, observations));
     }
   }
-  return false;
+  const std::set<int> seen_last = surfels_seen_by(last, observations);
+  const double wanted = kSharedShare * static_cast<double>(std::min(seen_last.size(), seen_before.size()));
+  return shared(seen_last, seen_before) >= std::max<double>(kMinSharedSurfels, wanted);
 }
 
 std::int64_t whole(std::size_t count) { return static_cast<std::int64_t>(count); }

@@ -33,6 +33,10 @@ struct LoopOptions {
   double tilt_sigma_rad = 0.0;
   /// Part of the way round that is driven.
   double turns = 1.05;
+  /// It is driven to and fro: round three sides, for something stands at the fourth, and back to where it began.
+  bool to_and_fro = false;
+  /// Without it the robot sees nothing behind itself.
+  bool rear_lidar = true;
   /// A person walks past in a straight line while the robot drives.
   bool person = false;
   /// Drops of rain per sweep.
@@ -70,6 +74,19 @@ inline std::vector<PoseVector> way_round(double clearance_m, double turns) {
   return way;
 }
 
+/// The same way, a turn on the spot at its end, and the way back.
+inline std::vector<PoseVector> there_and_back(std::vector<PoseVector> way) {
+  constexpr int kTurnSteps = 12;
+  const std::vector<PoseVector> there = way;
+  for (int step = 1; step < kTurnSteps; ++step) {
+    way.push_back(there.back() + PoseVector(0.0, 0.0, M_PI * step / kTurnSteps));
+  }
+  for (auto pose = there.rbegin(); pose != there.rend(); ++pose) {
+    way.push_back(*pose + PoseVector(0.0, 0.0, M_PI));
+  }
+  return way;
+}
+
 // Noise of wheels and gyro as localization expects it.
 inline constexpr double kSlipMPerSqrtM = mtr_core::sensor_figures::kAssumedSlipMPerSqrtM.value;
 inline constexpr double kTurnSlipMPerSqrtRad = mtr_core::sensor_figures::kAssumedTurnSlipMPerSqrtRad.value;
@@ -84,6 +101,9 @@ class Drive {
     Loop loop;
     loop.world = world_of(options_.scene);
     loop.truth = way_round(options_.clearance_m, options_.turns);
+    if (options_.to_and_fro) {
+      loop.truth = there_and_back(loop.truth);
+    }
     for (std::size_t i = 0; i < loop.truth.size(); ++i) {
       KeyFrame frame;
       frame.stamp_ns = static_cast<std::int64_t>(i) * 500'000'000;
@@ -127,7 +147,9 @@ class Drive {
                                        Eigen::Vector2d(normal_(random_), normal_(random_));
     ScanPoints scan;
     sweep(world, robot, {0.2, 0.0, 0.0}, 0, scan);
-    sweep(world, robot, {-0.2, 0.0, M_PI}, 1, scan);
+    if (options_.rear_lidar) {
+      sweep(world, robot, {-0.2, 0.0, M_PI}, 1, scan);
+    }
     return scan;
   }
 

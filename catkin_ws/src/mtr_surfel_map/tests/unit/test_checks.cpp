@@ -45,6 +45,36 @@ TEST(MapVerdict, ClosedWayOfANoisyLidarRoundTheCarAloneIsAMap) {
   }
 }
 
+LoopOptions to_and_fro() {
+  LoopOptions options;
+  options.scene = "beside";
+  options.turns = 0.5;
+  options.to_and_fro = true;
+  options.rear_lidar = false;
+  options.range_noise_m = 0.02;
+  return options;
+}
+
+TEST(MapVerdict, WayToAndFroIsClosedThoughTheRobotLooksTheOtherWayWhereItBegan) {
+  LoopOptions options = to_and_fro();
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    const AdjustedMap map = adjust(drive(options).key_frames, AdjustmentParameters{});
+    EXPECT_TRUE(map.valid) << map.message.text;
+  }
+}
+
+TEST(MapVerdict, WayThatEndsWhereOtherThingsAreSeenThanWhereItBeganIsNoMap) {
+  LoopOptions options = to_and_fro();
+  for (options.seed = 1; options.seed <= 3; ++options.seed) {
+    std::vector<KeyFrame> frames = drive(options).key_frames;
+    const std::size_t middle = frames.size() / 2;
+    for (std::size_t back = 1; back <= 8; ++back) {
+      frames[frames.size() - back].scan = frames[middle - back].scan;
+    }
+    expect_refused(frames, "not closed");
+  }
+}
+
 TEST(MapVerdict, KeyFrameThatIsNoNumberIsNoMap) {
   std::vector<KeyFrame> frames = drive(open_field()).key_frames;
   frames[7].scan.points[3].position.x() = std::nan("");

@@ -62,7 +62,8 @@ inline std::vector<Eigen::Vector2d> car_outline() {
   return outline;
 }
 
-/// "open": the Car alone; "cones": and four posts; "lot": and walls, posts and another car.
+/// "open": the Car alone; "cones": and four posts; "beside": and another car and a wall on its right; "lot": and walls,
+/// posts and another car.
 inline World world_of(const std::string& scene) {
   World world;
   add_polygon(world, car_outline(), {0.0, 0.0, 0.0});
@@ -71,6 +72,10 @@ inline World world_of(const std::string& scene) {
          std::vector<std::pair<double, double>>{{13.0, 6.0}, {-6.0, 13.0}, {-13.0, -5.0}, {5.0, -13.5}}) {
       add_post(world, x, y, 0.12);
     }
+  }
+  if (scene == "beside") {
+    add_polygon(world, car_outline(), {0.3, -2.4, 0.03});
+    world.push_back({{-6.0, -9.0}, {9.0, -9.0}});
   }
   if (scene == "lot") {
     world.push_back({{-25.0, 20.0}, {5.0, 20.0}});
