@@ -76,10 +76,12 @@ class Size(NamedTuple):
 
 
 def size_at(shape: CarShape, height_m: float) -> Size:
-    """What a LiDAR whose plane is at that height can find at best."""
+    """What a LiDAR in that plane can find at best: bumpers that are undercut stand back behind sills and tyres."""
     if height_m >= shape.clearance_m:
         inset = shape.inset_m(height_m)
-        return Size(shape.length_m - 2.0 * inset, shape.width_m - 2.0 * inset, only_wheels=False)
+        beside = [SILL_INSET_M] if height_m >= shape.clearance_m + shape.sill_rise_m else []
+        beside += [TYRE_INSET_M] if height_m < 2.0 * shape.wheel_radius_m else []
+        return Size(shape.length_m - 2.0 * inset, shape.width_m - 2.0 * min([inset, *beside]), only_wheels=False)
     chord = max(0.0, shape.wheel_radius_m**2 - (shape.wheel_radius_m - height_m) ** 2) ** 0.5
     return Size(shape.wheelbase_m + 2.0 * chord, shape.width_m - 2.0 * TYRE_INSET_M, only_wheels=True)
 
