@@ -8,7 +8,7 @@ import pytest
 from mtr_car_locator.estimate import Inputs
 from mtr_car_locator.find.prior import prior_from_start
 from mtr_car_locator.locator import CarLocator
-from mtr_car_locator.measure.axis import robust_line
+from mtr_car_locator.measure.axis import axis_of, robust_line
 from mtr_car_locator.measure.outline import outline_of
 from mtr_car_locator.measure.side import Side, side_of
 from mtr_car_locator.parameters import LocatorParameters
@@ -90,7 +90,7 @@ def visited(ring, blocked=()):
 
 
 @pytest.mark.parametrize("first", range(8))
-@pytest.mark.parametrize("count", [1, 3])
+@pytest.mark.parametrize("count", [1, 2, 3])
 def test_ring_with_blocked_places_visits_all_others_and_ends_where_it_began(first, count):
     def fresh():
         return Ring(Pose2(4.0, 2.6, -2.5), CAR, 1.6)
@@ -184,6 +184,15 @@ def test_end_of_a_tilted_surfel_sticks_out_less_than_its_tilt_says():
 def test_extent_without_support_is_unknown():
     assert side(np.full(10, 0.9)).extent() is None
     assert side(np.linspace(0.2, 0.9, 30)).extent() is None
+
+
+@pytest.mark.parametrize("axle_m", [0.95, 1.07])
+def test_wheels_of_one_side_of_a_short_car_tell_its_heading(axle_m):
+    rows = [(middle + part, -0.75 + 0.01 * (middle + part), -math.pi / 2.0, 0.1, 0.003, 40)
+            for middle in (axle_m, -axle_m) for part in np.arange(-0.25, 0.3, 0.1)]
+    left, right = (side_of(name, surfels_from(np.array(rows))) for name in ("left", "right"))
+    axis = axis_of(left, right, length=3.18)
+    assert axis.slope == pytest.approx(0.01, abs=0.001) and not axis.is_centred
 
 
 def test_line_through_most_points_forgets_the_others():

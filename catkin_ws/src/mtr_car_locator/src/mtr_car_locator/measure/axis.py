@@ -1,5 +1,6 @@
 """The Car's axis of symmetry from its long sides: heading and lateral position."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 import math
 from dataclasses import dataclass
 from typing import Optional, Tuple
@@ -10,8 +11,9 @@ from mtr_core.arrays import FloatArray
 
 from .side import BIN_M, MAP_SHARE, Side
 
-# The ends of a side bend towards the bumpers; with one side alone they would turn the axis.
-ENDS_M = 0.6
+# The ends of a side bend towards the bumpers; with one side alone they would turn the axis. Of a short Car whose sill
+# is too high that leaves too little, for there are its wheels; its bumpers are short, too.
+ENDS_M = (0.6, 0.3)
 MIN_BINS = 6
 # A car's surface spreads so much about its symmetric shape; bins farther off count less and less.
 SHAPE_SIGMA_M = 0.005
@@ -40,8 +42,8 @@ def axis_of(left: Side, right: Side, *, length: float) -> Optional[SymmetryAxis]
         middle = np.array([0.5 * (lefts[number] - rights[number]) for number in both])
         sigma = 0.5 * math.hypot(_sigma(left), _sigma(right))
         return _axis((np.array(both) + 0.5) * BIN_M, middle, sigma, is_centred=True)
-    for side, bins, sign in ((left, lefts, 1.0), (right, rights, -1.0)):
-        inner = [number for number in sorted(bins) if abs((number + 0.5) * BIN_M) < 0.5 * length - ENDS_M]
+    for ends_m, (side, bins, sign) in itertools.product(ENDS_M, ((left, lefts, 1.0), (right, rights, -1.0))):
+        inner = [number for number in sorted(bins) if abs((number + 0.5) * BIN_M) < 0.5 * length - ends_m]
         if len(inner) >= MIN_BINS:
             levels = sign * np.array([bins[number] for number in inner])
             return _axis((np.array(inner) + 0.5) * BIN_M, levels, _sigma(side), is_centred=False)
