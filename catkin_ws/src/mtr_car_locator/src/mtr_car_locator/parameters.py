@@ -9,6 +9,8 @@ from mtr_core.se2 import Pose2
 
 # A body may stand back so far in the LiDARs' plane behind its widest or foremost part, on each side and at each end.
 MAX_INSET_M = 0.06
+# Cars without a data sheet: from a small one to a delivery van each size is as likely, and beyond that soon none is.
+ORDINARY_LENGTH_M, ORDINARY_WIDTH_M = (3.0, 6.0), (1.4, 2.2)
 
 
 @dataclass(frozen=True)

@@ -51,6 +51,18 @@ def test_unseen_sides_are_placed_by_the_expected_size_and_say_so(sides, unseen):
     assert (fit.length_sigma > 0.3) == ("rear" in unseen or "front" in unseen)
 
 
+@pytest.mark.parametrize("sides, size", [
+    (("front", "left", "rear"), {"width": 1.4}), (("front", "left", "rear"), {"width": 2.2}),
+    (("front", "left"), {"length": 3.1})])
+def test_sigmas_hold_what_an_unseen_side_of_an_ordinary_car_may_be_off(sides, size):
+    fit = fit_car(surfels(box(sides=sides, **size)), prior(0.3, -0.2, 0.1), PARAMETERS)
+    at, sigmas = fit.rectangle.pose, (fit.length_sigma, fit.width_sigma, *fit.sigmas[:2])
+    errors = (fit.rectangle.length - size.get("length", LENGTH_M), fit.rectangle.width - size.get("width", WIDTH_M),
+              at.x, at.y)
+    assert max(map(abs, errors)) > 0.1
+    assert all(abs(error) < 2.0 * sigma for error, sigma in zip(errors, sigmas))
+
+
 @pytest.mark.parametrize("sides", [("front",), ("left",), ("left", "right"), ("front", "rear")])
 def test_one_direction_alone_is_not_enough(sides):
     with pytest.raises(NotLocated, match="one long side and one end"):

@@ -10,7 +10,7 @@ from mtr_core.arrays import BoolArray
 
 from ..measure.belonging import BEYOND_M, MIN_OUTWARD_COSINE, belongs, facing
 from ..measure.side import OUTWARDS
-from ..parameters import DataSheet
+from ..parameters import ORDINARY_LENGTH_M, ORDINARY_WIDTH_M, DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .prior import Prior
@@ -21,8 +21,6 @@ DEEP_M, BESIDE_M = 0.55, 0.50
 COVER_BIN_M = 0.25
 # A Car whose sides go on by so much in this stretch beyond one of its ends is longer than that.
 CONTINUED_FROM_M, CONTINUED_TO_M, CONTINUED_M = 0.1, 0.5, 0.3
-# Cars without a data sheet: from a small one to a delivery van each size is as likely, and beyond that soon none is.
-ORDINARY_LENGTH_M, ORDINARY_WIDTH_M = (3.0, 6.0), (1.4, 2.2)
 # What the LiDARs' plane shows of a Car of a known size, or beyond the ordinary ones.
 LENGTH_SPREAD_M, WIDTH_SPREAD_M = 0.3, 0.15
 # The starting place has this 1 sigma in the choice between two that look alike.

@@ -8,7 +8,7 @@ import numpy as np
 
 from mtr_core.se2 import Pose2
 
-from ..parameters import DataSheet
+from ..parameters import ORDINARY_LENGTH_M, ORDINARY_WIDTH_M, DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .axis import SymmetryAxis
@@ -24,8 +24,9 @@ from .wheels import CarWheels
 
 # What lies on the outline is the Car's.
 BEYOND_M = 0.06
-# A passenger car is 3.6 to 5.1 m long and 1.65 to 2.05 m wide; that leaves this 1 sigma when nothing is seen of it.
-UNSEEN_SIGMA_M = {ENDS: 0.4, LONG_SIDES: 0.1}
+# When nothing is seen of an end or a side each ordinary size is as likely: 1 sigma of a uniform distribution.
+UNSEEN_SIGMA_M = {pair: (high - low) / math.sqrt(12.0)
+                  for pair, (low, high) in ((ENDS, ORDINARY_LENGTH_M), (LONG_SIDES, ORDINARY_WIDTH_M))}
 # Tyres stand inside of the body by more than sills and bumpers do; 1 sigma of that on each side.
 TYRE_INSET_SIGMA_M = 0.03
 # Returns so near the level that surfels show are the side's.
