@@ -1,6 +1,6 @@
 """Short straight pieces of surface that LiDARs have seen, in one frame."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Tuple, Union
 
 import numpy as np
@@ -58,6 +58,11 @@ class Surfels:
 
     def _tangent(self) -> FloatArray:
         return np.column_stack((-self.normal[:, 1], self.normal[:, 0]))
+
+
+def joined(*parts: Surfels) -> Surfels:
+    """All of them together."""
+    return Surfels(*(np.concatenate([getattr(part, each.name) for part in parts]) for each in fields(Surfels)))
 
 
 def surfels_from(columns: FloatArray) -> Surfels:

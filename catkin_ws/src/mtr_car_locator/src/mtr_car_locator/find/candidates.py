@@ -7,14 +7,16 @@ from typing import Iterator, List, Optional, Tuple
 
 import numpy as np
 
-from mtr_core.arrays import FloatArray
+from mtr_core.arrays import BoolArray
 from mtr_core.se2 import Pose2
 
-from ..measure.side import ENDS, LONG_SIDES, MIDDLE_SHARE, Side, side_of
-from ..measure.wheels import CarWheels, wheel_sides, wheels_between
+from ..measure.side import ENDS, LONG_SIDES, MIDDLE_SHARE, side_of
+from ..measure.wheels import FACE_DEPTH_M, MAX_FACE_M, CarWheels, wheel_sides, wheels_between
 from ..parameters import DataSheet, LocatorParameters
 from ..rectangle import Rectangle
 from ..surfels import SAMPLE_M, Surfels
+from .far_tyres import with_far_tyres
+from .levels import levels, peaks, sharpness, smoothed
 from .prior import Prior
 from .scoring import Score, score_of
 
@@ -24,18 +26,15 @@ HEADING_BIN_RAD, HEADING_SIGMA_BINS = math.radians(0.5), 3.0
 MAX_HEADINGS, MIN_SHARE_OF_BEST_HEADING = 3, 0.4
 # Directions of a few surfaces of wheels are off by so many bins together, either way.
 FAN_STEPS = 10
-LEVEL_BIN_M, LEVEL_SIGMA_BINS = 0.02, 1.5
-# So much surface makes a level: half a sill, or the middle of a bumper.
-MIN_SURFACE_M = {"front": 0.25, "rear": 0.25, "left": 0.4, "right": 0.4}
-MAX_LEVELS = 5
 
 
 @dataclass(frozen=True)
 class CarCandidate:
-    """A rectangle with its evidence; wheels when neither front nor rear was seen."""
+    """A rectangle with its evidence, the surfels that give it; wheels when neither front nor rear was seen."""
 
     car: Rectangle
     score: Score
+    seen: Surfels
     wheels: Optional[CarWheels] = None
 
 
@@ -52,10 +51,12 @@ def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) ->
     found = []
     for turn in headings(surfels, prior, parameters.heading_tolerance_rad):
         frame = prior.car.pose @ Pose2(0.0, 0.0, turn)
-        for car, wheels in _rectangles(surfels.in_frame(frame), sheet):
-            placed = Rectangle(frame @ car.pose, car.length, car.width)
-            if is_allowed(placed, prior, parameters):
-                found.append(CarCandidate(placed, score_of(surfels, placed, prior, sheet), wheels))
+        for in_frame in with_far_tyres(surfels.in_frame(frame)):
+            seen = in_frame.in_frame(frame.inverse())
+            for car, wheels in _rectangles(in_frame, sheet):
+                placed = Rectangle(frame @ car.pose, car.length, car.width)
+                if is_allowed(placed, prior, parameters):
+                    found.append(CarCandidate(placed, score_of(seen, placed, prior, sheet), seen, wheels))
     return sorted(found, key=lambda each: -each.score.total)
 
 
@@ -76,65 +77,45 @@ def headings(surfels: Surfels, prior: Prior, tolerance_rad: float) -> List[float
     best = peaks(density, MIN_SHARE_OF_BEST_HEADING * density.max())[:MAX_HEADINGS]
     found = [float(0.5 * (edges[index] + edges[index + 1])) for index in best]
     for peak in list(found):
-        sharper = peak + sharpest(surfels.in_frame(prior.car.pose @ Pose2(0.0, 0.0, peak)))
-        if abs(sharper) <= tolerance_rad and all(abs(sharper - other) >= HEADING_BIN_RAD for other in found):
-            found.append(sharper)
+        for correction in sharp_turns(surfels.in_frame(prior.car.pose @ Pose2(0.0, 0.0, peak))):
+            sharper = peak + correction
+            if abs(sharper) <= tolerance_rad and all(abs(sharper - other) >= HEADING_BIN_RAD for other in found):
+                found.append(sharper)
     return found
 
 
-def sharpest(seen: Surfels) -> float:
-    """Turn of the frame, in rad, in which the long sides' surface lies at the sharpest levels.
+def sharp_turns(seen: Surfels) -> List[float]:
+    """Turns of the frame, in rad, in which the long sides' surface lies at the sharpest levels: all of it, and what is
+    left without bodies, for another car's side, parked beside the Car, has more surface than the Car's wheels.
 
     The places of a wheel's few surfaces are known better than their directions, and two wheels of a side lie far apart.
     """
+    of_all = _sharpest(seen)
+    turned = seen.in_frame(Pose2(0.0, 0.0, of_all))
+    return [of_all, of_all + _sharpest(turned.where(~_is_body(turned)))]
+
+
+def _sharpest(seen: Surfels) -> float:
     best_turn, best = 0.0, -1.0
     for step in range(-FAN_STEPS, FAN_STEPS + 1):
         # From the middle outwards, so that of two alike the smaller turn is kept.
         turn = HEADING_BIN_RAD * ((step + FAN_STEPS + 1) // 2) * (-1.0) ** (step + FAN_STEPS)
         turned = seen.in_frame(Pose2(0.0, 0.0, turn))
-        sharpness = sum(_sharpness(side_of(name, turned, -math.inf)) for name in LONG_SIDES)
-        if sharpness > best:
-            best_turn, best = turn, sharpness
+        found = sum(sharpness(side_of(name, turned, -math.inf)) for name in LONG_SIDES)
+        if found > best:
+            best_turn, best = turn, found
     return best_turn
 
 
-def _sharpness(side: Side) -> float:
-    """Sum of the squares of the surface at each level."""
-    density = smoothed(_surface_by_level(side)[0], LEVEL_SIGMA_BINS)
-    return float(density @ density)
-
-
-def levels(side: Side) -> List[float]:
-    """Distances outwards at which the side has much surface, the most first."""
-    surface_m, low = _surface_by_level(side)
-    density = smoothed(surface_m, LEVEL_SIGMA_BINS)
-    # A single level of surface s makes a peak of this height.
-    height = MIN_SURFACE_M[side.name] / (LEVEL_SIGMA_BINS * math.sqrt(2.0 * math.pi))
-    return [low + (index + 0.5) * LEVEL_BIN_M for index in peaks(density, height)[:MAX_LEVELS]]
-
-
-def _surface_by_level(side: Side) -> Tuple[FloatArray, float]:
-    """Surface in m in each bin of LEVEL_BIN_M outwards, and where the first begins."""
-    if len(side.outward) == 0:
-        return np.zeros(1), 0.0
-    low = side.outward.min() - 5 * LEVEL_BIN_M
-    count = math.ceil((side.outward.max() - low) / LEVEL_BIN_M) + 5
-    counts, _ = np.histogram(side.outward, bins=count, range=(low, low + count * LEVEL_BIN_M))
-    return counts * SAMPLE_M, float(low)
-
-
-def smoothed(values: FloatArray, sigma_bins: float) -> FloatArray:
-    """Convolution with a Gaussian."""
-    reach = np.arange(-math.ceil(3 * sigma_bins), math.ceil(3 * sigma_bins) + 1)
-    kernel = np.exp(-0.5 * (reach / sigma_bins) ** 2)
-    return np.convolve(values.astype(float), kernel / kernel.sum(), mode="same")
-
-
-def peaks(density: FloatArray, minimum: float) -> List[int]:
-    """Indices of the local maxima above a height, highest first."""
-    padded = np.concatenate(([-1.0], density, [-1.0]))
-    top = (density > padded[:-2]) & (density >= padded[2:]) & (density > 0.0) & (density >= minimum)
-    return sorted(np.nonzero(top)[0].tolist(), key=lambda index: -density[index])
+def _is_body(seen: Surfels) -> BoolArray:
+    """Mask of the surfels at levels of the long sides that have more surface than two tyres."""
+    found = np.zeros(len(seen), dtype=bool)
+    for side in (side_of(name, seen, -math.inf) for name in LONG_SIDES):
+        for level in levels(side):
+            there = np.abs(side.outward - level) <= FACE_DEPTH_M
+            if np.count_nonzero(there) * SAMPLE_M > 2.0 * MAX_FACE_M:
+                found[side.surfel[there]] = True
+    return found
 
 
 def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Optional[CarWheels]]]:

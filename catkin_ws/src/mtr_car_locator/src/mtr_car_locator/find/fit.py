@@ -18,7 +18,7 @@ from .blobs import guess_from_blobs
 from .candidates import CarCandidate, candidates, is_allowed, near
 from .errors import NotLocated
 from .prior import Prior
-from .scoring import score_of
+from .scoring import new_share, score_of
 
 # A whole Car, seen from all sides, has a quality of 0.7 and more, one seen from one side and one end 0.35; a wall,
 # a group of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
@@ -28,6 +28,8 @@ MIN_QUALITY_ON_WHEELS = 0.15
 # Two candidates are two things when their centres are so far apart, and alike when their evidence is.
 TWO_THINGS_M, ALIKE = 0.8, 0.5
 MIN_SURFACE_M = 1.0
+# Another thing shows so much surface that is none of the first one's.
+MIN_NEW_SHARE = 0.2
 
 
 def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
@@ -40,6 +42,7 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
     if seen.length.sum() < MIN_SURFACE_M:
         raise NotLocated(problems.NOTHING_THERE())
     best = _chosen(candidates(seen, prior, parameters))
+    seen = best.seen
     found = Alignment(seen, close_up, parameters.sheet, on_wheels=best.wheels is not None).aligned(best.car)
     fit = measured(seen, found, parameters.sheet, close_up)
     fit = replace(fit, quality=score_of(seen, found.car, prior, parameters.sheet).quality)
@@ -69,9 +72,14 @@ def _chosen(found: List[CarCandidate]) -> CarCandidate:
     for other in found[1:]:
         apart = other.car.pose.distance_to(best.car.pose)
         if (apart > TWO_THINGS_M and other.score.quality >= minimum
-                and other.score.total >= ALIKE * best.score.total):
+                and other.score.total >= ALIKE * best.score.total and not _is_same_thing(best, other)):
             raise NotLocated(problems.TWO_CARS(apart_m=apart))
     return best
+
+
+def _is_same_thing(best: CarCandidate, other: CarCandidate) -> bool:
+    """True of a rectangle that has an end at the treads of the wheels that tell the Car, and its other end nowhere."""
+    return best.wheels is not None and new_share(best.seen, best.car, other.car) < MIN_NEW_SHARE
 
 
 def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:

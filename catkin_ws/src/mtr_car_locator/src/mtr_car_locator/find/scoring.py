@@ -59,6 +59,12 @@ def score_of(surfels: Surfels, car: Rectangle, prior: Prior, sheet: DataSheet) -
     return Score(quality, quality * place, cover)
 
 
+def new_share(surfels: Surfels, car: Rectangle, other: Rectangle) -> float:
+    """Of the surface that the other rectangle explains, the share that the Car's does not."""
+    explained, anew = (belongs(surfels.in_frame(each.pose), each) for each in (car, other))
+    return float(surfels.length[anew & ~explained].sum() / max(surfels.length[anew].sum(), 1e-9))
+
+
 def cover_of(explained: Surfels, car: Rectangle) -> float:
     """Share of the outline beside which there is a surface that faces outwards."""
     covered = total = 0

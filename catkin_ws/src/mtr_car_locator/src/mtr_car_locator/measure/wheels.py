@@ -80,10 +80,10 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, sheet: DataSh
     """Both axles, when each long side shows two wheels at its level and next to nothing between them; the pairs that
     are squarest to each other first. A car parked in line has wheels at the same levels, too."""
     levels = {"left": 0.5 * width + y, "right": 0.5 * width - y}
-    left, right = (list(_pairs(sides[name], levels[name])) for name in LONG_SIDES)
-    square = [each for each in itertools.product(left, right) if _off_square_m(*each) <= SQUARE_M]
+    left, right = (list(face_pairs(sides[name], levels[name])) for name in LONG_SIDES)
+    square = [each for each in itertools.product(left, right) if off_square_m(*each) <= SQUARE_M]
     axles: List[FloatArray] = []
-    for both in sorted(square, key=lambda each: _off_square_m(*each) + _off_size_m(*each)):
+    for both in sorted(square, key=lambda each: off_square_m(*each) + _off_size_m(*each)):
         found = np.mean([[rear.middle_m, front.middle_m] for rear, front in both], axis=0)
         if all(np.max(np.abs(found - other)) > SAME_WHEELS_M for other in axles):
             axles.append(found)
@@ -103,7 +103,7 @@ def wheels_from(faces: Sequence[Sequence[Face]], sheet: DataSheet) -> Optional[C
     pairs = [[(rear, front) for rear, front in itertools.permutations(each, 2)
               if MIN_WHEELBASE_M <= front.middle_m - rear.middle_m <= MAX_WHEELBASE_M] for each in faces]
     both = [(left, right) for left, right in itertools.product(*pairs)
-            if _off_square_m(left, right) <= EXACT_SQUARE_M
+            if off_square_m(left, right) <= EXACT_SQUARE_M
             and abs(sum(each.middle_m for each in (*left, *right))) < 4.0 * SAME_WHEELS_M]
     if sheet.wheelbase_m:
         both = [each for each in both if all(abs(front.middle_m - rear.middle_m - sheet.wheelbase_m) <= EXACT_SQUARE_M
@@ -121,7 +121,7 @@ def _face_sigma_m(left: FacePair, right: FacePair) -> float:
     return math.hypot(EXACT_FACE_SIGMA_M, math.sqrt(0.5) * max(0.0, _off_size_m(left, right) - FACE_SIZE_NOISE_M))
 
 
-def _off_square_m(left: FacePair, right: FacePair) -> float:
+def off_square_m(left: FacePair, right: FacePair) -> float:
     """How far the axles of one side are from those of the other."""
     return max(abs(one.middle_m - other.middle_m) for one, other in zip(left, right))
 
@@ -132,7 +132,7 @@ def _off_size_m(left: FacePair, right: FacePair) -> float:
     return max(sizes) - min(sizes)
 
 
-def _pairs(side: Side, level: float) -> Iterator[FacePair]:
+def face_pairs(side: Side, level: float) -> Iterator[FacePair]:
     """What may be the two wheels along a side."""
     along = np.sort(side.along[np.abs(side.outward - level) <= FACE_DEPTH_M])
     parts = np.split(along, np.nonzero(np.diff(along) > GAP_M)[0] + 1)
