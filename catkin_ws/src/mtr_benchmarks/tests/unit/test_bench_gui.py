@@ -12,12 +12,12 @@ from mtr_operator.robot_link.conversions import status_message_from
 
 GOOD = WindowFigures(99 * [0.004] + [0.02], 20 * [0.03], 31.0, 0.03, 0.1, 190.0, 0.5)
 
-FLAT = DayFigures(8.0, 30, [190.0, 191.0, 189.0, 192.0])
+FLAT = DayFigures(8.0, 30, 9000, 6 * [190.0, 191.0, 189.0, 190.0])
 
 
 def met(figures, starts_s=(1.0, 1.5, 3.0), day=FLAT):
     rows = report(figures, starts_s, Times(), day).rows
-    assert len({row.requirement.name for row in rows}) == len(rows) == 9
+    assert len({row.requirement.name for row in rows}) == len(rows) == 10
     return [row.is_met for row in rows]
 
 
@@ -35,13 +35,23 @@ def test_a_bad_figure_is_not_met(changes, row):
 
 
 def test_memory_that_grows_over_a_day_is_not_met():
-    grown = DayFigures(8.0, 30, [190.0, 196.0, 202.0, 208.0])
-    assert grown.growth_mib == 18.0
-    assert [index for index, is_met in enumerate(met(GOOD, day=grown)) if not is_met] == [7]
+    grown = DayFigures(8.0, 30, 9000, [190.0, 196.0, 202.0, 208.0])
+    assert grown.slope_mib_per_h == pytest.approx((3.0, 3.0, 3.0))
+    assert grown.growth_mib == pytest.approx(18.0)
+    assert [index for index, is_met in enumerate(met(GOOD, day=grown)) if not is_met] == [7, 8]
+
+
+def test_memory_of_which_chance_may_hide_growth_is_not_met():
+    scattered = DayFigures(8.0, 30, 9000, [190.0, 230.0, 170.0, 225.0, 180.0, 235.0, 185.0, 200.0])
+    slope, low, high = scattered.slope_mib_per_h
+    assert low < 0.0 < slope < 2.0 < high
+    assert [index for index, is_met in enumerate(met(GOOD, day=scattered)) if not is_met] == [8]
 
 
 def test_one_odd_look_at_the_memory_is_no_growth():
-    assert DayFigures(8.0, 30, [190.0, 190.0, 190.0, 190.0, 240.0]).growth_mib == 0.0
+    odd = DayFigures(8.0, 30, 9000, [190.0, 190.0, 190.0, 190.0, 240.0])
+    assert odd.growth_mib == 0.0
+    assert DayFigures(8.0, 30, 9000, 12 * [190.0] + [240.0] + 11 * [190.0]).slope_mib_per_h == (0.0, 0.0, 0.0)
 
 
 def test_nothing_measured_is_not_known():

@@ -29,6 +29,8 @@ REST_CPU = Requirement("processor at rest, of one core", "(share)", must=0.05)
 MEMORY = Requirement("memory", "MiB")
 GROWTH = Requirement("growth of the memory while measuring", "MiB", must=8.0)
 DAY = Requirement("growth of the memory over a day of tests, robot time", "MiB", must=16.0)
+# So that what is left to chance over a day is at most what it may grow by.
+SLOPE = Requirement("slope of the memory over a day of tests, upper end of its 95 % interval", "MiB/h", must=2.0)
 START = Requirement("start to the first window, median", "s", goal=2.0)
 STARTS = 3
 SHORT = Times(5.0, 15.0, 30)
@@ -72,13 +74,16 @@ def measured_start() -> float:
 
 def report(found: WindowFigures, starts_s: Sequence[float], times: Times, day: DayFigures) -> BenchmarkReport:
     """Rows of the table."""
+    slope, low, high = day.slope_mib_per_h
     looks = {f"look_{number}_mib": value for number, value in enumerate(day.memory_mib, 1)}
     rows = [Row(STOP, percentile_ms(found.stop_s, 99.0), details={"clicks": float(len(found.stop_s))}),
             Row(PICTURE, percentile_ms(found.picture_s, 95.0), details={"pictures": float(len(found.picture_s))}),
             Row(FRAMES, found.frames_per_s), Row(MEASURING_CPU, found.measuring_cores), Row(REST_CPU, found.rest_cores),
             Row(MEMORY, found.memory_mib),
             Row(GROWTH, found.memory_growth_mib, details={"measured_s": times.measuring_s}),
-            Row(DAY, day.growth_mib, details={"hours": day.hours, "tests": float(day.tests), **looks}),
+            Row(DAY, day.growth_mib, details={"hours": day.hours, "tests": float(day.tests),
+                                              "events": float(day.events), **looks}),
+            Row(SLOPE, high, details={"slope": slope, "low": low}),
             Row(START, float(np.median(starts_s)))]
     return BenchmarkReport(rows, {"starts_s": list(starts_s), "stop_median_ms": percentile_ms(found.stop_s, 50.0),
                                   "picture_median_ms": percentile_ms(found.picture_s, 50.0)},
