@@ -174,7 +174,7 @@ def take_key_press(person: Person, camera: Camera) -> None:
 
 
 def take_history(person: Person, camera: Camera) -> None:
-    """The tests of before, one of them repeated, and both compared."""
+    """The tests of before, one of them repeated, both compared, and their spread."""
     table = person.application.window.history.table
     person.click("Tests so far")
     person.wait_for("2 tests, 2 of them shown.")
@@ -190,6 +190,10 @@ def take_history(person: Person, camera: Camera) -> None:
     person.click("Compare two")
     person.wait_for("First: ")
     person.look(camera, "16_comparison")
+    close(person)
+    person.click("Spread")
+    person.wait_for("2 tests from")
+    person.look(camera, "16_spread")
     close(person)
     person.click("Back")
 

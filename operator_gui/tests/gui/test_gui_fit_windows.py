@@ -12,11 +12,13 @@ from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.gui.forms.adapters.bus_forms import BusForm
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
+from mtr_operator.gui.history.spread_window import SpreadWindow
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
 from mtr_operator.history.comparison import compare
 from mtr_operator.history.line_pairs import Side
+from mtr_operator.history.spread import spread_of
 from mtr_operator.station.connection import BusChoice, CanChoice, Connection
 
 
@@ -59,16 +61,26 @@ def test_settings_fit_and_have_their_stop_in_sight__B6(application, main, show, 
     assert_fits(window, monkeypatch)
 
 
-def test_comparison_fits_and_has_its_stop_in_sight(application, main, show, monkeypatch):
+def measured_side(day, far_m):
     scenario = SCENARIOS["key_press"]
     parameters = scenario.parameters_type(method="adaptive")
-    sides = [Side(scenario, parameters, Progress(
+    return Side(scenario, parameters, Progress(
         scenario.name, parameters.to_mapping(), {"started": f"2026-11-2{day}T15:36:43+01:00"}, CAR,
         [KeyPressResult(number, 45.0 * (number - 1), LineStatus.OK, far_m, None, 0.01, 9, 1.0, "", method="adaptive",
                         reach="measured", d50_m=far_m, d50_sigma_m=0.1, d50_low_m=far_m - 0.2, d50_high_m=far_m + 0.2)
          for number in range(1, 9)], identity=Identity("WVWZZZ1KZAW000001", f"Golf {day}")))
-        for day, far_m in ((1, 4.0), (2, 6.0))]
+
+
+def test_comparison_fits_and_has_its_stop_in_sight(application, main, show, monkeypatch):
+    sides = measured_side(1, 4.0), measured_side(2, 6.0)
     window = show(lambda: ComparisonWindow(compare(*sides), application.appearance, main))
+    assert visible(window, StopButton) and window.table.model().rowCount() == 8
+    assert_fits(window, monkeypatch, QSize(1300, 760))
+
+
+def test_spread_fits_and_has_its_stop_in_sight(application, main, show, monkeypatch):
+    found = spread_of([measured_side(day, 4.0 + 0.1 * day) for day in (1, 2, 4)])
+    window = show(lambda: SpreadWindow(found, application.appearance, main))
     assert visible(window, StopButton) and window.table.model().rowCount() == 8
     assert_fits(window, monkeypatch, QSize(1300, 760))
 

@@ -3,6 +3,7 @@
 import dataclasses
 
 import pytest
+from PyQt5.QtCore import Qt
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.progress import JournalMark
@@ -13,6 +14,7 @@ from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.history.history_model import HistoryModel
 from mtr_operator.gui.history.replay_window import ReplayWindow
+from mtr_operator.gui.history.spread_window import SpreadWindow
 from mtr_operator.replay import replay_file
 from mtr_operator.replay.replay import ReplayedTest
 from mtr_operator.storage.progress_file import open_progress, save_progress
@@ -49,7 +51,7 @@ def test_tests_are_listed_newest_first_and_searched(lab):
     history.search.setText("other")
     assert [entry.car for entry in history.shown] == ["OTHER"]
     history.search.setText("")
-    history.car.setCurrentIndex(history.car.findData("OTHER"))
+    history.filters.car.setCurrentIndex(history.filters.car.findData("OTHER"))
     assert len(history.shown) == 1
 
 
@@ -98,6 +100,63 @@ def test_two_tests_are_compared_with_stop_in_sight(lab):
     window.close()
 
 
+def opened(lab, kind):
+    """The window that comes when a thread has done its work."""
+    lab.wait(lambda: lab.window.findChildren(kind))
+    [window] = lab.window.findChildren(kind)
+    return window
+
+
+def test_spread_of_chosen_tests_is_shown_with_stop_in_sight(lab):
+    history = show(lab)
+    assert not history.spread.isEnabled()
+    history.table.selectAll()
+    lab.click(history.spread)
+    window = opened(lab, SpreadWindow)
+    assert window.isVisible() and window.findChildren(StopButton) and not window.isModal()
+    assert history.spread.isEnabled()
+    model = window.table.model()
+    # Three tests have the first two lines, two the others; the results are copies of each other.
+    assert [model.data(model.index(row, 2)) for row in range(4)] == ["3", "3", "2 of 3", "2 of 3"]
+    values = [result.distances[0].distance_m for result in open_progress(history.chosen[0].file, SCENARIOS)[2].results]
+    assert model.data(model.index(0, 3)) == f"{values[0]:.2f}"
+    assert model.data(model.index(0, 5)) == "< 0.001"
+    assert model.data(model.index(0, 7)) == f"{values[0]:.2f} to {values[0]:.2f}"
+    assert "All tests have the same value" in model.data(model.index(0, 0), Qt.ItemDataRole.ToolTipRole)
+    assert "3 tests from 2020-01-01" in window.summary.text() and "Car's VIN" in window.summary.text()
+    window.table.selectRow(2)
+    assert len(window._points.chosen) == 2
+    window.close()
+
+
+def test_spread_of_one_test_takes_all_of_its_car_and_key_with_its_parameters(lab):
+    history = show(lab)
+    history.search.setText("other")
+    history.table.selectRow(0)
+    lab.click(history.spread)
+    assert "No other test has the parameters" in history.notice.text()
+    # The two of which nobody said whose car it was, one of them complete.
+    history.search.setText("2020-01-02")
+    history.table.selectRow(0)
+    history.spread.setFocus()
+    # Filters do not hide repetitions.
+    lab.bot.keyClick(history.spread, Qt.Key_Return)
+    window = opened(lab, SpreadWindow)
+    model = window.table.model()
+    assert [model.data(model.index(row, 2)) for row in range(model.rowCount())] == ["2", "2"]
+    assert len(window.found.tests.sides) == 2 and not window.found.differing
+
+
+def test_file_that_is_broken_meanwhile_is_said_and_the_spread_can_be_wanted_again(lab):
+    history = show(lab)
+    history.table.selectAll()
+    # Without a journal that knows all of it.
+    history.shown[2].file.write_bytes(b"{")
+    lab.click(history.spread)
+    lab.wait(lambda: "truncated or not a JSON file" in history.notice.text())
+    assert history.spread.isEnabled() and not lab.window.findChildren(SpreadWindow)
+
+
 def test_broken_record_is_a_row_with_its_sentence_and_nothing_can_be_done_with_it(lab):
     folder = lab.application.flow.store.settings.progress_folder
     (folder / "broken.json").write_bytes(b"{")
@@ -119,7 +178,7 @@ def test_broken_record_is_a_row_with_its_sentence_and_nothing_can_be_done_with_i
     history.search.setText("truncated")
     assert model.rowCount() == 1
     history.search.setText("")
-    history.car.setCurrentIndex(history.car.findData("OTHER"))
+    history.filters.car.setCurrentIndex(history.filters.car.findData("OTHER"))
     assert model.rowCount() == 1
 
 
@@ -175,7 +234,7 @@ def test_ten_thousand_tests_with_a_broken_one_are_found_and_only_those_in_sight_
     assert "10000 tests, 10000 of them shown." in history.notice.text() and "broken.json" in history.notice.text()
     # A screen of rows with a few roles each, and not a hundred thousand cells.
     assert 0 < len(asked) < 10_000
-    history.car.setCurrentIndex(history.car.findData("VIN9999"))
+    history.filters.car.setCurrentIndex(history.filters.car.findData("VIN9999"))
     assert [each.car for each in history.shown] == ["VIN9999"]
 
 

@@ -32,7 +32,7 @@ SCENARIO = SCENARIOS["key_press"]
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 QUARTER = math.pi / 2.0
 HALF_M = 0.3
-HEAD = '{"format": "mtr-operator history", "version": 1, "tests": '
+HEAD = '{"format": "mtr-operator history", "version": 2, "tests": '
 
 
 def parameters(method="adaptive", **changes):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 from typing import Sequence
 
 from mtr_operator.domain.results.figure import Figure, Kind
@@ -42,6 +43,16 @@ def sigma_heading(results: Sequence[LineResult]) -> str:
 def interval_text(distance: MeasuredDistance) -> str:
     """Ends of the 95 % interval, or the one that is known."""
     return figures.interval_text(distance, number, _translated)
+
+
+def ends_text(low_m: float, high_m: float, digits: int = 2) -> str:
+    """Of an interval whose ends may be infinite; empty without any."""
+    ends = {"first": number(low_m, digits), "second": number(high_m, digits)}
+    if math.isfinite(low_m) and math.isfinite(high_m):
+        return _translated("{first} to {second}").format(**ends)
+    if math.isfinite(low_m):
+        return _translated("at least {first}").format(**ends)
+    return _translated("at most {first}").format(first=ends["second"]) if math.isfinite(high_m) else ""
 
 
 def _translated(text: str) -> str:

@@ -19,7 +19,7 @@ class TestEntry:
         path: of the progress file, or of the journal where that is all there is.
         problem: why it cannot be read; empty when it can. Without one the others mean something.
         test_id: the same in each copy of the test. entries: how far this copy reaches.
-        started: as in the record. scenario: its name.
+        started: as in the record. scenario: its name. parameters: the same for tests with the same ones.
         car, key, operator, place: as they are told apart, empty where nobody said it.
         done, total, invalid: lines. is_complete: none is left to be measured.
         verdict: word of the test's verdict, empty without limits.
@@ -35,6 +35,7 @@ class TestEntry:
     entries: int = 0
     started: str = ""
     scenario: str = ""
+    parameters: str = ""
     car: str = ""
     key: str = ""
     operator: str = ""

@@ -19,7 +19,7 @@ from .places import Stamp, look
 from .reading import read_entry
 from .search import listed
 
-FORMAT, VERSION = "mtr-operator history", 1
+FORMAT, VERSION = "mtr-operator history", 2
 # What is read so far is told this often, in s of wall time.
 TOLD_PERIOD_S = 0.5
 # 100,000 tests; a larger file is something else.

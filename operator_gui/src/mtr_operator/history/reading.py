@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import hashlib
+import json
 import pathlib
 
 from mtr_operator.domain.errors import OperatorError
@@ -14,6 +16,9 @@ from mtr_operator.report.identity.identity_rows import identity_rows
 
 from .entry import TestEntry
 from .line_pairs import Side, open_side
+
+# Of 64 bits: no two of ten thousand tests have the same by chance.
+_MARK_LETTERS = 16
 
 
 def read_entry(path: pathlib.Path) -> TestEntry:
@@ -38,10 +43,16 @@ def entry_of(path: pathlib.Path, side: Side) -> TestEntry:
     return TestEntry(
         str(path), "", f"{scenario.name} {started}" if progress.kept is None else progress.kept.id,
         len(results) if progress.kept is None else progress.kept.entries, started, scenario.name,
-        " ".join(filter(None, (identity.car_model, identity.car_vin))), identity.key_serial, identity.operator,
-        identity.place, len(results), total, sum(1 for result in results if result.invalid_count),
+        _mark_of(parameters), " ".join(filter(None, (identity.car_model, identity.car_vin))), identity.key_serial,
+        identity.operator, identity.place, len(results), total, sum(1 for result in results if result.invalid_count),
         0 < total == len(results) and not progress.to_retry(), _verdict(scenario, parameters, progress),
         "\n".join(words).lower())
+
+
+def _mark_of(parameters: ScenarioParameters) -> str:
+    """The same for equal parameters, also of a file that leaves some at their defaults."""
+    plain = json.dumps(parameters.to_mapping(), sort_keys=True)
+    return hashlib.sha256(plain.encode("utf-8")).hexdigest()[:_MARK_LETTERS]
 
 
 def _verdict(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> str:

@@ -8,6 +8,7 @@ from mtr_operator.storage.progress_file import FILE_NAME
 
 from .bundles import is_bundle
 from .entry import TestEntry
+from .same_lines import MAX_TESTS
 
 
 def listed(entries: Iterable[TestEntry]) -> list[TestEntry]:
@@ -32,6 +33,14 @@ def matching(entries: Sequence[TestEntry], text: str = "", *, car: str = "", key
     return [entry for entry in entries if not entry.problem
             and all(word in entry.words or word in entry.verdict for word in words)
             and all(getattr(entry, name) == value for name, value in wanted.items())]
+
+
+def repetitions(entries: Sequence[TestEntry], entry: TestEntry) -> list[TestEntry]:
+    """Tests of an entry's car and key with its parameters that have measured something, itself among them, oldest
+    first; of very many the newest. What nobody said of car and key is the same as what nobody said."""
+    alike = [each for each in entries if not each.problem and each.done
+             and all(getattr(each, name) == getattr(entry, name) for name in ("scenario", "parameters", "car", "key"))]
+    return sorted(alike, key=lambda each: (each.started, each.path))[-MAX_TESTS:]
 
 
 def unreadable(entries: Sequence[TestEntry], text: str = "") -> list[TestEntry]:

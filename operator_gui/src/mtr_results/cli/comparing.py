@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import argparse
-from typing import Any, Iterator
+from typing import Iterator
 
 from mtr_operator.cli.exit_codes import EXIT_PASS
+from mtr_operator.domain.estimation.components import Spread
+from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.history.same_lines import Tests
+from mtr_operator.history.spread import distance_spread
 from mtr_operator.report.table import line_name
 
 from ..statistics.capability import Capability, capability
 from ..statistics.comparison import compare_sets
-from ..statistics.components import components
 from ..statistics.documents import capability_document, comparison_document, spread_document, trend_document
-from ..statistics.places import Tests
 from ..statistics.texts import MEANING, interval_text, row_texts
 from ..statistics.trend import trend
 from ..store.sets import TestSet, read_set
@@ -49,32 +51,30 @@ def spread(options: argparse.Namespace) -> int:
     """Print where the spread of each distance comes from."""
     tests, chosen = _read(options)
     factors = {name: chosen.values(name) for name in options.by.split(",") if name}
-    found = []
-    for line, word, name in _distances(tests, options.line, options.word):
-        known = [tests.distance(test, line, word) for test in range(len(tests.sides))]
-        kept = [index for index, each in enumerate(known) if each is not None and each.value is not None]
-        values = [each.value for each in known if each is not None and each.value is not None]
-        of_kept = {factor: [levels[index] for index in kept] for factor, levels in factors.items()}
-        found.append((name, line, word, len(known) - len(kept), components(values, of_kept)))
+    found = [(name, distance_spread(tests, line, word, factors))
+             for line, word, name in _distances(tests, options.line, options.word)]
     if options.json:
-        print_json([{"line": line, "name": name, "what": word, "without_value": without, **spread_document(each),
-                     **capability_document(capability(each, options.at_least, options.at_most))}
-                    for name, line, word, without, each in found])
+        print_json([{"line": each.line.number, "name": name, "what": each.word, "without_value": each.without,
+                     **spread_document(each.spread),
+                     **capability_document(capability(each.spread, options.at_least, options.at_most))}
+                    for name, each in found])
         return EXIT_PASS
-    for name, _, word, without, each in found:
-        print(f"{name} {word}: {each.count} tests, {without} without a value")
-        if each.reason:
-            print(f"  {each.reason}")
+    for name, each in found:
+        print(f"{name} {each.word}: {each.spread.count} tests, {each.without} without a value")
+        if each.spread.reason:
+            print(f"  {each.spread.reason}")
             continue
-        print(f"  mean {each.mean:.3f} m, repeatability {each.repeatability:.3f} m, reproducibility "
-              f"{each.reproducibility:.3f} m (1 sigma)")
-        for part in each.components:
-            print(f"  {part.factor} ({part.levels}): {part.sigma:.3f} m, 95 % {interval_text(part.low, part.high)}")
-        for sentence in each.left_out:
-            print(f"  left out: {sentence}")
-        for row in _capability_texts(capability(each, options.at_least, options.at_most)):
+        for row in (*_spread_texts(each.spread), *_capability_texts(capability(each.spread, options.at_least,
+                                                                               options.at_most))):
             print(f"  {row}")
     return EXIT_PASS
+
+
+def _spread_texts(found: Spread) -> list[str]:
+    return [f"mean {found.mean:.3f} m, repeatability {found.repeatability:.3f} m, reproducibility "
+            f"{found.reproducibility:.3f} m (1 sigma)",
+            *(f"{part.factor} ({part.levels}): {part.sigma:.3f} m, 95 % {interval_text(part.low, part.high)}"
+              for part in found.components), *(f"left out: {sentence}" for sentence in found.left_out)]
 
 
 def _capability_texts(found: Capability | None) -> list[str]:
@@ -89,8 +89,8 @@ def show_trend(options: argparse.Namespace) -> int:
     tests, chosen = _read(options)
     document = []
     for line, word, name in _distances(tests, options.line, options.word):
-        found = trend([tests.distance(test, line, word) for test in range(len(tests.sides))], options.baseline)
-        document.append({"line": line, "name": name, "what": word, **trend_document(found)})
+        found = trend([tests.distance(test, line.number, word) for test in range(len(tests.sides))], options.baseline)
+        document.append({"line": line.number, "name": name, "what": word, **trend_document(found)})
         if not options.json:
             limits = found.reason or f"mean {found.centre:.3f} m, limits {found.low:.3f} to {found.high:.3f} m"
             print(f"{name} {word}: {limits}")
@@ -107,9 +107,9 @@ def _read(options: argparse.Namespace) -> tuple[Tests, TestSet]:
     return Tests(chosen.sides), chosen
 
 
-def _distances(tests: Tests, line: int, word: str) -> Iterator[tuple[int, str, Any]]:
+def _distances(tests: Tests, line: int, word: str) -> Iterator[tuple[LineResult, str, str]]:
     """Line, word and name; line 0 and an empty word stand for all."""
     for result in tests.first.progress.results:
         if line in (0, result.number):
-            yield from ((result.number, each, line_name(tests.first.scenario, result)) for each in tests.words
+            yield from ((result, each, line_name(tests.first.scenario, result)) for each in tests.words
                         if word in ("", each))

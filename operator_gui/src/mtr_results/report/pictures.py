@@ -7,11 +7,11 @@ from typing import Sequence
 
 from mtr_operator.domain.results.picture import PointSet, Stretch
 from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.history.estimate import Estimate, Known
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.report.figures import SIGNS, filled
 
 from ..statistics.comparison import DISTANCE, FARTHER, NEARER, SIDE, Comparison, Row
-from ..statistics.estimate import Estimate, Known
 from ..statistics.texts import estimate_text, interval_text
 from ..statistics.trend import Trend
 from .drawing import Drawing, Point

@@ -15,8 +15,7 @@ import numpy.typing as npt
 
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL, interval_of_draws
 from mtr_operator.domain.geometry.ray import Ray
-
-from .estimate import Known
+from mtr_operator.history.estimate import Known
 
 Floats = npt.NDArray[np.float64]
 # The ends of an interval change by 3 % of its width from one seed to another.

@@ -10,9 +10,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from mtr_operator.domain.estimation.components import Spread
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
-
-from .components import Spread
 
 # By custom: so many sigmas on a side.
 _SIGMAS = 3.0

@@ -13,13 +13,14 @@ from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.history.estimate import Estimate, Known, estimate
 from mtr_operator.history.line_pairs import Side
+from mtr_operator.history.same_lines import Tests
 from mtr_operator.report.table import line_name
 
 from .areas import area, rings
-from .estimate import Change, Estimate, Known, change, estimate
+from .change import Change, change
 from .multiplicity import ALPHA, holm
-from .places import Tests
 from .side_means import side_mean
 from .sides import sides_of
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from typing import Any
 
+from mtr_operator.domain.estimation.components import Component, Spread
+from mtr_operator.history.estimate import Estimate, Known
+
 from .capability import Capability, Index
 from .comparison import UNITS, Comparison, Row
-from .components import Component, Spread
-from .estimate import Estimate, Known
 from .trend import Trend
 
 Document = dict[str, Any]

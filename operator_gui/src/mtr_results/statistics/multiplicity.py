@@ -10,19 +10,12 @@ from __future__ import annotations
 import math
 from typing import Sequence
 
-from scipy.special import ndtr, ndtri, stdtr, stdtrit
+from scipy.special import ndtr, stdtr
 
 from mtr_operator.domain.estimation.interval import LEVEL
+from mtr_operator.domain.estimation.student import NORMAL_FROM, quantile
 
 ALPHA = 1.0 - LEVEL
-# Student's t has no larger table; beyond it is the normal distribution.
-_NORMAL_FROM = 1e6
-
-
-def quantile(freedom: float) -> float:
-    """Half the width of a 95 % interval in standard errors, with these degrees of freedom."""
-    probability = (1.0 + LEVEL) / 2.0
-    return float(ndtri(probability) if freedom > _NORMAL_FROM else stdtrit(freedom, probability))
 
 
 def chance(value: float | None, low: float, high: float, freedom: float = math.inf) -> float:
@@ -37,7 +30,7 @@ def chance(value: float | None, low: float, high: float, freedom: float = math.i
     if reach == 0.0:
         return 1.0 if value == 0.0 else 0.0
     errors = abs(value) / reach * quantile(freedom)
-    return float(2.0 * (ndtr(-errors) if freedom > _NORMAL_FROM else stdtr(freedom, -errors)))
+    return float(2.0 * (ndtr(-errors) if freedom > NORMAL_FROM else stdtr(freedom, -errors)))
 
 
 def holm(chances: Sequence[float], weights: Sequence[float] | None = None) -> list[float]:

@@ -23,10 +23,12 @@ import numpy as np
 import numpy.typing as npt
 from scipy.special import fdtrc
 
+from mtr_operator.domain.estimation.student import quantile
 from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.history.estimate import Estimate
 
-from .estimate import Change, Estimate
-from .multiplicity import ALPHA, chance, quantile
+from .change import Change
+from .multiplicity import ALPHA, chance
 
 Floats = npt.NDArray[np.float64]
 # Speeds of one pass in two tests that differ by less are the same: a robot keeps its speed to some percent.

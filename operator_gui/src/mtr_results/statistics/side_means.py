@@ -13,9 +13,10 @@ from typing import Sequence
 
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
 from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.history.estimate import Estimate, Known, estimate
+from mtr_operator.history.same_lines import Tests
 
-from .estimate import Change, Estimate, Known, change, estimate
-from .places import Tests
+from .change import Change, change
 from .same_passes import Events, events_of, moved
 from .sides import SideLines
 

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 
+from mtr_operator.history.estimate import Estimate
+
 from .comparison import Row
-from .estimate import Estimate
 
 MEANING = ("A quantity is called different only where the whole 95 % interval of its difference lies on one side of "
            "zero, and different among all only where that remains after Holm's correction for their number (*). Where "

@@ -13,7 +13,7 @@ from typing import Sequence
 
 import numpy as np
 
-from .estimate import Known
+from mtr_operator.history.estimate import Known
 
 # 3 / d2 of two values.
 _RANGES = 2.66

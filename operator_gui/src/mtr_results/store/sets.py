@@ -8,9 +8,9 @@ from typing import Any
 from sqlalchemy import Connection
 
 from mtr_operator.history.line_pairs import Side
+from mtr_operator.history.same_lines import MAX_TESTS
 
 from ..errors import StoreError
-from ..statistics.places import MAX_TESTS
 from .reading import Row, Search, find, number_of, side, test_row
 
 _NAMES = [field.name for field in fields(Search) if field.name not in ("limit", "offset")]

@@ -6,12 +6,12 @@ import dataclasses
 from typing import Any, Mapping
 from urllib.parse import urlencode
 
+from mtr_operator.history.same_lines import Tests
 from mtr_operator.report.table import line_name
 
 from ..errors import StoreError
 from ..report.pages import page_of_comparison, page_of_test, render
 from ..report.pictures import trend_picture
-from ..statistics.places import Tests
 from ..statistics.trend import trend
 from ..store import reading
 from ..store.database import Database

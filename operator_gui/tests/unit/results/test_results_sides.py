@@ -11,8 +11,9 @@ import pytest
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.history.estimate import Known, estimate
+from mtr_results.statistics.change import change
 from mtr_results.statistics.comparison import AREA, DISTANCE, FARTHER, NEARER, SIDE, compare_sets
-from mtr_results.statistics.estimate import Known, change, estimate
 from mtr_results.statistics.multiplicity import holm
 from mtr_results.statistics.same_passes import Events, events_of, moved
 from mtr_results.statistics.side_means import mean_of

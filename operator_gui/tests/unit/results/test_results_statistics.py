@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.estimation.components import Component, Spread, components
 from mtr_operator.history.comparison import compare
+from mtr_operator.history.estimate import Known, estimate
+from mtr_operator.history.same_lines import Tests
 from mtr_results.statistics.capability import capability
 from mtr_results.statistics.comparison import AREA, NEARER, NOT_SHOWN, compare_sets
-from mtr_results.statistics.components import Component, Spread, components
-from mtr_results.statistics.estimate import Known, estimate
 from mtr_results.statistics.multiplicity import chance, holm
-from mtr_results.statistics.places import Tests
 from mtr_results.statistics.trend import trend
 
 HALF_M = measured.HALF_M

@@ -7,11 +7,9 @@ from typing import TYPE_CHECKING, Callable, Sequence
 
 from PyQt5.QtCore import QItemSelection, QItemSelectionModel, pyqtSignal
 from PyQt5.QtWidgets import (
-    QComboBox,
     QHBoxLayout,
     QHeaderView,
     QLabel,
-    QLineEdit,
     QPushButton,
     QTableView,
     QVBoxLayout,
@@ -24,41 +22,43 @@ from mtr_operator.history.comparison import compare
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.index import Index, cache_path
 from mtr_operator.history.line_pairs import open_side
-from mtr_operator.history.search import matching, problems_of, unreadable, values_of
+from mtr_operator.history.search import problems_of, repetitions
 
 from ..dialogs import ask_bundle
 from ..evidence.bundle_check import BundleCheck, check_text
 from ..fitting.breaks import breakable
 from ..fitting.plain_table import plain_table
 from ..fitting.scroller import Scroller
-from ..names import domain_word
 from ..sentences import translated
 from ..theme.scale import L, M, S
+from .history_filters import HistoryFilters
 from .history_model import HistoryModel
 from .history_reader import HistoryReader
 from .replaying import Replaying
+from .spreading import Spreading
 
 if TYPE_CHECKING:
     from mtr_operator.evidence.verification import Verification
+    from mtr_operator.history.spread import TestSpread
     from mtr_operator.replay.replay import ReplayedTest
 
 _TABLE_HEIGHT = 120
-_BOX_LETTERS = 10
 _PROBLEMS_SHOWN = 2
 
 
 class HistoryScreen(QWidget):
-    """Attributes: search: text field. car, key, verdict: boxes. table. notice: how many there are, and what is wrong.
+    """Attributes: search: text field. filters: it, and boxes. table. notice: how many there are, and what is wrong.
 
-    open, repeat, compare, file, verify, anew, back: buttons.
+    open, repeat, compare, spread, file, verify, anew, back: buttons.
 
-    Signals: open_wanted(path), repeat_wanted(side), compare_wanted(comparison), replayed(path, ReplayedTest),
-        file_wanted, closed.
+    Signals: open_wanted(path), repeat_wanted(side), compare_wanted(comparison), spread_wanted(TestSpread),
+        replayed(path, ReplayedTest), file_wanted, closed.
     """
 
     open_wanted = pyqtSignal(object)
     repeat_wanted = pyqtSignal(object)
     compare_wanted = pyqtSignal(object)
+    spread_wanted = pyqtSignal(object)
     replayed = pyqtSignal(object, object)
     file_wanted = pyqtSignal()
     closed = pyqtSignal()
@@ -71,16 +71,13 @@ class HistoryScreen(QWidget):
         self._reader: HistoryReader | None = None
         self._check: BundleCheck | None = None
         self._replaying: Replaying | None = None
+        self._spreading: Spreading | None = None
         self._entries: Sequence[TestEntry] = ()
         self._summary = ""
         self._model = HistoryModel(self)
-        self.search = QLineEdit()
-        self.search.setPlaceholderText(self.tr("Search: VIN, key, day, operator, note"))
-        self.search.setAccessibleName(self.tr("Search"))
-        self.search.textChanged.connect(self._show)
-        self.car = self._box(self.tr("Car"))
-        self.key = self._box(self.tr("Key"))
-        self.verdict = self._box(self.tr("Verdict"))
+        self.filters = HistoryFilters()
+        self.filters.changed.connect(self._show)
+        self.search = self.filters.search
         self.table = self._make_table()
         self.notice = QLabel()
         self.notice.setWordWrap(True)
@@ -89,6 +86,9 @@ class HistoryScreen(QWidget):
         self.repeat = self._button(self.tr("Repeat"), self._repeat)
         self.repeat.setToolTip(self.tr("A new test with the same parameters, car and key"))
         self.compare = self._button(self.tr("Compare two"), self._compare)
+        self.spread = self._button(self.tr("Spread"), self._compute_spread)
+        self.spread.setToolTip(self.tr("Mean and standard deviation of each distance: of the tests chosen, or of all "
+                                       "tests of the car and key of one test with its parameters"))
         self.file = self._button(self.tr("Open a file"), self.file_wanted.emit)
         self.verify = self._button(self.tr("Verify a bundle"), self._ask_bundle)
         self.verify.setToolTip(self.tr("Whether a bundle of evidence is as it was signed, by whom and when"))
@@ -98,15 +98,6 @@ class HistoryScreen(QWidget):
         self.back = self._button(self.tr("Back"), self.closed.emit)
         self._lay_out()
         self._show_choice()
-
-    def _box(self, title: str) -> QComboBox:
-        box = QComboBox()
-        box.setAccessibleName(title)
-        box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        box.setMinimumContentsLength(_BOX_LETTERS)
-        box.addItem(title, "")
-        box.currentIndexChanged.connect(self._show)
-        return box
 
     def _make_table(self) -> QTableView:
         table = plain_table(self.tr("Tests; choose one to open it, or two to compare them"), _TABLE_HEIGHT)
@@ -128,21 +119,17 @@ class HistoryScreen(QWidget):
     def _lay_out(self) -> None:
         title = QLabel(self.tr("Tests so far"))
         title.setProperty("role", "heading")
-        filters, buttons, top = QHBoxLayout(), QHBoxLayout(), QHBoxLayout()
+        buttons, top = QHBoxLayout(), QHBoxLayout()
         top.addWidget(title, 1)
-        top.addWidget(self.anew)
-        top.addWidget(self.verify)
-        for row, widgets in ((filters, (self.car, self.key, self.verdict)),
-                             (buttons, (self.back, self.file, self.repeat, self.compare, self.open))):
-            row.setSpacing(S)
-            for widget in widgets:
-                row.addWidget(widget, 1)
+        for widget in (self.spread, self.anew, self.verify):
+            top.addWidget(widget)
+        buttons.setSpacing(S)
+        for widget in (self.back, self.file, self.repeat, self.compare, self.open):
+            buttons.addWidget(widget, 1)
         column = QVBoxLayout()
         column.setSpacing(S)
         column.addLayout(top)
-        # Its hint is longer than what three boxes leave of a laptop's width.
-        column.addWidget(self.search)
-        column.addLayout(filters)
+        column.addWidget(self.filters)
         column.addWidget(self.table, 1)
         column.addWidget(self.notice)
         layout = QVBoxLayout(self)
@@ -205,28 +192,24 @@ class HistoryScreen(QWidget):
         # No child of the screen, and no lambda: it may outlive it when the window is made anew.
         self._replaying = Replaying(self.chosen[0].file)
         self._replaying.replayed.connect(self._show_replayed)
-        self._replaying.refused.connect(self._show_refused)
+        self._replaying.refused.connect(self._refuse_replay)
         self._replaying.start()
 
+    # A thread that has told its result may not have ended yet; nobody waits for it.
+
     def _show_replayed(self, path: pathlib.Path, found: ReplayedTest) -> None:
+        self._replaying = None
         self._show_choice()
         self.replayed.emit(path, found)
 
-    def _show_refused(self, text: str) -> None:
+    def _refuse_replay(self, text: str) -> None:
+        self._replaying = None
         self._show_choice()
         self.say(translated(text))
 
     def _learn(self, entries: list[TestEntry]) -> None:
         self._entries = entries
-        for box, name in ((self.car, "car"), (self.key, "key"), (self.verdict, "verdict")):
-            values, chosen = values_of(entries, name), box.currentData()
-            box.blockSignals(True)
-            while box.count() > 1:
-                box.removeItem(1)
-            for value in values:
-                box.addItem(domain_word(value) if name == "verdict" else value, value)
-            box.setCurrentIndex(max(box.findData(chosen), 0))
-            box.blockSignals(False)
+        self.filters.offer(entries)
         self._show()
 
     def _learn_all(self, entries: list[TestEntry]) -> None:
@@ -242,11 +225,7 @@ class HistoryScreen(QWidget):
 
     def _show(self) -> None:
         before = set(map(_mark, self.chosen))
-        text, car, key, verdict = (self.search.text(), *(box.currentData() or "" for box in
-                                                         (self.car, self.key, self.verdict)))
-        # Whoever looks for a car does not look for what nobody can read.
-        broken = [] if car or key or verdict else unreadable(self._entries, text)
-        self._model.show_entries([*matching(self._entries, text, car=car, key=key, verdict=verdict), *broken])
+        self._model.show_entries(self.filters.sifted(self._entries))
         # What grows while it is read must not take a choice away.
         for row, entry in enumerate(self._model.entries if before else ()):
             if _mark(entry) in before:
@@ -259,9 +238,10 @@ class HistoryScreen(QWidget):
         is_good = not any(entry.problem for entry in chosen)
         is_bundle_alone = len(chosen) == 1 and is_bundle(chosen[0].file)
         self.open.setEnabled(is_good and len(chosen) == 1 and not is_bundle_alone)
-        self.anew.setEnabled(self.open.isEnabled() and not (self._replaying and self._replaying.isRunning()))
+        self.anew.setEnabled(self.open.isEnabled() and self._replaying is None)
         self.repeat.setEnabled(is_good and len(chosen) == 1)
         self.compare.setEnabled(is_good and len(chosen) == 2)
+        self.spread.setEnabled(is_good and bool(chosen) and self._spreading is None)
         is_unfinished = len(chosen) == 1 and is_good and not chosen[0].is_complete
         self.open.setText(self.tr("Continue") if is_unfinished else self.tr("Open"))
         if not is_good and len(chosen) == 1:
@@ -289,6 +269,30 @@ class HistoryScreen(QWidget):
             self.compare_wanted.emit(compare(open_side(first.file), open_side(second.file)))
         except OperatorError as error:
             self.say(translated(str(error)))
+
+    def _compute_spread(self) -> None:
+        chosen = self.chosen
+        tests = chosen if len(chosen) > 1 else repetitions(self._entries, chosen[0])
+        if len(tests) < 2:
+            self.say(self.tr("No other test has the parameters, the car and the key of this one."))
+            return
+        self.spread.setEnabled(False)
+        self.say(self.tr("{count} tests are being read.").format(count=len(tests)))
+        # No child of the screen, and no lambda: it may outlive it when the window is made anew.
+        self._spreading = Spreading([entry.file for entry in tests])
+        self._spreading.computed.connect(self._show_spread)
+        self._spreading.refused.connect(self._refuse_spread)
+        self._spreading.start()
+
+    def _show_spread(self, found: TestSpread) -> None:
+        self._spreading = None
+        self._show_choice()
+        self.spread_wanted.emit(found)
+
+    def _refuse_spread(self, text: str) -> None:
+        self._spreading = None
+        self._show_choice()
+        self.say(translated(text))
 
 
 def _mark(entry: TestEntry) -> str:

@@ -22,6 +22,13 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "A test that has measured nothing cannot be compared."),
     QT_TRANSLATE_NOOP("Sentence", "It is invalid in test {}."),
     QT_TRANSLATE_NOOP("Sentence", "Test {} does not say how sure this distance is."),
+    QT_TRANSLATE_NOOP("Sentence", "No test fits."),
+    QT_TRANSLATE_NOOP("Sentence", "{} tests fit; at most {} are looked at together. Narrow the search."),
+    QT_TRANSLATE_NOOP("Sentence", "Tests of the scenarios {} cannot be looked at together; choose one."),
+    QT_TRANSLATE_NOOP("Sentence", "No test measured it."),
+    QT_TRANSLATE_NOOP("Sentence", "One test that does not say how sure it is."),
+    QT_TRANSLATE_NOOP("Sentence", "{} tests have a value here; {} are the fewest."),
+    QT_TRANSLATE_NOOP("Sentence", "All tests have the same value."),
     QT_TRANSLATE_NOOP("Sentence", "The test in {} cannot be read: {}: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The test does not start: the laboratory requires {}."),
     QT_TRANSLATE_NOOP("Sentence", "The test was begun with another {}, {}; now it is {}. Continue it with that one, or "

@@ -1042,47 +1042,37 @@
 <context>
     <name>ComparisonWindow</name>
     <message>
-        <location filename="../history/comparison_window.py" line="43"/>
+        <location filename="../history/comparison_window.py" line="31"/>
         <source>Two tests compared</source>
         <translation>Porovnání dvou testů</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="46"/>
-        <source>Distance</source>
-        <translation>Vzdálenost</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_window.py" line="51"/>
+        <location filename="../history/comparison_window.py" line="33"/>
         <source>Difference of each distance</source>
         <translation>Rozdíl každé vzdálenosti</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="63"/>
-        <source>Close</source>
-        <translation>Zavřít</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_window.py" line="105"/>
+        <location filename="../history/comparison_window.py" line="49"/>
         <source>First: {test}</source>
         <translation>První: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="106"/>
+        <location filename="../history/comparison_window.py" line="50"/>
         <source>Second: {test}</source>
         <translation>Druhý: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="108"/>
+        <location filename="../history/comparison_window.py" line="52"/>
         <source>{counts}. By chance alone about {expected} would differ.</source>
         <translation>{counts}. Jen náhodou by se jich lišilo asi {expected}.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="110"/>
+        <location filename="../history/comparison_window.py" line="54"/>
         <source>A distance is called farther or nearer in the second test only where the whole 95 % interval of its difference is on that side of zero.</source>
         <translation>Vzdálenost je v druhém testu označena dále nebo blíže jen tam, kde celý 95% interval rozdílu leží na té straně nuly.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="114"/>
+        <location filename="../history/comparison_window.py" line="58"/>
         <source>Lines of one test only: {first} of the first, {second} of the second.</source>
         <translation>Přímky jen jednoho testu: {first} prvního, {second} druhého.</translation>
     </message>
@@ -1388,7 +1378,7 @@
     <message>
         <location filename="../forms/given_form.py" line="37"/>
         <source>What the distances have to be; the lines are judged by it.</source>
-        <translation>Jaké vzdálenosti mají být; podle toho se linie posoudí.</translation>
+        <translation>Jaké vzdálenosti mají být; podle toho se přímka posoudí.</translation>
     </message>
     <message>
         <location filename="../forms/given_form.py" line="39"/>
@@ -1641,6 +1631,34 @@
     </message>
 </context>
 <context>
+    <name>HistoryFilters</name>
+    <message>
+        <location filename="../history/history_filters.py" line="30"/>
+        <source>Search: VIN, key, day, operator, note</source>
+        <translation>Hledat: VIN, klíč, den, operátor, poznámka</translation>
+    </message>
+    <message>
+        <location filename="../history/history_filters.py" line="31"/>
+        <source>Search</source>
+        <translation>Hledat</translation>
+    </message>
+    <message>
+        <location filename="../history/history_filters.py" line="33"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../history/history_filters.py" line="34"/>
+        <source>Key</source>
+        <translation>Klíč</translation>
+    </message>
+    <message>
+        <location filename="../history/history_filters.py" line="35"/>
+        <source>Verdict</source>
+        <translation>Verdikt</translation>
+    </message>
+</context>
+<context>
     <name>HistoryModel</name>
     <message>
         <location filename="../history/history_model.py" line="49"/>
@@ -1691,47 +1709,22 @@
 <context>
     <name>HistoryScreen</name>
     <message>
-        <location filename="../history/history_screen.py" line="78"/>
-        <source>Search: VIN, key, day, operator, note</source>
-        <translation>Hledat: VIN, klíč, den, operátor, poznámka</translation>
-    </message>
-    <message>
-        <location filename="../history/history_screen.py" line="79"/>
-        <source>Search</source>
-        <translation>Hledat</translation>
-    </message>
-    <message>
-        <location filename="../history/history_screen.py" line="81"/>
-        <source>Car</source>
-        <translation>Auto</translation>
-    </message>
-    <message>
-        <location filename="../history/history_screen.py" line="82"/>
-        <source>Key</source>
-        <translation>Klíč</translation>
-    </message>
-    <message>
-        <location filename="../history/history_screen.py" line="83"/>
-        <source>Verdict</source>
-        <translation>Verdikt</translation>
-    </message>
-    <message>
-        <location filename="../history/history_screen.py" line="266"/>
+        <location filename="../history/history_screen.py" line="246"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="89"/>
+        <location filename="../history/history_screen.py" line="86"/>
         <source>Repeat</source>
         <translation>Opakovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="90"/>
+        <location filename="../history/history_screen.py" line="87"/>
         <source>A new test with the same parameters, car and key</source>
         <translation>Nový test se stejnými parametry, autem a klíčem</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="91"/>
+        <location filename="../history/history_screen.py" line="88"/>
         <source>Compare two</source>
         <translation>Porovnat dva</translation>
     </message>
@@ -1746,37 +1739,37 @@
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="112"/>
+        <location filename="../history/history_screen.py" line="103"/>
         <source>Tests; choose one to open it, or two to compare them</source>
         <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="129"/>
+        <location filename="../history/history_screen.py" line="120"/>
         <source>Tests so far</source>
         <translation>Dosavadní testy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="162"/>
+        <location filename="../history/history_screen.py" line="149"/>
         <source>The folders are being read.</source>
         <translation>Složky se čtou.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="235"/>
+        <location filename="../history/history_screen.py" line="218"/>
         <source>{count} tests, {shown} of them shown.</source>
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="238"/>
+        <location filename="../history/history_screen.py" line="221"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="266"/>
+        <location filename="../history/history_screen.py" line="246"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="270"/>
+        <location filename="../history/history_screen.py" line="250"/>
         <source>This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into a folder of its own to open it.</source>
         <translation>Tento test je v podepsaném balíku: lze jej opakovat a porovnat. Pro otevření balík rozbalte do vlastní složky.</translation>
     </message>
@@ -1791,12 +1784,12 @@
         <translation>Zda je balíček důkazů tak, jak byl podepsán, kým a kdy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="185"/>
+        <location filename="../history/history_screen.py" line="172"/>
         <source>Bundle of evidence</source>
         <translation>Balíček důkazů</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="192"/>
+        <location filename="../history/history_screen.py" line="179"/>
         <source>{name} is being verified.</source>
         <translation>{name} se ověřuje.</translation>
     </message>
@@ -1811,9 +1804,29 @@
         <translation>Co by se v tomto testu změnilo s nynějším profilem auta, podle zaznamenaného logu a poloh</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="204"/>
+        <location filename="../history/history_screen.py" line="191"/>
         <source>{name} is being computed anew.</source>
         <translation>{name} se přepočítává.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="89"/>
+        <source>Spread</source>
+        <translation>Rozptyl</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="90"/>
+        <source>Mean and standard deviation of each distance: of the tests chosen, or of all tests of the car and key of one test with its parameters</source>
+        <translation>Průměr a směrodatná odchylka každé vzdálenosti: z vybraných testů, nebo ze všech testů auta a klíče jednoho testu s jeho parametry</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="277"/>
+        <source>No other test has the parameters, the car and the key of this one.</source>
+        <translation>Žádný jiný test nemá parametry, auto a klíč tohoto testu.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="280"/>
+        <source>{count} tests are being read.</source>
+        <translation>Čte se {count} testů.</translation>
     </message>
 </context>
 <context>
@@ -2078,42 +2091,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="62"/>
+        <location filename="../windows/main_window.py" line="64"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="238"/>
+        <location filename="../windows/main_window.py" line="240"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="241"/>
+        <location filename="../windows/main_window.py" line="243"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="243"/>
+        <location filename="../windows/main_window.py" line="245"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="258"/>
+        <location filename="../windows/main_window.py" line="260"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="262"/>
+        <location filename="../windows/main_window.py" line="264"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="262"/>
+        <location filename="../windows/main_window.py" line="264"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="221"/>
+        <location filename="../windows/main_window.py" line="223"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -5021,12 +5034,12 @@
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>The line was not measured.</source>
-        <translation>Linie nebyla změřena.</translation>
+        <translation>Přímka nebyla změřena.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>The line does not tell this distance.</source>
-        <translation>Linie tuto vzdálenost neuvádí.</translation>
+        <translation>Přímka tuto vzdálenost neuvádí.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
@@ -6556,7 +6569,42 @@
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>The line does not tell this.</source>
-        <translation>Linie to neuvádí.</translation>
+        <translation>Přímka to neuvádí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{} tests fit; at most {} are looked at together. Narrow the search.</source>
+        <translation>Vyhovuje {} testů; společně se hodnotí nejvýše {}. Upřesněte hledání.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>Tests of the scenarios {} cannot be looked at together; choose one.</source>
+        <translation>Testy scénářů {} nelze hodnotit společně; vyberte jeden.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>No test measured it.</source>
+        <translation>Žádný test ji nezměřil.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>One test that does not say how sure it is.</source>
+        <translation>Jediný test, který neříká, jak je jistý.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>{} tests have a value here; {} are the fewest.</source>
+        <translation>Hodnotu zde má testů: {}; nejméně musí být {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>All tests have the same value.</source>
+        <translation>Všechny testy mají stejnou hodnotu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>No test fits.</source>
+        <translation>Žádný test nevyhovuje.</translation>
     </message>
 </context>
 <context>
@@ -6703,6 +6751,95 @@
         <location filename="../windows/settings_window.py" line="179"/>
         <source>Leave it as it was</source>
         <translation>Ponechat původní</translation>
+    </message>
+</context>
+<context>
+    <name>Spread</name>
+    <message>
+        <location filename="../history/spread_model.py" line="54"/>
+        <source>{count} of {all}</source>
+        <translation>{count} z {all}</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_picture.py" line="36"/>
+        <source>Each test</source>
+        <translation>Jednotlivé testy</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_picture.py" line="45"/>
+        <source>Mean</source>
+        <translation>Průměr</translation>
+    </message>
+</context>
+<context>
+    <name>SpreadModel</name>
+    <message>
+        <location filename="../history/spread_model.py" line="46"/>
+        <source>Tests</source>
+        <translation>Testy</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_model.py" line="46"/>
+        <source>Mean [m]</source>
+        <translation>Průměr [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_model.py" line="46"/>
+        <source>95 % of the mean [m]</source>
+        <translation>95 % průměru [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_model.py" line="46"/>
+        <source>Std. deviation [m]</source>
+        <translation>Směr. odchylka [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_model.py" line="46"/>
+        <source>95 % of it [m]</source>
+        <translation>její 95 % [m]</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_model.py" line="46"/>
+        <source>Smallest to largest [m]</source>
+        <translation>Nejmenší až největší [m]</translation>
+    </message>
+</context>
+<context>
+    <name>SpreadWindow</name>
+    <message>
+        <location filename="../history/spread_window.py" line="30"/>
+        <source>Spread of repeated tests</source>
+        <translation>Rozptyl opakovaných testů</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_window.py" line="32"/>
+        <source>Mean and standard deviation of each distance</source>
+        <translation>Průměr a směrodatná odchylka každé vzdálenosti</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_window.py" line="47"/>
+        <source>{scenario}, {count} tests from {first} to {last}</source>
+        <translation>{scenario}, testů: {count}, od {first} do {last}</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_window.py" line="51"/>
+        <source>The tests differ in: {names}. What that does to the distances is in the spread.</source>
+        <translation>Testy se liší v: {names}. Co to dělá se vzdálenostmi, je v rozptylu.</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_window.py" line="55"/>
+        <source>Lines that the first test has not: {count}. They are left out.</source>
+        <translation>Přímky, které první test nemá: {count}. Jsou vynechány.</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_window.py" line="56"/>
+        <source>The mean&apos;s interval is that of the tests&apos; spread, wider by what no repetition shows: the Car&apos;s outline, mast, floor and lever of the key.</source>
+        <translation>Interval průměru je dán rozptylem testů a rozšířen o to, co opakování neukáže: obrys auta, stožár, podlahu a rameno klíče.</translation>
+    </message>
+    <message>
+        <location filename="../history/spread_window.py" line="58"/>
+        <source>The standard deviation is that of one test of the same car and key; it has an interval from three tests on. Tests that know only an end have no value and are not in it.</source>
+        <translation>Směrodatná odchylka je odchylka jednoho testu stejného auta a klíče; interval má od tří testů. Testy, které znají jen jednu mez, nemají hodnotu a nejsou v ní.</translation>
     </message>
 </context>
 <context>
@@ -6875,6 +7012,19 @@
         <location filename="../header/stop_button.py" line="27"/>
         <source>Stops the robot. While it may move, Space and Esc do so from everywhere.</source>
         <translation>Zastaví robot. Dokud se může pohybovat, zastaví ho odkudkoli i mezerník a Esc.</translation>
+    </message>
+</context>
+<context>
+    <name>TestsWindow</name>
+    <message>
+        <location filename="../history/tests_window.py" line="45"/>
+        <source>Distance</source>
+        <translation>Vzdálenost</translation>
+    </message>
+    <message>
+        <location filename="../history/tests_window.py" line="76"/>
+        <source>Close</source>
+        <translation>Zavřít</translation>
     </message>
 </context>
 <context>

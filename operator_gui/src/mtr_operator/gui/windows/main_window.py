@@ -24,6 +24,7 @@ from ..header.header_bar import HeaderBar
 from ..history.comparison_window import ComparisonWindow
 from ..history.history_screen import HistoryScreen
 from ..history.replay_window import ReplayWindow
+from ..history.spread_window import SpreadWindow
 from ..screens.measurement import MeasurementScreen
 from ..screens.measurement_type import MeasurementTypeScreen
 from ..screens.protocol import ProtocolScreen
@@ -36,6 +37,7 @@ from .calibration_window import CalibrationWindow
 from .settings_window import SettingsWindow
 
 if TYPE_CHECKING:
+    from mtr_operator.history.spread import TestSpread
     from mtr_operator.replay.replay import ReplayedTest
 
 _SIZE = QSize(1360, 860)
@@ -160,6 +162,7 @@ class MainWindow(QMainWindow):
         self.history.file_wanted.connect(self._open)
         self.history.repeat_wanted.connect(self._repeat)
         self.history.compare_wanted.connect(self._show_comparison)
+        self.history.spread_wanted.connect(self._show_spread)
         self.history.replayed.connect(self._show_replayed)
 
     def _settings_screen(self, name: str) -> SettingsScreen:
@@ -208,14 +211,13 @@ class MainWindow(QMainWindow):
         screen.identity.propose(self._flow.store, side.progress.identity)
 
     def _show_comparison(self, comparison: Comparison) -> None:
-        window = ComparisonWindow(comparison, self._appearance, self)
-        window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        window.show()
+        _show_beside(ComparisonWindow(comparison, self._appearance, self))
+
+    def _show_spread(self, found: TestSpread) -> None:
+        _show_beside(SpreadWindow(found, self._appearance, self))
 
     def _show_replayed(self, path: pathlib.Path, found: ReplayedTest) -> None:
-        window = ReplayWindow(path.name, found, self)
-        window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        window.show()
+        _show_beside(ReplayWindow(path.name, found, self))
 
     def _open(self) -> None:
         path = ask_progress_file(self, self.tr("Open a test"), self._flow.store.settings.progress_folder)
@@ -262,3 +264,9 @@ class MainWindow(QMainWindow):
             return confirm(self, self.windowTitle(), question, (self.tr("Close"), self.tr("Stay")))
         finally:
             self._is_asked = False
+
+
+def _show_beside(window: QDialog) -> None:
+    """It lives until it is closed."""
+    window.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    window.show()

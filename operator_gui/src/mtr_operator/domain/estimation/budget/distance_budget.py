@@ -12,13 +12,9 @@ from dataclasses import dataclass
 from typing import Any, Sequence
 
 import uncertainties
-from scipy.special import ndtri, stdtrit
 
-from ..interval import LEVEL
+from ..student import quantile
 from .terms import Term
-
-# Student's t has no larger table; beyond it is the normal distribution.
-_NORMAL_FROM = 1e6
 
 
 @dataclass(frozen=True)
@@ -59,9 +55,7 @@ class DistanceBudget:
     @property
     def coverage_factor(self) -> float:
         """By which sigma_m is multiplied for 95 %."""
-        probability = (1.0 + LEVEL) / 2.0
-        freedom = self.degrees_of_freedom
-        return float(ndtri(probability) if freedom > _NORMAL_FROM else stdtrit(freedom, probability))
+        return quantile(self.degrees_of_freedom)
 
     @property
     def expanded_m(self) -> float:

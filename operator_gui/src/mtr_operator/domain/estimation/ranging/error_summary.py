@@ -7,9 +7,10 @@ import statistics
 from dataclasses import dataclass
 from typing import Sequence
 
-from scipy.special import bdtr, stdtrit
+from scipy.special import bdtr
 
 from ..interval import LEVEL, SIGMAS_OF_LEVEL
+from ..student import quantile
 
 _SHARE = 0.95
 
@@ -47,7 +48,7 @@ def summarize(errors_m: Sequence[float], common_sigma_m: float = 0.0) -> ErrorSu
     bias_m = statistics.fmean(errors_m)
     spread_m = statistics.stdev(errors_m) if count > 1 else None
     reach_m = None if spread_m is None else \
-        math.hypot(float(stdtrit(count - 1, (1.0 + LEVEL) / 2.0)) * spread_m / math.sqrt(count),
+        math.hypot(quantile(count - 1) * spread_m / math.sqrt(count),
                    SIGMAS_OF_LEVEL * common_sigma_m)
     sizes_m = sorted(abs(error_m) for error_m in errors_m)
     low, high = _ranks(count)

@@ -7,9 +7,8 @@ import statistics
 from dataclasses import dataclass
 from typing import Sequence
 
-from scipy.special import stdtrit
-
-from ..interval import LEVEL, SIGMAS_OF_LEVEL
+from ..interval import SIGMAS_OF_LEVEL
+from ..student import quantile
 
 # Of the median of a normal distribution beside the mean's (its asymptotic efficiency is 2 / pi).
 _OF_MEDIAN = math.sqrt(math.pi / 2.0)
@@ -43,7 +42,7 @@ def median_of(values_m: Sequence[float], resolution_m: float) -> Median:
     spread_m = statistics.stdev(values_m)
     correlation = min(max(_neighbours(values_m), 0.0), _MAX_CORRELATION)
     count = max(len(values_m) * (1.0 - correlation) / (1.0 + correlation), _MIN_COUNT)
-    factor = float(stdtrit(count - 1.0, (1.0 + LEVEL) / 2.0)) / SIGMAS_OF_LEVEL
+    factor = quantile(count - 1.0) / SIGMAS_OF_LEVEL
     return Median(statistics.median(values_m), spread_m,
                   math.hypot(factor * _OF_MEDIAN * spread_m / math.sqrt(count), step_m))
 

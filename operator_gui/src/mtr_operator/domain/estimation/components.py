@@ -17,7 +17,7 @@ import numpy.typing as npt
 from scipy.linalg import cho_factor, cho_solve
 from scipy.optimize import brentq, minimize
 
-from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
+from .interval import SIGMAS_OF_LEVEL
 
 Floats = npt.NDArray[np.float64]
 REPEAT = "repeat"

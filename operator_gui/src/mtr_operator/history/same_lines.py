@@ -7,15 +7,16 @@ import math
 from typing import Sequence
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.identity.identity import NOBODY
 from mtr_operator.domain.results.figure import Figure, Kind
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.verdict.assessment import Assessment, LastingSigmas
 from mtr_operator.domain.verdict.verdict import Verdict
-from mtr_operator.history.comparison import DistanceReader
-from mtr_operator.history.line_pairs import Side, line_pairs
 
+from .comparison import DistanceReader
 from .estimate import Known
+from .line_pairs import Side, line_pairs
 
 MAX_TESTS = 500
 _NOWHERE = (-math.inf, math.inf)
@@ -42,7 +43,7 @@ class Tests:
             pairs, _, alone = line_pairs(self.first, side)
             self.results.append({pair.number: pair.second for pair in pairs})
             self.alone.append(alone)
-        self._rays = {line.number: line.ray for line in self.first.scenario.lines(
+        self._rays: dict[int, Ray] = {line.number: line.ray for line in self.first.scenario.lines(
             self.first.parameters, self.first.progress.measured_car)}
         self._readers = [DistanceReader(side) for side in sides]
         self._assessments: dict[int, Assessment] = {}
@@ -53,6 +54,10 @@ class Tests:
     def words(self) -> tuple[str, ...]:
         """What the distances of a line are called."""
         return self.first.scenario.distance_words
+
+    def ray(self, line: int) -> Ray:
+        """Where a line lies in the first test."""
+        return self._rays[line]
 
     def assessment(self, test: int) -> Assessment:
         """Budgets and verdicts of a test."""
@@ -102,7 +107,7 @@ class Tests:
 
     def outline_scatter_m(self, line: int) -> float:
         """How far apart the tests have mapped the Car's outline where a line begins."""
-        ray = self._rays[line]
+        ray = self.ray(line)
         if (ray.origin_x, ray.origin_y) == (0.0, 0.0):
             return 0.0
         cars = [side.progress.measured_car for side in self.sides]
@@ -137,7 +142,7 @@ class Tests:
 def check(sides: Sequence[Side]) -> None:
     """Raise OperatorError for tests that cannot be looked at together."""
     if not sides:
-        raise OperatorError("No test fits; mtr-results list shows what there is.")
+        raise OperatorError("No test fits.")
     if len(sides) > MAX_TESTS:
         raise OperatorError(f"{len(sides)} tests fit; at most {MAX_TESTS} are looked at together. Narrow the search.")
     titles = sorted({side.scenario.title for side in sides})
