@@ -10,18 +10,19 @@ import sys
 import traceback
 from typing import Any, Callable, Dict, List
 
+from gui_campaign import TEST_LIMIT_S, campaign
 from gui_desk import Robot, window_manager
 from gui_person import Person, button_of, run, visible_texts, xdotool
 from gui_session import prepare
 from PyQt5.QtCore import QPoint, QRect
 from PyQt5.QtGui import QGuiApplication
-from PyQt5.QtWidgets import QApplication, QDialog, QLabel, QTableView, QWidget
+from PyQt5.QtWidgets import QApplication, QDialog, QLabel, QWidget
 
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.station.readiness import Phase
 
 # For one step, and for a short test.
-LIMIT_S, TEST_LIMIT_S = 20.0, 120.0
+LIMIT_S = 20.0
 MOST_TABS = 30
 
 
@@ -225,29 +226,6 @@ def protocol(laptop: Laptop) -> None:
     person.wait_for("What would you like to do?")
 
 
-def campaign(laptop: Laptop) -> None:
-    """B7: the test of before is found, repeated with its parameters, and both are compared."""
-    person = laptop.person
-    person.click("Tests so far")
-    person.wait_for("1 tests, 1 of them shown.")
-    laptop.must_fit()
-    person.choose_rows(person.application.window.history.table, 0)
-    person.click("Repeat")
-    person.wait_for("3 lines")
-    person.hold("Hold to start")
-    person.wait_for("Key press protocol", TEST_LIMIT_S)
-    person.wait_for("Saved protocol.png, results.csv to")
-    person.click("New test")
-    person.click("Tests so far")
-    person.wait_for("2 tests, 2 of them shown.")
-    person.choose_rows(person.application.window.history.table, 0, 1)
-    person.click("Compare two")
-    laptop.must("the comparison", _three_rows_compared)
-    laptop.must_fit()
-    person.click("Close")
-    person.click("Back")
-
-
 def leaving(laptop: Laptop) -> None:
     """A1, A3: closing while it measures stops the robot first, and asks."""
     person = laptop.person
@@ -271,11 +249,6 @@ def tab_to(laptop: Laptop, text: str) -> None:
             return
         laptop.person.press("Tab")
     raise AssertionError(f"Tab does not reach {text}")
-
-
-def _three_rows_compared() -> bool:
-    return any(table.model().rowCount() == 3 for window in _windows() if window.windowTitle() == "Two tests compared"
-               for table in window.findChildren(QTableView))
 
 
 # Defects of the table beside what looks for them, in the order of a day.

@@ -1,0 +1,126 @@
+"""A campaign of two tests in the window, and what their comparison says: checked against the tests' own files."""
+# SPDX-License-Identifier: Apache-2.0
+import csv
+import math
+import pathlib
+import re
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+
+from PyQt5.QtWidgets import QApplication
+
+from mtr_operator.gui.history.comparison_window import ComparisonWindow
+
+# A whole test, in wall time.
+TEST_LIMIT_S = 120.0
+# Cells are rounded to a centimetre each.
+ROUNDED_M = 0.0051
+LINES = 3
+_NUMBER = re.compile(r"[+\u2212]\d+\.\d\d")
+_WORDS = ("farther", "nearer", "no difference shown")
+
+
+class Measured(NamedTuple):
+    """A border as results.csv has it: with the ends of its 95 % interval, m."""
+
+    value_m: float
+    low_m: float
+    high_m: float
+
+
+class Row(NamedTuple):
+    """Cells of the comparison's table. number: of the line. value_m, low_m, high_m: second less first."""
+
+    number: int
+    word: str
+    value_m: float
+    low_m: float
+    high_m: float
+    first_m: float
+    second_m: float
+
+
+def campaign(laptop: Any) -> None:
+    """B7: the test of before is found, repeated with its parameters, and both are compared."""
+    person = laptop.person
+    person.click("Tests so far")
+    person.wait_for("1 tests, 1 of them shown.")
+    laptop.must_fit()
+    person.choose_rows(person.application.window.history.table, 0)
+    person.click("Repeat")
+    person.wait_for(f"{LINES} lines")
+    person.hold("Hold to start")
+    person.wait_for("Key press protocol", TEST_LIMIT_S)
+    person.wait_for("Saved protocol.png, results.csv to")
+    person.click("New test")
+    person.click("Tests so far")
+    person.wait_for("2 tests, 2 of them shown.")
+    person.choose_rows(person.application.window.history.table, 0, 1)
+    person.click("Compare two")
+    laptop.must("the comparison", lambda: _comparison() is not None)
+    laptop.must_fit()
+    rows, summary = person.ask(_shown)
+    # Folders are named by the instant at which their test began.
+    first, second = sorted(person.application.flow.store.settings.result_folder.iterdir())
+    check_rows(rows, _borders(first), _borders(second))
+    check_summary(summary, rows)
+    person.click("Close")
+    person.click("Back")
+
+
+def check_rows(rows: List[Row], first: Dict[int, Measured], second: Dict[int, Measured]) -> None:
+    """Each line once, with its difference and an interval that has at least the errors of both tests' own."""
+    assert [row.number for row in rows] == sorted(first) == sorted(second), (rows, first, second)
+    for row in rows:
+        a, b = first[row.number], second[row.number]
+        assert abs(row.first_m - a.value_m) < ROUNDED_M and abs(row.second_m - b.value_m) < ROUNDED_M, (row, a, b)
+        assert abs(row.value_m - (b.value_m - a.value_m)) < ROUNDED_M, (row, a, b)
+        below, above = (math.hypot(b.value_m - b.low_m, a.high_m - a.value_m),
+                        math.hypot(b.high_m - b.value_m, a.value_m - a.low_m))
+        assert row.value_m - row.low_m > below - 2.0 * ROUNDED_M, (row, a, b)
+        assert row.high_m - row.value_m > above - 2.0 * ROUNDED_M, (row, a, b)
+        assert row.word == word_of(row.low_m, row.high_m), row
+
+
+def word_of(low_m: float, high_m: float) -> str:
+    """What may be said of a difference with this interval."""
+    return _WORDS[0] if low_m > 0.0 else _WORDS[1] if high_m < 0.0 else _WORDS[2]
+
+
+def check_summary(summary: str, rows: List[Row]) -> None:
+    """The counts are those of the rows; the same Car and parameters: only the days differ."""
+    words = [row.word for row in rows]
+    for word in set(words):
+        assert f"{words.count(word)} {word}" in summary, (summary, words)
+    assert f"By chance alone about {0.05 * len(rows):.1f} would differ." in summary, summary
+    assert "Lines of one test only" not in summary and "radials" not in summary, summary
+
+
+def _comparison() -> Optional[ComparisonWindow]:
+    return next((window for window in QApplication.topLevelWidgets()
+                 if isinstance(window, ComparisonWindow) and window.isVisible()), None)
+
+
+def _shown() -> Tuple[List[Row], str]:
+    window = _comparison()
+    assert window is not None
+    model = window.table.model()
+    cells = [[str(model.data(model.index(row, column))) for column in range(model.columnCount())]
+             for row in range(model.rowCount())]
+    return [_row(texts) for texts in cells], window.summary.text()
+
+
+def _row(cells: List[str]) -> Row:
+    line, _, word, difference, interval, first, second = cells
+    low, high = (_signed(text) for text in _NUMBER.findall(interval))
+    return Row(int(line.split()[0]), word, _signed(difference), low, high, float(first), float(second))
+
+
+def _signed(text: str) -> float:
+    return float(text.replace("\u2212", "-"))
+
+
+def _borders(folder: pathlib.Path) -> Dict[int, Measured]:
+    with (folder / "results.csv").open(encoding="utf-8", newline="") as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        return {int(row["radial"]): Measured(*(float(row[name]) for name in ("d50_m", "d50_low_m", "d50_high_m")))
+                for row in rows}
