@@ -4,6 +4,8 @@ import pathlib
 
 import pytest
 from fit_checks import CAR, WANTED, assert_fits, tell
+from PyQt5.QtCore import QSize
+from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.identity.identity import TITLES
 from mtr_operator.domain.identity.laboratory import laboratory_from
@@ -42,6 +44,20 @@ def test_parameters_fit_with_the_longest_sentences_and_the_picture_is_seen(appli
     screen.caution.show()
     assert_fits(main, monkeypatch, WANTED)
     assert screen.picture.view.height() >= 100
+
+
+@pytest.mark.parametrize("size", [QSize(1350, 696), QSize(1008, 660)])
+def test_what_speaks_against_the_parameters_is_seen_without_scrolling(application, main, size):
+    tell(application)
+    main.types.chosen.emit("autolock")
+    screen = main.settings["autolock"]
+    main.resize(size)
+    screen.form.fields["maximum_distance_m"].edit.setText("0.4")
+    screen.caution.setText("Something stands in the way of axis 7.")
+    screen.caution.show()
+    QApplication.processEvents()
+    for label in (screen.form.fault, screen.caution):
+        assert label.isVisible() and label.visibleRegion().boundingRect() == label.rect(), label.text()
 
 
 def test_identity_fits_with_what_is_missing(application, main, monkeypatch):

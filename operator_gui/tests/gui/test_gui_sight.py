@@ -6,6 +6,10 @@ from fit_checks import CAR, tell
 from PyQt5.QtGui import QColor
 
 from mtr_operator.domain.surroundings import StopZone, Surroundings
+from mtr_operator.gui.flow import Step
+from mtr_operator.gui.header.check_texts import check_advice, check_text
+from mtr_operator.station.checks.checklist import hindrances
+from mtr_operator.station.checks.finding import Check, Finding, State
 from mtr_operator.station.sight.view import View
 
 WALL = tuple((3.0, -2.0 + 0.05 * index) for index in range(81))
@@ -51,6 +55,34 @@ def test_preview_says_which_lines_end_in_a_wall__8(application, main):
     word = {"en": "in the way of radial 1: grey squares, the nearest 2.9 m from the Car.",
             "cs": "V cest"}[application.language.code]
     assert word in screen.caution.text()
+    sentence = {"en": "Something stands in the way of lines 1, the nearest 2.9 m from the Car. Move it",
+                "cs": "V cest\u011b p\u0159\u00edmek 1"}[application.language.code]
+    item = way_of(application.flow.model)
+    assert (item.state, item.said) == (State.NOTE, "1")
+    assert sentence in f"{check_text(item)} {check_advice(item)}"
+    # A caution: the robot's planner decides.
+    assert item not in hindrances(application.flow.model.checklist)
+
+
+def test_preview_says_where_the_robot_has_not_looked_and_the_checklist_when_all_is_free__8(application, main):
+    tell(application)
+    main.types.chosen.emit("key_press")
+    screen, model = main.settings["key_press"], application.flow.model
+    assert "seen" not in screen.notice.text()
+    model.obstacles.seen[:, 200:] = True
+    main._show_model()
+    assert "Not all seen by the robot yet: radial " in screen.notice.text() or application.language.code == "cs"
+    assert way_of(model).finding is Finding.WAY_UNSEEN and way_of(model).state is State.UNKNOWN
+    model.obstacles.seen[:] = True
+    main._show_model()
+    assert way_of(model).finding is Finding.WAY_FREE and way_of(model).state is State.GOOD
+    main._show_step(Step.WELCOME)
+    assert way_of(model).finding is Finding.WAY_TO_COME
+
+
+def way_of(model):
+    [item] = [item for item in model.checklist if item.check is Check.WAY]
+    return item
 
 
 def test_map_of_the_obstacles_follows_the_robot(operator, opener):

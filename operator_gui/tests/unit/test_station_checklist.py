@@ -27,6 +27,7 @@ from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.readiness import Cause, Phase, Readiness, ReadinessWord, Reason, can_resume, readiness_of
+from mtr_operator.station.sight.ways import Ways
 
 STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
                      battery_percent=80, position_sigma_m=0.02, emergency_stop=EmergencyStop.RELEASED)
@@ -55,8 +56,17 @@ def test_each_thing_is_looked_at_in_its_order():
     shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
     assert [item.check for item in shown] == list(Check)
     assert {item.check for item in shown if item.state is not State.GOOD} == {
-        Check.PREFLIGHT, Check.SIZE, Check.KEY, Check.LIMITS}
+        Check.PREFLIGHT, Check.SIZE, Check.WAY, Check.KEY, Check.LIMITS}
     assert not hindrances(shown)
+
+
+@pytest.mark.parametrize(("ways", "state", "finding", "said"), [
+    (None, State.UNKNOWN, Finding.WAY_TO_COME, ""), (Ways(), State.GOOD, Finding.WAY_FREE, ""),
+    (Ways(("3", "7"), 2.5, ("8",)), State.NOTE, Finding.WAY_HINDERED, "3, 7"),
+    (Ways(unseen=("1", "2", "3")), State.UNKNOWN, Finding.WAY_UNSEEN, "1\u20133")])
+def test_way_of_the_lines_is_told_and_hinders_no_test(ways, state, finding, said):
+    item = items(snapshot(), wanted=Wanted(ways=ways))[Check.WAY]
+    assert (item.state, item.finding, item.said) == (state, finding, said)
 
 
 @pytest.mark.parametrize(("robot", "check", "state", "finding"), [

@@ -14,7 +14,8 @@ from mtr_operator.robot_link.surroundings import surroundings_from
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.sight.obstacle_map import CELL_M, ObstacleMap
-from mtr_operator.station.sight.view import hindered_lines, view_of
+from mtr_operator.station.sight.view import view_of
+from mtr_operator.station.sight.ways import Ways, spans, ways_of
 from mtr_operator.station.view_model import ViewModel
 from mtr_proto import robot_link_pb2 as pb
 
@@ -109,19 +110,45 @@ def test_another_frame_begins_anew(changes):
 
 
 def test_line_that_ends_in_the_wall_is_named_with_its_distance():
-    places = looked(4).places
+    obstacles = looked(4)
     lines = [Stretch((2.5, 0.0), (6.0, 0.0), "1"), Stretch((2.5, 1.0), (9.0, 1.0), "2"),
              Stretch((-2.5, 0.0), (-9.0, 0.0), "3"), Stretch((2.5, 0.0), (7.7, 0.0), "4")]
-    found = hindered_lines(lines, CAR, places)
-    assert found.labels == ("2", "4")
+    found = ways_of(lines, CAR, obstacles)
+    assert found.hindered == ("2", "4")
     assert found.gap_m == pytest.approx(6.0, abs=CELL_M)
-    assert hindered_lines(lines[:1], CAR, places) is None
-    assert hindered_lines(lines, CAR, np.empty((0, 2))) is None
+    assert ways_of(lines[:1], CAR, obstacles).hindered == ways_of(lines, CAR, ObstacleMap()).hindered == ()
+    assert math.isnan(ways_of(lines[:1], CAR, obstacles).gap_m)
+
+
+def test_line_that_leads_where_nobody_has_looked_is_named():
+    obstacles = looked(1)
+    # Between the robot and the wall; behind the wall; behind the robot; beyond the map.
+    lines = [Stretch((5.2, 0.0), (7.0, 0.5), "1"), Stretch((5.2, 0.0), (12.0, 0.0), "2"),
+             Stretch((-2.5, 0.0), (-9.0, 0.0), "3"), Stretch((0.0, 30.0), (0.0, 50.0), "4")]
+    assert ways_of(lines, CAR, obstacles) == Ways((), pytest.approx(math.nan, nan_ok=True), ("2", "3", "4"))
+    # Of a wall that is known the way behind it is not told besides.
+    assert ways_of(lines, CAR, looked(4)).unseen == ("3", "4")
+    assert ways_of(lines, CAR, ObstacleMap()).unseen == ("1", "2", "3", "4")
+
+
+def test_what_was_seen_is_forgotten_with_the_frame_of_the_car():
+    obstacles = looked(6)
+    mark = obstacles.mark
+    looked(1, obstacles, (), start_s=10.0, session=2)
+    assert not obstacles.seen.any() and obstacles.mark != mark
 
 
 def test_the_car_itself_stands_in_nobodys_way():
-    outline = np.array([[2.1, 0.0], [2.3, 0.5]])
-    assert hindered_lines([Stretch((2.5, 0.0), (6.0, 0.0), "1")], CAR, outline) is None
+    obstacles = ObstacleMap()
+    obstacles.places = np.array([[2.1, 0.0], [2.3, 0.5]])
+    assert ways_of([Stretch((2.5, 0.0), (6.0, 0.0), "1")], CAR, obstacles).hindered == ()
+
+
+@pytest.mark.parametrize(("labels", "text"), [
+    ((), ""), (("7",), "7"), (("1", "2"), "1, 2"),
+    (("1", "2", "3", "7", "9", "10", "11", "12"), "1\u20133, 7, 9\u201312")])
+def test_numbers_that_follow_each_other_are_said_by_their_ends(labels, text):
+    assert spans(labels) == text
 
 
 def test_sight_of_a_status_that_was_passed_over_is_kept():

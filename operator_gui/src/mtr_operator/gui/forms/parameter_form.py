@@ -27,7 +27,7 @@ class ParameterForm(QWidget):
     """A field that means nothing with what is chosen is hidden.
 
     Attributes: fields: numbers by parameter. choices: words by parameter. flags: check boxes by parameter. more, usual:
-    buttons. fault: what does not fit together.
+    buttons. fault: what does not fit together; whoever shows the form has a place for it.
 
     Signals: changed: something else was typed.
     """
@@ -80,8 +80,7 @@ class ParameterForm(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, M, 0)
         layout.setSpacing(M)
-        for widget in (*self.choices.values(), self._main, *self.flags.values(), self.fault, self.more, self._rest,
-                       self.usual):
+        for widget in (*self.choices.values(), self._main, *self.flags.values(), self.more, self._rest, self.usual):
             is_button = isinstance(widget, QPushButton)
             layout.addWidget(widget, 0, Qt.AlignmentFlag.AlignLeft if is_button else Qt.Alignment())
         layout.addStretch(1)

@@ -20,6 +20,7 @@ def check_title(check: Check) -> str:
         Check.ROBOT: translate("Check", "Robot"), Check.PREFLIGHT: translate("Check", "Preflight"),
         Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
         Check.POSITION: translate("Check", "Position"), Check.SIZE: translate("Check", "Car's size"),
+        Check.WAY: translate("Check", "Way of the lines"),
         Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
         Check.BATTERY: translate("Check", "Battery"),
         Check.BUS: translate("Check", "CAN bus"), Check.LOCKS: translate("Check", "Car's locks"),
@@ -34,7 +35,7 @@ def check_text(item: Item) -> str:
     finding, said = item.finding, translated(item.said).replace("{", "{{").replace("}", "}}")
     first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
     texts = {**_of_link(), **_of_robot(said), **_of_preflight(said), **_of_place(said, bool(item.numbers)),
-             **_of_battery(), **_of_car(said, is_cyclic=not math.isnan(second)), **_of_files(said)}
+             **_of_way(said), **_of_battery(), **_of_car(said, is_cyclic=not math.isnan(second)), **_of_files(said)}
     return texts[finding].format(first=_shown(item, first), second=_shown(item, second, 1),
                                  age="" if math.isnan(third) else duration(third),
                                  said=domain_word(item.said) if finding is Finding.LOCKS_HEARD else "")
@@ -88,6 +89,17 @@ def _of_place(said: str, has_sigma: bool) -> dict[Finding, str]:
         Finding.SIZE_OF_PLANE: translate("Check", "Only as the LiDARs see it at their height: distances from the Car's "
                                                   "outline may be up to {first} cm too long."),
         Finding.SIZE_TO_COME: translate("Check", "Not known before the Car is mapped."),
+    }
+
+
+def _of_way(lines: str) -> dict[Finding, str]:
+    return {
+        Finding.WAY_FREE: translate("Check", "As far as the robot has seen, nothing stands on the lines."),
+        Finding.WAY_HINDERED: translate("Check", "Something stands in the way of lines {lines}, the nearest {distance} "
+                                                 "m from the Car.").format(lines=lines, distance="{first}"),
+        Finding.WAY_UNSEEN: translate("Check", "The robot has not seen all of the way of lines {lines}.").format(
+            lines=lines),
+        Finding.WAY_TO_COME: translate("Check", "Not known before the Car is mapped and a test is chosen."),
     }
 
 
@@ -147,6 +159,7 @@ def check_advice(item: Item) -> str:
         Finding.PREFLIGHT_BAD: translate("Check", "Then make it again on the robot: rosrun mtr_bringup preflight"),
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
+        Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),
         Finding.POSITION_LOST: translate("Check", "Drive or turn it by hand where it sees the Car; if it stays lost, "
                                                   "map the Car again under Calibrate."),
         Finding.SIZE_OF_PLANE: translate("Check", "Start the robot with length and width of the data sheet (car_file), "
@@ -181,4 +194,4 @@ def _shown(item: Item, value: float, index: int = 0) -> str:
         return number(value * _MS_PER_S, 0)
     if item.check is Check.DISK:
         return number(value / _MB_PER_GB, 1)
-    return number(value, 1 if item.check is Check.LINK else 0)
+    return number(value, 1 if item.check in (Check.LINK, Check.WAY) else 0)

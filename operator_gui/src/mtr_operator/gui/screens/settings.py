@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from typing import Sequence
+
 from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
@@ -11,7 +13,7 @@ from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.checks.checklist import Wanted, hindrances
 from mtr_operator.station.checks.finding import Check
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
-from mtr_operator.station.sight.view import hindered_lines
+from mtr_operator.station.sight.ways import Ways, spans, ways_of
 from mtr_operator.station.view_model import ViewModel
 
 from ..fitting.scroller import Scroller
@@ -58,7 +60,8 @@ class SettingsScreen(QWidget):
         # Without a valid plan the view stays as it was.
         self._lines = LinesLayer()
         self._obstacles = ObstaclesLayer()
-        self._seen_version = -1
+        self._seen_mark = (-1, -1)
+        self._ways: Ways | None = None
         self.form = ParameterForm(scenario.parameters_type)
         self.given = GivenForm(scenario)
         self.identity = IdentityForm()
@@ -100,13 +103,16 @@ class SettingsScreen(QWidget):
         left.setSpacing(M)
         left.addWidget(title)
         left.addWidget(Scroller(given), 1)
+        # Below the fields it would be seen only by who scrolls there.
+        left.addWidget(self.form.fault)
         left.addWidget(self._hindrance)
         left.addLayout(buttons)
         right = QVBoxLayout()
         right.setSpacing(S)
-        right.addWidget(self.picture, 1)
-        right.addWidget(self.notice)
+        # Above the picture, which on a small screen reaches below the edge: what speaks against the test is seen first.
         right.addWidget(self.caution)
+        right.addWidget(self.notice)
+        right.addWidget(self.picture, 1)
         layout = QHBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(L)
@@ -122,8 +128,9 @@ class SettingsScreen(QWidget):
         if shown != self._shown:
             self._shown = shown
             self._preview()
-        elif self._model.obstacles.version != self._seen_version:
+        elif self._model.obstacles.mark != self._seen_mark:
             self._show_obstacles()
+            self._tell_wanted()
             self.picture.view.refresh()
 
     def _preview(self) -> None:
@@ -143,31 +150,37 @@ class SettingsScreen(QWidget):
         self._show_obstacles()
         self.picture.view.show_layers([GridLayer(), self._obstacles, self._lines, CarLayer(car, mapped is not None),
                                        ScaleLayer()])
-        self.notice.setText(self._forecast(mapped is not None))
         self._judge()
         if self.isVisible():
             self._tell_wanted()
 
     def _show_obstacles(self) -> None:
         """What stands around the Car, and what speaks against the parameters."""
-        obstacles, parameters = self._model.obstacles, self.form.parameters
-        self._seen_version, self._obstacles.places = obstacles.version, obstacles.places
+        obstacles, parameters, car = self._model.obstacles, self.form.parameters, self._model.mapped_car
+        self._seen_mark, self._obstacles.places = obstacles.mark, obstacles.places
+        self._ways = None if car is None or self._plan is None else ways_of(self._plan.stretches, car, obstacles)
         cautions = [in_window_words(sentence, self._scenario.parameters_type)
                     for sentence in (*(self._plan.cautions if self._plan else ()), *self.given.cautions(parameters))]
         self.caution.setText(" ".join(filter(None, (*cautions, self._hindered()))))
         self.caution.setVisible(bool(self.caution.text()))
+        self.notice.setText(" ".join(filter(None, (self._forecast(car is not None), self._unseen()))))
 
     def _hindered(self) -> str:
         """A sentence on lines that are not free; empty while all are, or the Car is not measured."""
-        car, plan = self._model.mapped_car, self._plan
-        found = None if car is None or plan is None else \
-            hindered_lines(plan.stretches, car, self._model.obstacles.places)
-        if found is None:
+        if self._ways is None or not self._ways.hindered:
             return ""
         return self.tr("Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. "
                        "Move it, or measure from nearer.").format(
-            lines=f"{domain_word(self._scenario.line_word)} {', '.join(found.labels)}",
-            distance=number(found.gap_m, 1))
+            lines=self._named(self._ways.hindered), distance=number(self._ways.gap_m, 1))
+
+    def _unseen(self) -> str:
+        """A sentence on lines that lead where the robot has not looked; nothing while it sees nothing at all."""
+        if self._ways is None or not self._ways.unseen or not self._seen_mark[1]:
+            return ""
+        return self.tr("Not all seen by the robot yet: {lines}.").format(lines=self._named(self._ways.unseen))
+
+    def _named(self, labels: Sequence[str]) -> str:
+        return f"{domain_word(self._scenario.line_word)} {spans(labels)}"
 
     def showEvent(self, event: QShowEvent) -> None:
         """See QWidget."""
@@ -181,7 +194,7 @@ class SettingsScreen(QWidget):
 
     def _tell_wanted(self) -> None:
         """What is about to begin, for the checklist."""
-        self._model.wanted = Wanted(self._plan, self.given.limit_count, self.given.limits_problem)
+        self._model.wanted = Wanted(self._plan, self.given.limit_count, self.given.limits_problem, self._ways)
 
     def _forecast(self, is_mapped: bool) -> str:
         plan = self._plan

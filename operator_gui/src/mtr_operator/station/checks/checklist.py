@@ -8,6 +8,7 @@ from typing import Iterator
 from ..estimate import Plan
 from ..events import RobotSnapshot
 from ..readiness import SILENCE_LIMIT_S
+from ..sight.ways import Ways, spans
 from . import car_checks, robot_checks
 from .finding import Check, Finding, Item, State
 from .preflight_check import preflight
@@ -20,11 +21,12 @@ _BYTES_PER_MB = 1e6
 @dataclass(frozen=True)
 class Wanted:
     """The test that is about to begin. plan: None before one is chosen. limits: how many are loaded, 0 for none;
-    limits_problem: why they do not suit."""
+    limits_problem: why they do not suit. ways: which of its lines are free, None before the Car is mapped."""
 
     plan: Plan | None = None
     limits: int = 0
     limits_problem: str = ""
+    ways: Ways | None = None
 
 
 @dataclass(frozen=True)
@@ -73,6 +75,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield robot_checks.emergency_stop(status.emergency_stop)
     yield robot_checks.position(status)
     yield robot_checks.size(status.car)
+    yield _way(facts.wanted.ways)
     yield from robot_checks.parts(status)
     yield robot_checks.battery(status.battery_percent, facts.wanted.plan)
     yield from car_checks.bus(robot)
@@ -85,6 +88,17 @@ def _encryption(robot: RobotSnapshot) -> Item:
     if robot.is_exposed:
         return Item(Check.ENCRYPTION, State.NOTE, Finding.NOT_ENCRYPTED)
     return Item(Check.ENCRYPTION, State.GOOD, Finding.LOCAL_LINK)
+
+
+def _way(ways: Ways | None) -> Item:
+    """No reason not to begin: what stands there may go, and the robot drives around it or refuses."""
+    if ways is None:
+        return Item(Check.WAY, State.UNKNOWN, Finding.WAY_TO_COME)
+    if ways.hindered:
+        return Item(Check.WAY, State.NOTE, Finding.WAY_HINDERED, spans(ways.hindered), (ways.gap_m,))
+    if ways.unseen:
+        return Item(Check.WAY, State.UNKNOWN, Finding.WAY_UNSEEN, spans(ways.unseen))
+    return Item(Check.WAY, State.GOOD, Finding.WAY_FREE)
 
 
 def _disk(free_bytes: int | None) -> Item:

@@ -29,6 +29,7 @@ class ObstacleMap:
     Attributes:
         version: grows with each change of places.
         places: middles of the cells in which something stands, (n, 2), Car coordinate system, m.
+        seen: True at the cells of which something is known, occupied or free, as a square of rows along x.
     """
 
     def __init__(self) -> None:
@@ -37,6 +38,22 @@ class ObstacleMap:
         self._looked_s = -math.inf
         self.version = 0
         self.places: Any = np.empty((0, 2))
+        self.seen: Any = np.zeros((_CELLS, _CELLS), dtype=bool)
+
+    @property
+    def mark(self) -> tuple[int, int]:
+        """Another one when there is something new in it."""
+        return self.version, int(np.count_nonzero(self.seen))
+
+    def has_seen(self, x_m: Any, y_m: Any) -> Any:
+        """True at the places of which, or of a cell beside which, something is known; rays leave gaps."""
+        rows, columns, inside = _indices(x_m, y_m)
+        known = np.zeros(len(rows), dtype=bool)
+        for row in (-1, 0, 1):
+            for column in (-1, 0, 1):
+                near = np.clip(rows + row, 0, _CELLS - 1), np.clip(columns + column, 0, _CELLS - 1)
+                known |= self.seen[near]
+        return known & inside
 
     def learn(self, status: RobotStatus, view: View) -> None:
         """What is seen with a Status."""
@@ -44,6 +61,7 @@ class ObstacleMap:
         if frame != self._frame or status.car is None or status.stamp_s < self._looked_s:
             self._frame, self._looked_s = frame, -math.inf
             self._counts[:] = 0
+            self.seen[:] = False
         if status.car is None or status.stamp_s - self._looked_s < PERIOD_S:
             return
         self._looked_s = status.stamp_s
@@ -54,6 +72,7 @@ class ObstacleMap:
         passed, met = _cells(*_passed(view)), _cells(*view.points.T)
         counts[passed] = np.maximum(counts[passed] - _PASS, 0)
         counts[met] = np.minimum(counts[met] + _RETURN, _MOST)
+        self.seen |= (passed | met).reshape(self.seen.shape)
         rows, columns = np.divmod(np.flatnonzero(counts >= _OCCUPIED), _CELLS)
         places = np.column_stack((rows, columns)) * CELL_M - _HALF_M + CELL_M / 2.0
         if not np.array_equal(places, self.places):
@@ -75,9 +94,15 @@ def _passed(view: View) -> tuple[Any, Any]:
 
 def _cells(x_m: Any, y_m: Any) -> Any:
     """True at the cells of places, in the order of the counts; what lies beyond the square is left out."""
+    rows, columns, inside = _indices(x_m, y_m)
+    cells = np.zeros(_CELLS * _CELLS, dtype=bool)
+    cells[rows[inside] * _CELLS + columns[inside]] = True
+    return cells
+
+
+def _indices(x_m: Any, y_m: Any) -> tuple[Any, Any, Any]:
+    """Rows and columns of places, and True at those within the square."""
     rows, columns = (x_m + _HALF_M) / CELL_M, (y_m + _HALF_M) / CELL_M
     inside = (rows >= 0.0) & (rows < _CELLS) & (columns >= 0.0) & (columns < _CELLS)
-    cells = np.zeros(_CELLS * _CELLS, dtype=bool)
     # What is not negative is rounded down by the conversion.
-    cells[rows[inside].astype(np.int64) * _CELLS + columns[inside].astype(np.int64)] = True
-    return cells
+    return rows.astype(np.int64), columns.astype(np.int64), inside

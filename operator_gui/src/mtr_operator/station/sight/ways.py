@@ -1,0 +1,80 @@
+"""Which lines are free before the robot drives them: a warning, for its own planner decides on the way."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, Sequence
+
+import numpy as np
+
+from mtr_operator.domain.actions.distance import gap_to_outline
+from mtr_operator.domain.results.picture import Stretch
+from mtr_operator.domain.robot_status import CarDimensions
+
+from .obstacle_map import CELL_M, ObstacleMap
+
+# How far the robot reaches beyond its key, away from the Car, and to both sides of the line, with the planner's margin
+# and half a cell of the map; docs of mtr_motion_planner: 0.27 m ahead, 0.254 m behind, 0.22 m aside, key 0.25 m ahead.
+_BEHIND_KEY_M, _ASIDE_M = 0.6, 0.4
+# Nearer to its outline the Car itself is seen.
+_CAR_M = 0.4
+_SHORT_RUN = 2
+
+
+@dataclass(frozen=True)
+class Ways:
+    """Lines by their labels, in their order.
+
+    Attributes:
+        hindered: on their way, or at their end, something stands. gap_m: from the Car to the nearest of it, NaN
+            without.
+        unseen: the others that lead where the robot has not looked.
+    """
+
+    hindered: tuple[str, ...] = ()
+    gap_m: float = math.nan
+    unseen: tuple[str, ...] = ()
+
+
+def ways_of(stretches: Sequence[Stretch], car: CarDimensions, obstacles: ObstacleMap) -> Ways:
+    """Of the lines of a plan, by what the robot has seen around this Car."""
+    half = np.array([car.length / 2.0, car.width / 2.0])
+    places = obstacles.places
+    places = places[np.hypot(*np.maximum(np.abs(places) - half, 0.0).T) > _CAR_M]
+    found = [(stretch.label, place) for stretch in stretches for place in _on_way(stretch, places)]
+    hindered = tuple(dict.fromkeys(label for label, _ in found))
+    gap_m = min((gap_to_outline((float(place[0]), float(place[1])), car) for _, place in found), default=math.nan)
+    unseen = dict.fromkeys(stretch.label for stretch in stretches
+                           if stretch.label not in hindered and not _is_seen(stretch, obstacles))
+    return Ways(hindered, gap_m, tuple(unseen))
+
+
+def spans(labels: Sequence[str]) -> str:
+    """Such as "1, 4\N{EN DASH}7, 12": numbers in their order; of three and more that follow each other the ends."""
+    runs: list[list[int]] = []
+    for number in map(int, labels):
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    parts = [f"{run[0]}\N{EN DASH}{run[-1]}" if len(run) > _SHORT_RUN else ", ".join(map(str, run)) for run in runs]
+    return ", ".join(parts)
+
+
+def _is_seen(stretch: Stretch, obstacles: ObstacleMap) -> bool:
+    (near_x, near_y), (far_x, far_y) = stretch.start, stretch.end
+    parts = np.linspace(0.0, 1.0, 2 + int(math.hypot(far_x - near_x, far_y - near_y) / CELL_M))
+    return bool(np.all(obstacles.has_seen(near_x + parts * (far_x - near_x), near_y + parts * (far_y - near_y))))
+
+
+def _on_way(stretch: Stretch, places: Any) -> Any:
+    """Places that the robot would touch while its key is carried along."""
+    (near_x, near_y), (far_x, far_y) = stretch.start, stretch.end
+    length_m = math.hypot(far_x - near_x, far_y - near_y)
+    if length_m == 0.0 or not len(places):
+        return places[:0]
+    ahead_x, ahead_y = (far_x - near_x) / length_m, (far_y - near_y) / length_m
+    along = (places[:, 0] - near_x) * ahead_x + (places[:, 1] - near_y) * ahead_y
+    aside = np.abs((places[:, 1] - near_y) * ahead_x - (places[:, 0] - near_x) * ahead_y)
+    return places[(along > -_ASIDE_M) & (along < length_m + _BEHIND_KEY_M) & (aside < _ASIDE_M)]
