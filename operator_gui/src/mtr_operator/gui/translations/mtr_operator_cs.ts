@@ -237,7 +237,7 @@
     <message>
         <location filename="../bus/bus_window.py" line="121"/>
         <source>Load {load} %, {count} messages.</source>
-        <translation>Zatížení {load} %, zpráv: {count}.</translation>
+        <translation>Vytížení {load} %, zpráv: {count}.</translation>
     </message>
     <message>
         <location filename="../bus/bus_window.py" line="124"/>
@@ -652,7 +652,7 @@
     <message>
         <location filename="../header/check_texts.py" line="68"/>
         <source>The robot reports nothing against them.</source>
-        <translation>Robot nehlásí nic, co by jim vadilo.</translation>
+        <translation>Robot nehlásí nic, co by mluvilo proti nim.</translation>
     </message>
     <message>
         <location filename="../header/check_texts.py" line="108"/>
@@ -937,7 +937,7 @@
     <message>
         <location filename="../header/check_texts.py" line="20"/>
         <source>Preflight</source>
-        <translation>Kontrola robota</translation>
+        <translation>Kontrola robotu</translation>
     </message>
     <message>
         <location filename="../header/check_texts.py" line="74"/>
@@ -957,7 +957,7 @@
     <message>
         <location filename="../header/check_texts.py" line="77"/>
         <source>Never made since the robot was started.</source>
-        <translation>Od spuštění robota nebyla provedena.</translation>
+        <translation>Od spuštění robotu nebyla provedena.</translation>
     </message>
     <message>
         <location filename="../header/check_texts.py" line="78"/>
@@ -1183,7 +1183,7 @@
     <message>
         <location filename="../events/event_model.py" line="90"/>
         <source>Fault</source>
-        <translation>Závada</translation>
+        <translation>Porucha</translation>
     </message>
     <message>
         <location filename="../events/event_model.py" line="91"/>
@@ -1466,7 +1466,7 @@
     <message>
         <location filename="../calibration/height_card.py" line="88"/>
         <source>{tape} cm for {reported} cm</source>
-        <translation>{tape} cm místo {reported} cm</translation>
+        <translation>{tape} cm při hlášených {reported} cm</translation>
     </message>
     <message>
         <location filename="../calibration/height_card.py" line="91"/>
@@ -1801,7 +1801,7 @@
     <message>
         <location filename="../history/history_screen.py" line="250"/>
         <source>This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into a folder of its own to open it.</source>
-        <translation>Tento test je v podepsaném balíku: lze jej opakovat a porovnat. Pro otevření balík rozbalte do vlastní složky.</translation>
+        <translation>Tento test je v podepsaném balíčku: lze jej opakovat a porovnat. Pro otevření balíček rozbalte do vlastní složky.</translation>
     </message>
     <message>
         <location filename="../history/history_screen.py" line="93"/>
@@ -2636,7 +2636,7 @@
     <message>
         <location filename="../texts/parameter_names.py" line="5"/>
         <source>Coverage wanted, half width</source>
-        <translation>Požadované pokrytí, poloviční šířka</translation>
+        <translation>Interval pokrytí, polovina šířky</translation>
     </message>
     <message>
         <location filename="../texts/parameter_names.py" line="5"/>
@@ -2726,7 +2726,7 @@
     <message>
         <location filename="../texts/parameter_names.py" line="5"/>
         <source>Trials at most</source>
-        <translation>Nejvíce pokusů</translation>
+        <translation>Nejvýše pokusů</translation>
     </message>
     <message>
         <location filename="../texts/parameter_names.py" line="5"/>
@@ -2879,12 +2879,12 @@
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Approaches and retreats on each axis; those at two speeds tell the Car&apos;s reaction time from the static boundary.</source>
-        <translation>Přiblížení a vzdálení na každé ose; dvě rychlosti oddělí reakční dobu vozu od statické hranice.</translation>
+        <translation>Přiblížení a vzdálení na každé ose; dvě rychlosti oddělí reakční dobu auta od statické hranice.</translation>
     </message>
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Speed limits of the passes, in turn; default: proposed from the cycle of the Car&apos;s message.</source>
-        <translation>Nejvyšší rychlosti průjezdů, postupně; výchozí: navržené podle periody zprávy vozu.</translation>
+        <translation>Nejvyšší rychlosti průjezdů, postupně; výchozí: navržené podle periody zprávy auta.</translation>
     </message>
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
@@ -2894,7 +2894,7 @@
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Step of one more approach, with a stop for the response time after each, for Cars that poll slowly; default: none.</source>
-        <translation>Krok ještě jednoho přiblížení se zastavením na dobu odezvy po každém kroku, pro vozy s pomalým dotazováním; výchozí: žádný.</translation>
+        <translation>Krok ještě jednoho přiblížení se zastavením na dobu odezvy po každém kroku, pro auta s pomalým dotazováním; výchozí: žádný.</translation>
     </message>
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
@@ -2934,7 +2934,7 @@
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
         <source>Distance between neighbouring places away from the Car.</source>
-        <translation>Vzdálenost sousedních míst směrem od vozidla.</translation>
+        <translation>Vzdálenost sousedních míst směrem od auta.</translation>
     </message>
     <message>
         <location filename="../texts/parameter_docs.py" line="7"/>
@@ -3325,12 +3325,12 @@
     <message>
         <location filename="../header/preflight_details.py" line="54"/>
         <source>Fewer sentences of the preflight</source>
-        <translation>Méně vět z kontroly robota</translation>
+        <translation>Méně vět z kontroly robotu</translation>
     </message>
     <message>
         <location filename="../header/preflight_details.py" line="54"/>
         <source>All sentences of the preflight</source>
-        <translation>Všechny věty z kontroly robota</translation>
+        <translation>Všechny věty z kontroly robotu</translation>
     </message>
 </context>
 <context>
@@ -3590,7 +3590,7 @@
     <message>
         <location filename="../history/replay_window.py" line="86"/>
         <source>From the recorded log, the robot&apos;s poses and the car profile as it is now: {changed} of {count} distances would change; the largest difference is {worst} mm.</source>
-        <translation>Podle zaznamenaného logu, poloh robota a nynějšího profilu auta: změnilo by se {changed} z {count} vzdáleností; největší rozdíl je {worst} mm.</translation>
+        <translation>Podle zaznamenaného logu, poloh robotu a nynějšího profilu auta: změnilo by se {changed} z {count} vzdáleností; největší rozdíl je {worst} mm.</translation>
     </message>
 </context>
 <context>
@@ -3656,7 +3656,7 @@
     <message>
         <location filename="../texts/scenarios.py" line="5"/>
         <source>Press a button where it tells most, in every zone around the Car, and draw the map of where it works.</source>
-        <translation>Tiskne tlačítko tam, kde to řekne nejvíce, v každé zóně kolem vozidla, a kreslí mapu míst, kde funguje.</translation>
+        <translation>Tiskne tlačítko tam, kde to řekne nejvíce, v každé zóně kolem auta, a kreslí mapu míst, kde funguje.</translation>
     </message>
     <message>
         <location filename="../texts/scenarios.py" line="5"/>
@@ -3696,7 +3696,7 @@
     <message>
         <location filename="../texts/scenarios.py" line="5"/>
         <source>Have the handle taken with the key beyond the zone, first with an extender switched off, then on, and bound how often the Car unlocks.</source>
-        <translation>Nechat uchopit kliku s klíčem za zónou, nejprve s vypnutým extenderem, pak se zapnutým, a omezit, jak často se auto odemkne.</translation>
+        <translation>Nechat uchopit kliku s klíčem za zónou, nejprve s vypnutým extenderem, pak se zapnutým, a shora ohraničit, jak často se auto odemkne.</translation>
     </message>
 </context>
 <context>
@@ -4444,7 +4444,7 @@
     <message>
         <location filename="../texts/keeping.py" line="5"/>
         <source>Its Car and its parameters do not fit together. {}</source>
-        <translation>Jeho vozidlo a jeho parametry k sobě nepatří. {}</translation>
+        <translation>Jeho auto a jeho parametry k sobě nepatří. {}</translation>
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
@@ -4459,7 +4459,7 @@
     <message>
         <location filename="../texts/keeping.py" line="5"/>
         <source>Car profile {} {}; a profile is a YAML file that names the CAN database.</source>
-        <translation>Profil vozidla {} {}; profil je soubor YAML, který jmenuje databázi CAN.</translation>
+        <translation>Profil auta {} {}; profil je soubor YAML, který jmenuje databázi CAN.</translation>
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
@@ -4679,12 +4679,12 @@
     <message>
         <location filename="../texts/judgement.py" line="5"/>
         <source>An obstacle, or sensors that saw nothing, stopped the robot during the measurement.</source>
-        <translation>Během měření robota zastavila překážka, nebo jeho snímače nic neviděly.</translation>
+        <translation>Během měření byl robot zastaven překážkou, nebo jeho snímače nic neviděly.</translation>
     </message>
     <message>
         <location filename="../texts/judgement.py" line="5"/>
         <source>A motion lock stopped the robot during the measurement.</source>
-        <translation>Během měření robota zastavil zámek pohybu.</translation>
+        <translation>Během měření byl robot zastaven zámkem pohybu.</translation>
     </message>
     <message>
         <location filename="../texts/judgement.py" line="5"/>
@@ -4694,7 +4694,7 @@
     <message>
         <location filename="../texts/judgement.py" line="5"/>
         <source>The robot&apos;s clock was set during the measurement.</source>
-        <translation>Během měření se přestavily hodiny robota.</translation>
+        <translation>Během měření se přestavily hodiny robotu.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
@@ -4719,12 +4719,12 @@
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>The test was begun with another calibration record of the robot; continue it without this file, or begin a new test.</source>
-        <translation>Test byl zahájen s jiným kalibračním záznamem robota; pokračujte bez tohoto souboru, nebo začněte nový test.</translation>
+        <translation>Test byl zahájen s jiným kalibračním záznamem robotu; pokračujte bez tohoto souboru, nebo začněte nový test.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
         <source>The robot&apos;s calibration record of {} is {} days old; it was valid for {} days. Calibrate the robot again, or doubt the uncertainties.</source>
-        <translation>Kalibrační záznam robota z {} je starý {} dní; platil {} dní. Robota znovu zkalibrujte, nebo nejistotám nevěřte.</translation>
+        <translation>Kalibrační záznam robotu z {} je starý {} dní; platil {} dní. Robot znovu zkalibrujte, nebo nejistotám nevěřte.</translation>
     </message>
     <message>
         <location filename="../texts/limits.py" line="5"/>
@@ -4849,7 +4849,7 @@
     <message>
         <location filename="../texts/passes.py" line="5"/>
         <source>pass {}: approach until the Car unlocks</source>
-        <translation>průjezd {}: přiblížení, dokud se vůz neodemkne</translation>
+        <translation>průjezd {}: přiblížení, dokud se auto neodemkne</translation>
     </message>
     <message>
         <location filename="../texts/passes.py" line="5"/>
@@ -4859,7 +4859,7 @@
     <message>
         <location filename="../texts/passes.py" line="5"/>
         <source>All passes have about the same speed, so that the Car&apos;s reaction time stays inside the distances; give measuring_speeds_mps two speeds.</source>
-        <translation>Všechny průjezdy mají přibližně stejnou rychlost, takže reakční doba vozu zůstává ve vzdálenostech; zadejte do measuring_speeds_mps dvě rychlosti.</translation>
+        <translation>Všechny průjezdy mají přibližně stejnou rychlost, takže reakční doba auta zůstává ve vzdálenostech; zadejte do measuring_speeds_mps dvě rychlosti.</translation>
     </message>
     <message>
         <location filename="../texts/passes.py" line="5"/>
@@ -5124,12 +5124,12 @@
     <message>
         <location filename="../texts/passes.py" line="5"/>
         <source>At {}, with a message of the Car every {} s, the static boundary of an axis has a sigma of {} m; boundary_sigma_m asks for {} m. {}</source>
-        <translation>Při {} a zprávě vozu každých {} s má statická hranice osy sigma {} m; boundary_sigma_m žádá {} m. {}</translation>
+        <translation>Při {} a zprávě auta každých {} s má statická hranice osy sigma {} m; boundary_sigma_m žádá {} m. {}</translation>
     </message>
     <message>
         <location filename="../texts/passes.py" line="5"/>
         <source>At {}, with a message of the Car every {} s, the distance of a pass has a sigma of {} m by that message alone; boundary_sigma_m asks for {} m. {}</source>
-        <translation>Při {} a zprávě vozu každých {} s má vzdálenost průjezdu už jen kvůli této zprávě sigma {} m; boundary_sigma_m žádá {} m. {}</translation>
+        <translation>Při {} a zprávě auta každých {} s má vzdálenost průjezdu už jen kvůli této zprávě sigma {} m; boundary_sigma_m žádá {} m. {}</translation>
     </message>
     <message>
         <location filename="../texts/passes.py" line="5"/>
@@ -5769,7 +5769,7 @@
     <message>
         <location filename="../events/sentences.py" line="5"/>
         <source>The robot has a fault.</source>
-        <translation>Robot má závadu.</translation>
+        <translation>Robot má poruchu.</translation>
     </message>
     <message>
         <location filename="../events/sentences.py" line="5"/>
@@ -6059,12 +6059,12 @@
     <message>
         <location filename="../texts/keeping.py" line="5"/>
         <source>{} is torn, or no bundle: its list of files cannot be read.</source>
-        <translation>{} je neúplný, nebo to není balík: seznam jeho souborů nelze přečíst.</translation>
+        <translation>{} je neúplný, nebo to není balíček: seznam jeho souborů nelze přečíst.</translation>
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
         <source>There is no {} or {} in it: it is no bundle.</source>
-        <translation>Chybí v něm {} nebo {}: není to balík.</translation>
+        <translation>Chybí v něm {} nebo {}: není to balíček.</translation>
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
@@ -7007,7 +7007,7 @@
     <message>
         <location filename="../header/reasons.py" line="43"/>
         <source>The robot&apos;s preflight found: {detail}</source>
-        <translation>Kontrola robota zjistila: {detail}</translation>
+        <translation>Kontrola robotu zjistila: {detail}</translation>
     </message>
 </context>
 <context>
@@ -7346,7 +7346,7 @@
     <message>
         <location filename="../texts/words.py" line="7"/>
         <source>judged lines</source>
-        <translation>posouzené čáry</translation>
+        <translation>posouzené přímky</translation>
     </message>
     <message>
         <location filename="../texts/words.py" line="7"/>
