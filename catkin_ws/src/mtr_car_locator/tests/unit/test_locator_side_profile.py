@@ -21,6 +21,18 @@ def side_with_arches(along):
     return np.where(away < ARCH_M, inner, np.where(away < BEND_M, shoulder, bent))
 
 
+def side_with_short_bumpers(along):
+    """Bumpers' sides of 10 cm, bowed, reach out to 0 beside the arches; sills are 20 mm inside, tyres 25 mm."""
+    away = np.abs(along)
+    inner = np.where(away < 0.6, -0.02, np.where((away > 0.7) & (away < 1.38), -0.025, np.nan))
+    return np.where(away < 1.42, inner, -900.0 * (away - 1.42) ** 4)
+
+
+def side_with_steps(along):
+    """A sill at 0, with what stands out by 3 cm between the wheels."""
+    return np.where(np.abs(np.abs(along) - 0.65) < 0.035, 0.03, 0.0)
+
+
 def bumper(along):
     """A superellipse 1.8 m broad and 0.6 m deep with its tip at 0."""
     return 0.6 * ((1.0 - np.minimum(np.abs(along) / 0.9, 1.0) ** 2.8) ** (1.0 / 2.8) - 1.0)
@@ -87,3 +99,16 @@ def test_hardly_any_returns_tell_nothing():
     assert profile_of(np.zeros(3), np.zeros(3)) is None
     few = profile_of(*returns(lambda along: 0.0 * along, 1.5 * BIN_M, 0.01, 5))
     assert outermost(few) is None and summit(few) is None
+
+
+@pytest.mark.parametrize("noise_m", [0.005, 0.01, 0.02])
+def test_side_of_a_short_bumper_is_the_outermost(noise_m):
+    levels, sigmas = errors(outermost, side_with_short_bumpers, 1.55, noise_m)
+    assert abs(levels.mean()) < 0.005
+    assert np.all(np.abs(levels) < 2.0 * sigmas)
+
+
+@pytest.mark.parametrize("noise_m", [0.005, 0.01, 0.02])
+def test_what_stands_out_between_the_wheels_is_no_short_bumper(noise_m):
+    levels, _ = errors(outermost, side_with_steps, 1.55, noise_m)
+    assert np.abs(levels).max() < 0.005

@@ -26,6 +26,9 @@ MIN_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MAX_MEAN_SQUARE, MAX_SIGMAS, MAX_BEND_SIGMA
 # Where in it the arch begins is not known: somewhere within half a bin, as the standard deviation of a uniform
 # distribution.
 STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
+# So many bins beyond that, so near an end of the side, are the side of a short bumper; mirrors are farther from there.
+# It is smeared at the arch and bends towards the end: its outermost place is farther out by some millimetres.
+SHORT_BINS, SHORT_REACH_M, SHORT_SIGMA_M = 3, 0.25, 0.005
 # A bumper is a parabola as far as it lies within this distance of its top; 1 sigma of its scatter about that.
 TOP_M, SHAPE_SIGMA_M, MIN_BUMPER_BINS = 0.01, 0.001, 8
 
@@ -71,7 +74,10 @@ def profile_of(along: FloatArray, outward: FloatArray) -> Optional[SideProfile]:
 def outermost(side: SideProfile) -> Optional[SideExtent]:
     """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
     found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
-    return max(found, key=lambda each: each.level - each.sigma) if found else None
+    if not found:
+        return None
+    straight = max(found, key=lambda each: each.level - each.sigma)
+    return _short_bumper(side, straight) or straight
 
 
 def summit(end: SideProfile) -> Optional[SideExtent]:
@@ -108,6 +114,20 @@ class _Piece:
             spread = math.sqrt(1.0 / count + 12.0 * reach ** 2 / (count * (count ** 2 - 1.0)))
             sigma_m = math.hypot(spread * self.sigma_m, EDGE_SIGMA_BINS * self.rise_m if is_arch else 0.0)
             yield SideExtent(self.middle_m + sign * self.rise_m * reach, sigma_m)
+
+
+def _short_bumper(side: SideProfile, straight: SideExtent) -> Optional[SideExtent]:
+    """What stands out farther than the straight pieces near an end of the side, and is shorter than these."""
+    found = None
+    for first in range(len(side.number) - SHORT_BINS + 1):
+        bins = slice(first, first + SHORT_BINS)
+        number, level, sigma = side.number[bins], side.level[bins], side.sigma[bins]
+        from_end_m = BIN_M * min(number[-1] - side.number[0], side.number[-1] - number[0])
+        stands_out = np.all(level > straight.level + STEP_M + STEP_SIGMAS * sigma)
+        if (from_end_m <= SHORT_REACH_M and number[-1] - number[0] == SHORT_BINS - 1 and stands_out
+                and (found is None or level.mean() > found.level)):
+            found = SideExtent(float(level.mean()), math.hypot(float(sigma.max()), SHORT_SIGMA_M))
+    return found
 
 
 def _straight_pieces(side: SideProfile) -> Iterator[_Piece]:
