@@ -192,7 +192,7 @@ def take_history(person: Person, camera: Camera) -> None:
     person.look(camera, "16_comparison")
     close(person)
     person.click("Spread")
-    person.wait_for("2 tests from")
+    person.wait_for("The standard deviation is that of one test")
     person.look(camera, "16_spread")
     close(person)
     person.click("Back")

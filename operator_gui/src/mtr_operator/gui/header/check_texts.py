@@ -99,7 +99,7 @@ def _of_way(lines: str) -> dict[Finding, str]:
                                                  "m from the Car.").format(lines=lines, distance="{first}"),
         Finding.WAY_UNSEEN: translate("Check", "The robot has not seen all of the way of lines {lines}.").format(
             lines=lines),
-        Finding.WAY_TO_COME: translate("Check", "Not known before the Car is mapped and a test is chosen."),
+        Finding.WAY_TO_COME: translate("Check", "Looked at when the Car is mapped and a test is chosen."),
     }
 
 

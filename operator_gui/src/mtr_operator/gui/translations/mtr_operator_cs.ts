@@ -995,14 +995,14 @@
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../header/check_texts.py" line="102"/>
-        <source>Not known before the Car is mapped and a test is chosen.</source>
-        <translation>Není známo, dokud není auto zmapováno a test vybrán.</translation>
-    </message>
-    <message>
         <location filename="../header/check_texts.py" line="162"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
+    </message>
+    <message>
+        <location filename="../header/check_texts.py" line="102"/>
+        <source>Looked at when the Car is mapped and a test is chosen.</source>
+        <translation>Ověřuje se, až bude auto zmapováno a test vybrán.</translation>
     </message>
 </context>
 <context>
@@ -3223,12 +3223,12 @@
         <translation>Obvyklé hodnoty</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="119"/>
+        <location filename="../forms/parameter_form.py" line="118"/>
         <source>Fewer parameters</source>
         <translation>Méně parametrů</translation>
     </message>
     <message>
-        <location filename="../forms/parameter_form.py" line="119"/>
+        <location filename="../forms/parameter_form.py" line="118"/>
         <source>More parameters</source>
         <translation>Více parametrů</translation>
     </message>
@@ -6645,22 +6645,22 @@
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="200"/>
+        <location filename="../screens/settings.py" line="203"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="204"/>
+        <location filename="../screens/settings.py" line="207"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="209"/>
+        <location filename="../screens/settings.py" line="212"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="210"/>
+        <location filename="../screens/settings.py" line="213"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
@@ -6670,17 +6670,17 @@
         <translation>Podržením spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="169"/>
+        <location filename="../screens/settings.py" line="172"/>
         <source>Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. Move it, or measure from nearer.</source>
         <translation>V cestě stojí překážka ({lines}): šedé čtverce, nejbližší {distance} m od auta. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="199"/>
+        <location filename="../screens/settings.py" line="202"/>
         <source>No preview of the lines while the parameters are not right.</source>
         <translation>Dokud nejsou parametry v pořádku, není náhled přímek.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="177"/>
+        <location filename="../screens/settings.py" line="180"/>
         <source>Not all seen by the robot yet: {lines}.</source>
         <translation>Robot ještě celé neviděl: {lines}.</translation>
     </message>
