@@ -9,7 +9,7 @@ from mtr_core.states import CarState, Check, Result, State
 
 from . import problems
 from .goals import Goals, WaypointResult
-from .hold import Hold
+from .hold import Hold, is_ordered
 from .observation import Observation, Part
 from .parameters import Parameters
 from .table import AGAIN, Event, StateTable
@@ -57,6 +57,8 @@ class StateMachine:
         self._map_revision = 0
         self._before_fault = State.READY_TO_MAP_CAR
         self._fault = NO_PROBLEM
+        # Under the last word of a dispatcher that died; the application says its order again to the next one.
+        self._was_ordered = False
         self._is_map_lost = False
         self._failed_waypoint = (0, 0)
         self._lost_since_s: Optional[float] = None
@@ -139,8 +141,8 @@ class StateMachine:
         if event is Event.ALL_RUNNING:
             self._hold.begin(problems.HELD_START(), seen)
         if self.state is State.FAULT and self._fault:
-            self._hold.begin(problems.HELD_FAULT(cause=self._fault), seen)
-            self._fault = NO_PROBLEM
+            self._hold.begin(problems.HELD_FAULT(cause=self._fault), seen, self._was_ordered)
+            self._fault, self._was_ordered = NO_PROBLEM, False
         if event is Event.PART_FAILED:
             self._before_fault = self.state
             self._failed_waypoint = _waypoint_key(seen)
@@ -224,6 +226,8 @@ class StateMachine:
         """A part that failed is a reason for a person to come near; a Car that was not found is none."""
         if problem and problem != self._car_problem(seen):
             self._fault = problem
+        if seen.is_silent(Part.DISPATCHER, self._parameters.noticed_after_s):
+            self._was_ordered = is_ordered(seen)
 
     def _message(self, seen: Observation) -> Problem:
         if self._hold.id:

@@ -52,9 +52,9 @@ class Hold:
         elif pause_s > self._longest_pause_s:
             self.begin(problems.HELD_PAUSE(pause_s=pause_s), seen)
 
-    def begin(self, reason: Problem, seen: Observation) -> None:
-        """Hold the robot from now on, when an order could move it."""
-        if not (self._is_wanted and is_ordered(seen)):
+    def begin(self, reason: Problem, seen: Observation, was_ordered: bool = False) -> None:
+        """Hold the robot from now on, when an order could move it. was_ordered: one will be there again by itself."""
+        if not (self._is_wanted and (was_ordered or is_ordered(seen))):
             return
         # The steady time, so that no hold of before has the id, not even one from before a restart of this node.
         self._newest_id = self.id = max(self._newest_id + 1, round(seen.now_s * MICROSECONDS_PER_S))

@@ -77,16 +77,19 @@ class Observation:
     firmware_resets: int = 0
     now_s: float = 0.0
 
+    def is_silent(self, part: Part, silent_after_s: float) -> bool:
+        """True for a part that has not reported either."""
+        return not is_fresh(self.age_s.get(part, math.inf), silent_after_s)
+
     def part_problem(self, part: Part, silent_after_s: float) -> Problem:
         """What is wrong when the part is silent or not well."""
         if part not in self.age_s:
             return problems.PART_NOT_REPORTED(part=part.value)
-        if not is_fresh(self.age_s[part], silent_after_s):
+        if self.is_silent(part, silent_after_s):
             return problems.PART_SILENT(part=part.value, age_s=self.age_s[part])
         return self.complaint.get(part, NO_PROBLEM)
 
     def only_position_is_lost(self, silent_after_s: float) -> bool:
         """Localization reports that it looks for its place on the map, and nothing else is wrong."""
         others = any(self.part_problem(part, silent_after_s) for part in Part if part is not Part.LOCALIZATION)
-        is_heard = is_fresh(self.age_s.get(Part.LOCALIZATION, math.inf), silent_after_s)
-        return is_heard and self.is_position_lost and not others
+        return not self.is_silent(Part.LOCALIZATION, silent_after_s) and self.is_position_lost and not others

@@ -65,6 +65,22 @@ def fault(robot):
     robot.step(age_s=ALL_WELL)
 
 
+def test_robot_whose_dispatcher_died_under_an_order_is_held_before_the_order_is_there_again(robot):
+    robot.step(age_s={**ALL_WELL, Part.DISPATCHER: 0.6})
+    assert robot.machine.state is State.FAULT
+    # A new dispatcher has heard of no application yet.
+    held = robot.step(age_s=ALL_WELL, desired=DesiredState())
+    assert held.hold_id
+    assert robot.step(desired=WANTS).goal == NO_GOAL
+    assert robot.step(desired=replace(WANTS, resume_hold_id=held.hold_id)).goal.waypoint == WAYPOINT
+
+
+def test_robot_whose_dispatcher_died_without_an_order_is_not_held(robot):
+    robot.step(desired=IDLE)
+    robot.step(age_s={**ALL_WELL, Part.DISPATCHER: 0.6})
+    assert not robot.step(age_s=ALL_WELL, desired=DesiredState()).hold_id
+
+
 def manual(robot):
     robot.step(drive=Drive(is_manual=True, manual_drives=1))
     robot.step(drive=Drive(is_manual=False, manual_drives=1))
