@@ -25,8 +25,9 @@ PERIPHERALS ?= fake
 # For `make flash`: mega or uno, and its serial port.
 BOARD ?= mega
 PORT ?=
-# For `make bench-kills`: how many of each scenario.
+# For `make bench-kills`: how many of each scenario, of the application and of the robot's nodes.
 KILLS ?= 1000
+NODE_KILLS ?= 100
 RVIZ ?= $(if $(DISPLAY),true,false)
 
 STAMPS := .setup
@@ -186,8 +187,9 @@ gazebo: ## Autolock and Key press on the wall clock in Gazebo and MuJoCo; figure
 bench-truth: setup build ## Lines of both scenarios, one disturbance each, against the truth; figures in out/bench/truth.json
 	@$(RUN) python -m mtr_benchmarks.truth --seed $(SEED) --out out/bench
 
-bench-kills: setup build ## kill -9 at 1000 random instants of each scenario: nothing lost, doubled or changed; KILLS=1000
+bench-kills: setup build ## kill -9 of application and nodes at random instants of each scenario: nothing lost, doubled or changed; KILLS=1000 NODE_KILLS=100
 	@$(RUN) python operator_gui/tests/proofs/kills.py --kills $(KILLS) --seed $(SEED) --out out/bench
+	@$(RUN) python -m mtr_benchmarks.kills --kills $(NODE_KILLS) --seed $(SEED) --out out/bench
 
 RESULT_TESTS ?= 10000
 bench-results: setup build ## The store of results with 10,000 tests of 40 lines: import, list, comparison, page; RESULT_TESTS=10000

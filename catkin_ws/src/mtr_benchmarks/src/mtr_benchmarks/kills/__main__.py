@@ -1,0 +1,86 @@
+"""Kills nodes of the robot at random instants of whole tests; figures go to node_kills.json.
+
+Usage: python -m mtr_benchmarks.kills --kills 20 --out out/bench
+"""
+# SPDX-License-Identifier: Apache-2.0
+import argparse
+import collections
+import pathlib
+import shutil
+import sys
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
+from typing import Counter, List, Optional
+
+from ..harness.report import BenchmarkReport, finish
+from ..harness.rows import Requirement, Row
+from .deaths import LIMITS_S, STANDS_S, Kill
+from .kept import MUST
+from .killed import PARAMETERS, Found, killed_test
+
+# Of one test; it goes on after each.
+KILLS_OF_TEST = 10
+STOPPED = Requirement("longest time from a node's last word, or the limit of its silence, to zero sent to the wheels",
+                      "s", must=STANDS_S)
+# Its servos and tyres take their time after the zero.
+STOOD = Requirement("the same to standstill of the simulated wheels (0.02 m/s)", "s", goal=STANDS_S)
+
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Run tests of both scenarios until so many nodes were killed; the exit status says whether nothing was lost."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
+    parser.add_argument("--kills", type=int, default=100, help="of each scenario, default %(default)s")
+    parser.add_argument("--seed", type=int, default=1, help="of the instants and of the first robot")
+    parser.add_argument("--scenarios", nargs="*", default=list(PARAMETERS), choices=list(PARAMETERS))
+    options = parser.parse_args(arguments)
+    folder = options.out / "node_kills"
+    shutil.rmtree(folder, ignore_errors=True)
+    tests: List[Found] = []
+    for scenario in options.scenarios:
+        done = 0
+        while done < options.kills:
+            # A process is one node of one ROS graph only.
+            with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
+                tests.append(process.submit(killed_test, scenario, folder / f"{scenario}_{done}",
+                                            options.seed + len(tests),
+                                            min(KILLS_OF_TEST, options.kills - done)).result())
+            print(f"{scenario}: {line_of(tests[-1])}", flush=True)
+            if not tests[-1].kills:
+                # A test that ends before anything was killed proves nothing, and so would the next one.
+                break
+            done += len(tests[-1].kills)
+    return finish(report(tests, options.kills * len(options.scenarios)), options.out / "node_kills.json")
+
+
+def line_of(test: Found) -> str:
+    """What a person reads of one test."""
+    found = {name: count for name, count in test.found.items() if count}
+    return f"{len(test.kills)} kills; {test.starts} starts; {found or 'nothing lost, doubled or wrong'}"
+
+
+def report(tests: List[Found], wanted: int) -> BenchmarkReport:
+    """Figures and table. wanted: kills."""
+    kills: List[Kill] = [kill for test in tests for kill in test.kills]
+    found: Counter[str] = sum((test.found for test in tests), collections.Counter())
+    is_whole, judged = len(kills) >= wanted, [kill for kill in kills if kill.is_judged]
+    rows = [Row(Requirement(name, "(count)", must=0.0), float(found[name]), is_whole,
+                remark=f"{len(kills)} kills, {len(tests)} tests") for name in MUST]
+    rows += [Row(requirement, _longest(judged, name), is_whole, remark=f"{len(judged)} kills of a robot that drove")
+             for requirement, name in ((STOPPED, "stopped_s"), (STOOD, "stood_s"))]
+    of_node = collections.Counter(kill.node for kill in kills)
+    figures = {"kills": {node: of_node[node] for node in LIMITS_S},
+               "tests": [{"scenario": test.scenario, "kills": [kill._asdict() for kill in test.kills],
+                          "starts": test.starts, "found": dict(test.found)} for test in tests]}
+    return BenchmarkReport(rows, figures, [])
+
+
+def _longest(kills: List[Kill], name: str) -> float:
+    """From the limits on, of those that came to it; kills that did not stop at all have a row of their own."""
+    return max((getattr(kill, name) - LIMITS_S[kill.node] for kill in kills if getattr(kill, name) is not None),
+               default=0.0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

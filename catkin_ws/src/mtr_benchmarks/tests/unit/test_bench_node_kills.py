@@ -1,0 +1,149 @@
+"""What is found of a test whose files lost, doubled or changed something, and of a robot that went on for too long."""
+# SPDX-License-Identifier: Apache-2.0
+import json
+import shutil
+import subprocess
+import sys
+from dataclasses import replace
+from types import SimpleNamespace
+
+import pytest
+
+from mtr_benchmarks.kills import __main__ as kills_main
+from mtr_benchmarks.kills import kept as kept_module
+from mtr_benchmarks.kills.deaths import first_zero_s, kill_of, silence
+from mtr_benchmarks.kills.kept import CHANGED, DOUBLED, LOST, UNKEPT, UNREADABLE, Kept, wrong_distances
+from mtr_benchmarks.kills.killed import Found
+from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.progress_file import load_progress
+
+PARAMETERS = {"measurements_distance_m": 10.0, "minimum_distance_m": 0.5, "passes": 1}
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    """Folder of a test that came to its end, on the robot and the Car inside the application."""
+    folder = tmp_path_factory.mktemp("measured")
+    parameters = folder / "parameters.json"
+    parameters.write_text(json.dumps(PARAMETERS), encoding="utf-8")
+    done = subprocess.run([sys.executable, "-m", "mtr_operator", "run", "autolock", "--params", parameters, "--out",
+                           folder / "out", "--simulated-robot", "--simulated-car"], capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return folder / "out"
+
+
+@pytest.fixture
+def kept(measured, tmp_path):
+    """The same in a place of its own, looked at once."""
+    shutil.copytree(measured, tmp_path / "out")
+    found = Kept(tmp_path / "out", "autolock", PARAMETERS)
+    found.look()
+    return found
+
+
+def read_otherwise(monkeypatch, edit):
+    """What is read of the files from now on has other results."""
+    def load(*arguments):
+        progress = load_progress(*arguments)
+        return SimpleNamespace(results=edit(list(progress.results)), measured_car=progress.measured_car,
+                               measured=lambda: [result.number for result in edit(list(progress.results))])
+    monkeypatch.setattr(kept_module, "load_progress", load)
+
+
+def test_nothing_is_found_of_a_test_that_was_left_alone(kept):
+    kept.look_at_end()
+    assert not sum(kept.found.values())
+
+
+def test_line_that_is_gone_is_lost(kept, monkeypatch):
+    read_otherwise(monkeypatch, lambda results: results[1:])
+    kept.look()
+    assert kept.found[LOST] == 1 and sum(kept.found.values()) == 1
+
+
+def test_line_that_was_never_measured_is_lost_at_the_end(kept, monkeypatch):
+    kept._good = {}
+    read_otherwise(monkeypatch, lambda results: results[1:])
+    kept.look_at_end()
+    assert kept.found[LOST] == 1
+
+
+def test_line_that_is_there_twice_is_doubled(kept, monkeypatch):
+    read_otherwise(monkeypatch, lambda results: [results[0], *results])
+    kept.look()
+    assert kept.found[DOUBLED] == 1
+
+
+def test_distance_that_was_not_measured_is_found(kept, monkeypatch):
+    def edit(results):
+        return [replace(results[0], unlock_distance_m=1.2345), *results[1:]]
+    read_otherwise(monkeypatch, edit)
+    kept.look_at_end()
+    assert kept.found[CHANGED] == 1 and kept.found[UNKEPT] == 1
+
+
+def test_journal_that_is_no_longer_what_it_was_is_changed(kept):
+    path = journal_path(kept.path)
+    path.write_bytes(path.read_bytes()[:-200])
+    kept.look()
+    assert kept.found[CHANGED] == 1 and not kept.found[DOUBLED]
+
+
+def test_file_that_cannot_be_read_is_found(kept):
+    journal_path(kept.path).unlink()
+    kept.path.write_text("{", encoding="utf-8")
+    kept.look()
+    assert kept.found[UNREADABLE] == 1
+
+
+def comparison(error_m, sigma_m=0.01, status="ok"):
+    return SimpleNamespace(error_m=error_m, measured=SimpleNamespace(status=status, uncertainty_m=sigma_m))
+
+
+@pytest.mark.parametrize("line, is_wrong", [
+    (comparison(0.04), False), (comparison(-0.06), True), (comparison(0.06, 0.03), False),
+    (comparison(float("nan")), True), (comparison(float("nan"), status="not_reached"), False)])
+def test_distance_is_wrong_beyond_its_uncertainty_and_without_a_true_event(line, is_wrong):
+    assert wrong_distances([line]) == is_wrong
+
+
+def test_zero_counts_from_when_nothing_else_is_sent_any_more():
+    sent = [(0.0, 0.5), (0.1, 0.0), (0.2, 0.1), (0.3, 0.0), (0.4, 0.0), (0.5, 0.3)]
+    assert first_zero_s(sent, 0.0, 0.4) == 0.3 and first_zero_s(sent, 0.0, 0.5) is None
+
+
+def speeds(stop_s, until_s=10.0):
+    """Of a robot that drives at 0.5 m/s until a time and stands from then on."""
+    return [(0.04 * index, 0.5 if 0.04 * index < stop_s else 0.0) for index in range(int(until_s / 0.04))]
+
+
+@pytest.mark.parametrize("node, stop_s, back_s, is_judged, stopped_in_time", [
+    ("dispatcher", 5.45, 8.0, True, True),
+    ("dispatcher", 5.6, 8.0, True, False),
+    ("peripherals", 5.9, 8.0, True, True),
+    ("peripherals", 6.1, 8.0, True, False),
+    ("state_machine", 99.0, 8.0, True, False),
+    # Back before it had to stand; away for good.
+    ("motion_planner", 99.0, 5.3, False, True),
+    ("motion_planner", 99.0, None, True, False),
+    # It stood before.
+    ("state_machine", 3.0, 8.0, False, True)])
+def test_zero_is_sent_in_time_after_a_death_unless_the_node_is_back(node, stop_s, back_s, is_judged, stopped_in_time):
+    kill = kill_of(node, speeds(stop_s), speeds(stop_s + 0.1), 5.0, back_s)
+    assert (kill.is_judged, kill.stopped_in_time) == (is_judged, stopped_in_time)
+
+
+def test_death_is_the_longest_silence_of_a_node_whenever_its_words_arrive():
+    assert silence([1.0, 1.1, 1.2, 4.0, 4.1]) == (1.2, 4.0)
+
+
+def test_too_few_kills_are_not_what_it_must_be():
+    found = Found("autolock", [kill_of("dispatcher", speeds(5.4), speeds(5.5), 5.0, 8.0)])
+    assert all(row.is_met for row in kills_main.report([found], 1).rows)
+    assert not any(row.is_met for row in kills_main.report([found], 2).rows if row.requirement.must is not None)
+
+
+def test_lost_line_is_not_what_it_must_be():
+    found = Found("autolock", [kill_of("dispatcher", speeds(5.4), speeds(5.5), 5.0, 8.0)])
+    found.found[LOST] += 1
+    assert [row.requirement.name for row in kills_main.report([found], 1).rows if not row.is_met] == [LOST]
