@@ -89,14 +89,14 @@ class Person:
     def click(self, *texts: str) -> None:
         """Click the button with this text, or with the first of several that there is."""
         texts = tuple(map(self.said, texts))
-        self._click_at(self.until(f"The button {' or '.join(texts)!r}",
-                                  lambda: place_of(next(filter(None, map(button_of, texts)), None))))
+        self._click(f"The button {' or '.join(texts)!r}",
+                    lambda: place_of(next(filter(None, map(button_of, texts)), None)))
 
     def hold(self, text: str) -> None:
         """Hold the button with this text for as long as it wants to be held."""
         said = self.said(text)
-        place = self.until(f"The button {said!r}", lambda: place_of(button_of(said)))
-        xdotool("mousemove", str(place.x()), str(place.y()), "mousedown", "1")
+        self._point_at(f"The button {said!r}", lambda: place_of(button_of(said)))
+        xdotool("mousedown", "1")
         time.sleep(HoldButton.HOLD_MS / 1000.0 + HOLD_MORE_S)
         xdotool("mouseup", "1")
 
@@ -108,7 +108,7 @@ class Person:
     def type_into(self, label: str, text: str) -> None:
         """Replace what stands in the field with this label."""
         label = self.said(label)
-        self._click_at(self.until(f"The field {label!r}", lambda: place_of(field_of(label, QLineEdit))))
+        self._click(f"The field {label!r}", lambda: place_of(field_of(label, QLineEdit)))
         focus = self._gui.ask(lambda: int(QApplication.activeWindow().winId()) if QApplication.activeWindow() else 0)
         if focus:
             xdotool("windowfocus", "--sync", str(focus))
@@ -118,8 +118,8 @@ class Person:
     def choose(self, label: str, entry: str) -> None:
         """Choose an entry of the list with this label."""
         label, entry = self.said(label), self.said(entry)
-        self._click_at(self.until(f"The list {label!r}", lambda: place_of(field_of(label, QComboBox))))
-        self._click_at(self.until(f"The entry {entry!r}", lambda: place_of_entry(label, entry)))
+        self._click(f"The list {label!r}", lambda: place_of(field_of(label, QComboBox)))
+        self._click(f"The entry {entry!r}", lambda: place_of_entry(label, entry))
         # A choice of another language takes the label away.
         self.until(f"{entry!r} chosen", lambda: (box := field_of(label, QComboBox)) is None
                    or entry in box.currentText())
@@ -127,9 +127,8 @@ class Person:
     def choose_rows(self, table: QTableView, *rows: int) -> None:
         """Click rows of a table, from the second one on with Ctrl."""
         for number, row in enumerate(rows):
-            place = self.until("a row", lambda row=row: _place_of_row(table, row))
-            click = ["mousemove", str(place.x()), str(place.y()), "click", "1"]
-            xdotool(*(["keydown", "ctrl", *click, "keyup", "ctrl"] if number else click))
+            self._point_at("a row", lambda row=row: _place_of_row(table, row))
+            xdotool(*(["keydown", "ctrl", "click", "1", "keyup", "ctrl"] if number else ["click", "1"]))
 
     def look(self, camera: Camera, name: str) -> None:
         """Keep pictures of what is open."""
@@ -139,9 +138,17 @@ class Person:
         """Press a key."""
         xdotool("key", key)
 
-    @staticmethod
-    def _click_at(place: QPoint) -> None:
-        xdotool("mousemove", str(place.x()), str(place.y()), "click", "1")
+    def _point_at(self, what: str, find: Callable[[], Optional[QPoint]]) -> None:
+        """Move the mouse there, and look again: a sentence that has just come may not have moved it yet."""
+        place, there = self.until(what, find), None
+        while place != there:
+            there = place
+            xdotool("mousemove", str(there.x()), str(there.y()))
+            place = self.until(what, find)
+
+    def _click(self, what: str, find: Callable[[], Optional[QPoint]]) -> None:
+        self._point_at(what, find)
+        xdotool("click", "1")
 
 
 def _place_of_row(table: QTableView, row: int) -> Optional[QPoint]:

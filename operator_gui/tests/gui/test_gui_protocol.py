@@ -1,6 +1,7 @@
 """The protocol screen: table and picture belong together, and files hold what the screen shows."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
+import pathlib
 import shutil
 import sys
 
@@ -8,6 +9,7 @@ import pytest
 from PyQt5.QtCore import QByteArray, Qt
 from PyQt5.QtGui import QImage
 from PyQt5.QtSvg import QSvgRenderer
+from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from mtr_operator.evidence.verification import verify_bundle
@@ -207,6 +209,19 @@ def test_new_test_leads_to_the_beginning(protocol, operator):
     operator.click(protocol.done)
     assert operator.window.screen is operator.window.welcome
     assert operator.model.test is None
+
+
+@pytest.mark.parametrize("size", [(1024, 700), (1366, 768)])
+def test_sentence_that_comes_moves_no_button_under_the_mouse(protocol, operator, size):
+    operator.window.resize(*size)
+    QApplication.processEvents()
+    buttons = [protocol.save, protocol.save_pdf, protocol.bundle, protocol.done]
+    places = [each.mapTo(operator.window, each.rect().center()) for each in buttons]
+    protocol._folder = pathlib.Path("/home/operator/measurements/2026-11-23/a car with a long name/autolock of the day")
+    protocol._said = "It is bundle 12 of laboratory 3."
+    protocol._show_written([protocol._folder / name for name in ("results.csv", "protocol.png", "autolock.mtr.zip")])
+    QApplication.processEvents()
+    assert [each.mapTo(operator.window, each.rect().center()) for each in buttons] == places
 
 
 def test_sheet_is_painted_by_the_layers_of_the_screen(protocol):

@@ -41,6 +41,7 @@ if TYPE_CHECKING:
 
 _SIDE_WIDTH = 600
 _TABLE_HEIGHT, _BUDGET_HEIGHT = 180, 140
+_NOTICE_LINES = 3
 _CLICK_PX = 18.0
 _MAY_BREAK = "\N{ZERO WIDTH SPACE}"
 
@@ -125,7 +126,6 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.date)
         side.addWidget(self.table, 3)
         side.addWidget(self.budget, 2)
-        side.addWidget(self.notice)
         side.addWidget(self.again)
         side.addWidget(self.annotate)
         side.addWidget(self.bundle)
@@ -133,14 +133,21 @@ class ProtocolScreen(QWidget):
         side.addLayout(second)
         holder = Scroller(side)
         holder.setMaximumWidth(_SIDE_WIDTH)
-        layout = QHBoxLayout(self)
+        columns = QHBoxLayout()
+        columns.setSpacing(M)
+        columns.addWidget(self.panel, 2)
+        columns.addWidget(holder, 3)
+        layout = QVBoxLayout(self)
         layout.setContentsMargins(M, M, M, M)
         layout.setSpacing(M)
-        layout.addWidget(self.panel, 2)
-        layout.addWidget(holder, 3)
+        layout.addLayout(columns, 1)
+        # Below all, with its room from the start: a sentence that comes must not move a button under the mouse.
+        self.notice.setAlignment(Qt.AlignmentFlag.AlignTop)
+        layout.addWidget(self.notice)
 
     def show_test(self) -> None:
         """Show the test at hand."""
+        self.notice.setMinimumHeight(_NOTICE_LINES * self.notice.fontMetrics().lineSpacing())
         model = self._flow.model
         test = model.current_test
         progress: Progress = dataclasses.replace(test.progress, results=list(model.results))
