@@ -20,8 +20,8 @@ NOT_KNOWN = "not known"
 
 
 class Measured(NamedTuple):
-    """A border as results.csv has it, with the ends of its 95 % interval, m. value_m: None where only an end is known;
-    ends that are not known are infinite."""
+    """A border as results.csv has it, with the ends of its 95 % interval, m. value_m: None where an end is not known,
+    which is infinite: then the window says which the other one is."""
 
     value_m: Optional[float]
     low_m: float
@@ -114,10 +114,20 @@ def check_summary(summary: str, rows: List[Row]) -> None:
 
 
 def _check_cell(cell: str, border: Measured) -> None:
-    if border.value_m is None:
-        assert cell.startswith(("at least ", "at most ", "not reached", "invalid", "unknown")), (cell, border)
+    known_m = border.value_m
+    if " to " in cell:
+        # Two places between which a border lies that was not reached: no interval of the file contradicts them.
+        low_m, high_m = map(float, cell.split(" to "))
+        assert known_m is None and low_m <= border.high_m and high_m >= border.low_m, (cell, border)
+        return
+    for words, end_m in (("at least ", border.low_m), ("at most ", border.high_m)):
+        if cell.startswith(words):
+            assert border.value_m is None, (cell, border)
+            cell, known_m = cell[len(words):], end_m
+    if known_m is None:
+        assert cell in {"not reached", "invalid", "unknown"}, (cell, border)
     else:
-        assert abs(float(cell) - border.value_m) < ROUNDED_M, (cell, border)
+        assert abs(float(cell) - known_m) < ROUNDED_M, (cell, border)
 
 
 def _comparison() -> Optional[ComparisonWindow]:
@@ -154,6 +164,10 @@ def _signed(text: str) -> float:
 def _borders(folder: pathlib.Path) -> Dict[int, Measured]:
     with (folder / "results.csv").open(encoding="utf-8", newline="") as file:
         rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        return {int(row["radial"]): Measured(float(row["d50_m"]) if row["d50_m"] else None,
-                                             float(row["d50_low_m"] or -math.inf), float(row["d50_high_m"] or math.inf))
-                for row in rows}
+        return {int(row["radial"]): _measured(row) for row in rows}
+
+
+def _measured(row: Dict[str, str]) -> Measured:
+    is_known = all(row[name] for name in ("d50_m", "d50_low_m", "d50_high_m"))
+    return Measured(float(row["d50_m"]) if is_known else None, float(row["d50_low_m"] or -math.inf),
+                    float(row["d50_high_m"] or math.inf))
