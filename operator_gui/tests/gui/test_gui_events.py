@@ -56,9 +56,9 @@ def test_newest_event_is_first_and_the_list_grows_and_is_filtered(window, applic
 
 @pytest.mark.parametrize("application", ["cs"], indirect=True)
 def test_events_speak_czech_and_are_searched_so(window):
-    assert texts(window)[1] == "Robot má závadu."
-    window.search.setText("závad")
-    assert texts(window) == ["Robot má závadu."]
+    assert texts(window)[1] == "Robot má poruchu."
+    window.search.setText("poruch")
+    assert texts(window) == ["Robot má poruchu."]
 
 
 def test_old_events_leave_the_window(window, application, monkeypatch):
