@@ -20,6 +20,9 @@ constexpr double kEntrySigmaRad = 0.005;
 
 double square(double value) { return value * value; }
 
+// Of a way that even the wheels did not see: the LiDARs alone tell it.
+const Eigen::Matrix3d kUnseenWay = Eigen::Matrix3d::Identity();
+
 Mapper::Adjust adjustment_with(const Parameters& parameters) {
   return [adjustment = parameters.adjustment](const std::vector<KeyFrame>& key_frames) {
     return mtr_surfel_map::adjust(key_frames, adjustment);
@@ -41,8 +44,9 @@ Estimate Localizer::step(const GatedSample& sample) {
 
   // Predict by wheels and gyro.
   const RememberedPose before{filter().pose(), filter().pose_covariance(), odometry().wheel_odom()};
+  const PoseVector odom_before = history().newest().odom;
   if (const mtr_core::Problem loss = odometry().predict(sample, gyro(), tracker_.has_map())) {
-    bridge(before, loss);
+    bridge(before, odom_before, loss);
   }
   mapper().travel(history().newest().input, tracker_.lost());
 
@@ -151,7 +155,12 @@ void Localizer::enter(const AdjustedMap& map) {
   history().forget_past();
 }
 
-void Localizer::bridge(const RememberedPose& before, const mtr_core::Problem& loss) {
+void Localizer::bridge(const RememberedPose& before, const PoseVector& odom_before, const mtr_core::Problem& loss) {
+  const auto way = led_by_wheels({odom_before, Eigen::Matrix3d::Zero(), before.wheel_odom}, odometry().wheel_odom());
+  if (way) {
+    odometry().lead(way->pose);
+  }
+  mapper().lead(way ? way->covariance : kUnseenWay);
   const auto led = tracker_.is_reckoned() ? led_by_wheels(before, odometry().wheel_odom()) : std::nullopt;
   if (led) {
     history().change_newest([&led](PoseFilter& filter) { filter.set_pose(led->pose, led->covariance); });

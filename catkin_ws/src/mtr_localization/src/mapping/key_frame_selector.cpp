@@ -26,6 +26,7 @@ double square(double value) { return value * value; }
 
 void KeyFrameSelector::restart() {
   last_odom_.reset();
+  led_.setZero();
   resting_.clear();
 }
 
@@ -75,19 +76,21 @@ KeyFrame KeyFrameSelector::key_frame_of(const KeyFrameCandidate& candidate) {
   last_odom_ = candidate.odom;
   last_ns_ = frame.stamp_ns;
   distance_m_ = turned_rad_ = 0.0;
+  led_.setZero();
   return frame;
 }
 
 Eigen::Matrix3d KeyFrameSelector::motion_covariance(double duration_s, double gyro_bias_sigma_radps) const {
   const double heading = square(parameters_.gyro_noise_radps_per_sqrt_hz) * duration_s +
                          square(gyro_bias_sigma_radps * duration_s) +
-                         square(parameters_.gyro_scale_sigma * turned_rad_);
+                         square(parameters_.gyro_scale_sigma * turned_rad_) + led_(2, 2);
   const double turning = square(parameters_.turn_slip_m_per_sqrt_rad) * turned_rad_;
   // The wheels' scale is left out: it is common to all motions and an unknown of the adjustment.
   const double along = square(parameters_.slip_m_per_sqrt_m) * distance_m_;
   // Across: slip of the tyres, and the mean heading on the way.
   const double across = along + heading * square(0.5 * distance_m_);
-  return Eigen::Vector3d(along + turning, across + turning, heading).asDiagonal();
+  // A way is led in odom's direction, and is as uncertain in any other.
+  return Eigen::Vector3d(along + turning + led_(0, 0), across + turning + led_(1, 1), heading).asDiagonal();
 }
 
 }  // namespace mtr_localization

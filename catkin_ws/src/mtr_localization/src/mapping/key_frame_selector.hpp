@@ -35,6 +35,9 @@ class KeyFrameSelector {
   /// The robot moved so far along its path and turned so much.
   void travel(double distance_m, double angle_rad);
 
+  /// It moved unseen. @param covariance of the way in odom: x (m), y (m), heading (rad)
+  void lead(const Eigen::Matrix3d& covariance) { led_ += covariance; }
+
   /// Takes the next candidate; the key frame that it completes, if any.
   std::optional<KeyFrame> add(const KeyFrameCandidate& candidate);
 
@@ -49,6 +52,8 @@ class KeyFrameSelector {
   std::int64_t last_ns_ = 0;
   double distance_m_ = 0.0;
   double turned_rad_ = 0.0;
+  /// Of the ways since then that nobody saw.
+  Eigen::Matrix3d led_ = Eigen::Matrix3d::Zero();
   ScanMean resting_;
 };
 

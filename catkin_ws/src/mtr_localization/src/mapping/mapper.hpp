@@ -51,6 +51,9 @@ class Mapper {
   /// The robot moved so during one step, or nothing is known of that. @param lost its pose is
   void travel(const FilterInput& input, bool lost);
 
+  /// It moved unseen. @param covariance of the way in odom: x (m), y (m), heading (rad)
+  void lead(const Eigen::Matrix3d& covariance) { selector_.lead(covariance); }
+
   /// Carries out the orders that are due; true when a new map begins.
   bool begins(std::int64_t now_ns);
 

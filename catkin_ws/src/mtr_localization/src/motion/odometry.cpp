@@ -122,6 +122,8 @@ void Odometry::track() {
   problem_ = {};
 }
 
+void Odometry::lead(const PoseVector& odom) { history_.restart(filter(), history_.newest().stamp_ns, odom); }
+
 void Odometry::begin_map() {
   if (state_ == MotionState::kLost) {
     track();

@@ -35,6 +35,9 @@ class Odometry {
   /// find a pose again. Returns the reason when they must: the robot moved unseen.
   mtr_core::Problem predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map);
 
+  /// The robot is there in odom: what led it there was no motion that could be predicted.
+  void lead(const PoseVector& odom);
+
   /// A new map begins here: a pose that was lost does not matter any more.
   void begin_map();
 

@@ -47,6 +47,8 @@ class Robot {
     }
   }
 
+  void lead(const Eigen::Matrix3d& covariance) { selector_.lead(covariance); }
+
   const std::vector<KeyFrame>& frames() const { return frames_; }
 
  private:
@@ -123,6 +125,20 @@ TEST(KeyFrameSelector, MotionIsLessCertainAfterMoreOfIt) {
   EXPECT_GT(straight(0, 0), 0.0);
   EXPECT_GT(turning(0, 0), straight(0, 0));
   EXPECT_GT(turning(2, 2), straight(2, 2));
+}
+
+TEST(KeyFrameSelector, WayThatNobodySawCountsOnce) {
+  Robot robot;
+  robot.stand(10);
+  robot.lead(Eigen::Vector3d(0.01, 0.02, 0.04).asDiagonal());
+  robot.drive(0.28);
+  robot.drive(0.34);
+  ASSERT_EQ(robot.frames().size(), 3U);
+  const Eigen::Matrix3d led = robot.frames()[1].motion_covariance - robot.frames()[2].motion_covariance;
+  EXPECT_NEAR(led(0, 0), 0.01, 1e-4);
+  // Whatever is driven after a turn that nobody saw leads aside.
+  EXPECT_GT(led(1, 1), 0.02);
+  EXPECT_NEAR(led(2, 2), 0.04, 1e-4);
 }
 
 TEST(ScanMean, SomebodyWhoPassesIsLeftOut) {

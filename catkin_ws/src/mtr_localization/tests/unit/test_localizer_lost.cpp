@@ -222,66 +222,6 @@ TEST_F(LocalizerLostTest, RobotThatWasCarriedInAGapOfItsSensorsStaysLostWhileItS
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
 }
 
-class LocalizerLostWhileMappingTest : public ::testing::Test {
- protected:
-  void SetUp() override {
-    robot.drive(0.0, 0.0, 2.0);
-    robot.order(1, MapOrder::Phase::kCollect);
-    robot.drive(0.6, 0.0, 4.0);
-    ASSERT_EQ(robot.newest.mode, PoseMode::kMapping);
-  }
-
-  /// The LiDAR sees nothing of what it saw while the robot goes on.
-  void drive_blind(double duration_s) {
-    const synthetic::World scene = std::exchange(robot.world, {});
-    robot.drive(0.6, 0.0, duration_s);
-    robot.world = scene;
-  }
-
-  SceneDrive robot{scenes::lot(), Parameters{}};
-};
-
-TEST_F(LocalizerLostWhileMappingTest, WheelsAndGyroLeadOverAShortStretchThatDoesNotAgree) {
-  drive_blind(2.5);
-  EXPECT_EQ(robot.lost_ticks, 0);
-  EXPECT_TRUE(robot.newest.degenerate);
-  robot.drive(0.6, 0.0, 1.0);
-  EXPECT_FALSE(robot.newest.degenerate);
-  EXPECT_LT(robot.position_error_m(), 0.03);
-}
-
-TEST_F(LocalizerLostWhileMappingTest, LongStretchIsLostAndGoesOnWhereTheViewAgreesAgain) {
-  drive_blind(4.5);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
-  EXPECT_FALSE(robot.newest.valid);
-  robot.drive(0.0, M_PI_2 / 2.0, 2.0);
-  robot.drive(0.6, 0.0, 1.0);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message.text;
-  EXPECT_LT(robot.position_error_m(), 0.05);
-}
-
-TEST_F(LocalizerLostWhileMappingTest, CarriedRobotStaysLostAndGuessesNothing) {
-  robot.drive(0.0, 0.0, 1.0);
-  robot.carry(-1.0, -1.7, 0.6);
-  robot.drive(0.0, 0.0, 2.0);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
-  robot.drive(0.0, 0.0, 4.0);
-  EXPECT_FALSE(robot.newest.valid);
-  EXPECT_NE(robot.newest.message.text.find("map the Car again"), std::string::npos) << robot.newest.message.text;
-}
-
-TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
-  robot.world.clear();
-  robot.drive(0.6, 0.0, 6.0);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
-  robot.order(1, MapOrder::Phase::kFreeze);
-  robot.drive(0.0, 0.0, 3.0);
-  ASSERT_TRUE(robot.result);
-  EXPECT_FALSE(robot.result->map.valid);
-  EXPECT_NE(robot.result->map.message.text.find("lost on the way round"), std::string::npos)
-      << robot.result->map.message.text;
-}
-
 /// A scene and how somebody carries the robot there: x (m), y (m), turn (rad).
 struct Kidnapping {
   const char* scene;

@@ -1,0 +1,119 @@
+/// @file
+/// What happens on the way round the Car: sensors that are silent for a moment, and views that do not agree.
+// SPDX-License-Identifier: Apache-2.0
+#include <utility>
+
+#include "scene_drive.hpp"
+
+namespace mtr_localization {
+namespace {
+
+/// Where on the way round nothing arrives, and for how long.
+struct Gap {
+  double in_side_s;
+  double in_turn_s;
+};
+
+/// As SceneDrive::map, but for the gap.
+MapResult map_with(SceneDrive& robot, const Gap& gap) {
+  const auto unheard = [&robot](double linear_mps, double angular_radps, double duration_s) {
+    robot.hears = false;
+    robot.drive(linear_mps, angular_radps, duration_s);
+    robot.hears = true;
+  };
+  robot.drive(0.0, 0.0, 2.0);
+  robot.order(1, MapOrder::Phase::kCollect);
+  robot.drive(0.6, 0.0, 6.0);
+  unheard(0.6, 0.0, gap.in_side_s);
+  robot.drive(0.6, 0.0, 5.6 / 0.6 - 6.0 - gap.in_side_s);
+  robot.drive(0.0, M_PI_2 / 2.0, 1.0);
+  unheard(0.0, M_PI_2 / 2.0, gap.in_turn_s);
+  robot.drive(0.0, M_PI_2 / 2.0, 1.0 - gap.in_turn_s);
+  for (const double side_m : {8.4, 5.6, 8.4}) {
+    robot.drive(0.6, 0.0, side_m / 0.6);
+    robot.drive(0.0, M_PI_2 / 2.0, 2.0);
+  }
+  robot.drive(0.6, 0.0, 1.5);
+  robot.drive(0.0, 0.0, 0.5);
+  robot.order(1, MapOrder::Phase::kFreeze);
+  robot.result.reset();
+  robot.drive(0.0, 0.0, 3.0);
+  return robot.result ? *robot.result : MapResult{};
+}
+
+class InterruptedMapTest : public testing::TestWithParam<Gap> {};
+
+TEST_P(InterruptedMapTest, IsAsGoodAsOneThatWasNot) {
+  SceneDrive robot(scenes::lot(), Parameters{});
+  const MapResult made = map_with(robot, GetParam());
+  EXPECT_GT(robot.lost_ticks, 0);
+  ASSERT_TRUE(made.map.valid) << made.map.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.005);
+  EXPECT_LT(robot.position_sigma_m(), 0.005);
+}
+
+// The wheels turn 1.4 times as far as the robot: of the 0.3 s their way is wrong by 0.1 rad.
+INSTANTIATE_TEST_SUITE_P(Gaps, InterruptedMapTest, testing::Values(Gap{0.8, 0.0}, Gap{0.0, 0.3}, Gap{0.8, 0.3}));
+
+class LocalizerLostWhileMappingTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    robot.drive(0.0, 0.0, 2.0);
+    robot.order(1, MapOrder::Phase::kCollect);
+    robot.drive(0.6, 0.0, 4.0);
+    ASSERT_EQ(robot.newest.mode, PoseMode::kMapping);
+  }
+
+  /// The LiDAR sees nothing of what it saw while the robot goes on.
+  void drive_blind(double duration_s) {
+    const synthetic::World scene = std::exchange(robot.world, {});
+    robot.drive(0.6, 0.0, duration_s);
+    robot.world = scene;
+  }
+
+  SceneDrive robot{scenes::lot(), Parameters{}};
+};
+
+TEST_F(LocalizerLostWhileMappingTest, WheelsAndGyroLeadOverAShortStretchThatDoesNotAgree) {
+  drive_blind(2.5);
+  EXPECT_EQ(robot.lost_ticks, 0);
+  EXPECT_TRUE(robot.newest.degenerate);
+  robot.drive(0.6, 0.0, 1.0);
+  EXPECT_FALSE(robot.newest.degenerate);
+  EXPECT_LT(robot.position_error_m(), 0.03);
+}
+
+TEST_F(LocalizerLostWhileMappingTest, LongStretchIsLostAndGoesOnWhereTheViewAgreesAgain) {
+  drive_blind(4.5);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  EXPECT_FALSE(robot.newest.valid);
+  robot.drive(0.0, M_PI_2 / 2.0, 2.0);
+  robot.drive(0.6, 0.0, 1.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.05);
+}
+
+TEST_F(LocalizerLostWhileMappingTest, CarriedRobotStaysLostAndGuessesNothing) {
+  robot.drive(0.0, 0.0, 1.0);
+  robot.carry(-1.0, -1.7, 0.6);
+  robot.drive(0.0, 0.0, 2.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  robot.drive(0.0, 0.0, 4.0);
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_NE(robot.newest.message.text.find("map the Car again"), std::string::npos) << robot.newest.message.text;
+}
+
+TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
+  robot.world.clear();
+  robot.drive(0.6, 0.0, 6.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  robot.order(1, MapOrder::Phase::kFreeze);
+  robot.drive(0.0, 0.0, 3.0);
+  ASSERT_TRUE(robot.result);
+  EXPECT_FALSE(robot.result->map.valid);
+  EXPECT_NE(robot.result->map.message.text.find("lost on the way round"), std::string::npos)
+      << robot.result->map.message.text;
+}
+
+}  // namespace
+}  // namespace mtr_localization
