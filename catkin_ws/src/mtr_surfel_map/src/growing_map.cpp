@@ -22,7 +22,8 @@ constexpr double kFlatness = 0.15;
 constexpr double kSigmaM = 0.01;
 
 std::int64_t key_of(int x, int y) {
-  return (static_cast<std::int64_t>(x) << 32) ^ static_cast<std::int64_t>(static_cast<std::uint32_t>(y));
+  return static_cast<std::int64_t>((static_cast<std::uint64_t>(static_cast<std::uint32_t>(x)) << 32) |
+                                   static_cast<std::uint32_t>(y));
 }
 
 }  // namespace
