@@ -2,6 +2,7 @@
 """The shipped launch files need no argument that is not documented as needed, and every node that they name exists."""
 # SPDX-License-Identifier: Apache-2.0
 import os
+import pathlib
 import sys
 import unittest
 
@@ -9,6 +10,8 @@ import roslaunch
 import rospkg
 import rostest
 from roslaunch.node_args import create_local_process_args, get_node_list
+
+from mtr_core import sensor_figures
 
 NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay.launch": ["bag:=/tmp/a.bag"],
           "view.launch": []}
@@ -75,6 +78,25 @@ class LaunchFiles(unittest.TestCase):
                 self.assertIn(["/front/scan", "/scan"], node.remap_args)
                 self.assertIn(["/jackal_velocity_controller/cmd_vel", "/base/cmd_vel"], node.remap_args)
         self.assertIs(robot.params["/localization/publish_odom_tf"].value, False)
+
+    def test_named_lidar_is_what_its_data_sheet_says(self):
+        package = pathlib.Path(rospkg.RosPack().get_path("mtr_description"))
+        kinds = sorted(path.stem for path in (package / "config" / "lidars").glob("*.yaml"))
+        self.assertIn("sick_tim5xx", kinds)
+        allowed = {"range_noise_m": sensor_figures.ASSUMED_RANGE_NOISE_M,
+                   "range_sigma_m": sensor_figures.ASSUMED_POINT_M,
+                   "range_bias_sigma_m": sensor_figures.ASSUMED_RANGE_BIAS_M,
+                   "time_increment_s": sensor_figures.SensorFigure(0.0, 1e-6, 0.001, "s")}
+        for kind in kinds:
+            with self.subTest(kind):
+                params = load("robot.launch", [f"lidar:={kind}"]).params
+                for name, figure in allowed.items():
+                    self.assertTrue(figure.low <= params[f"/localization/{name}"].value <= figure.high, name)
+                self.assertEqual(params["/car_locator/time_increment_s"].value,
+                                 params["/localization/time_increment_s"].value)
+        self.assertNotIn("/localization/range_noise_m", load("robot.launch", []).params)
+        with self.assertRaises(roslaunch.RLException):
+            load("robot.launch", ["lidar:=no_such_lidar"])
 
     def test_faults_can_be_injected_only_where_it_was_asked_for_and_then_stand_between_drivers_and_nodes(self):
         self.assertNotIn("/fault_injection", str([node.remap_args for node in load("robot.launch", []).nodes]))

@@ -49,9 +49,9 @@ def robot_pose_from(message: LocalizedPose) -> RobotPose:
                      tuple(message.covariance))
 
 
-def scan_from(message: LaserScan, base_from_lidar: Pose2, is_rear: bool) -> Scan:
-    """A sweep of one LiDAR."""
-    return Scan(message.header.stamp.to_nsec() * 1e-9, message.time_increment, message.angle_min,
+def scan_from(message: LaserScan, base_from_lidar: Pose2, is_rear: bool, time_increment_s: float = 0.0) -> Scan:
+    """A sweep of one LiDAR. time_increment_s: from beam to beam, where the message does not say it."""
+    return Scan(message.header.stamp.to_nsec() * 1e-9, message.time_increment or time_increment_s, message.angle_min,
                 message.angle_increment, message.range_min, message.range_max, np.asarray(message.ranges),
                 base_from_lidar, is_rear)
 

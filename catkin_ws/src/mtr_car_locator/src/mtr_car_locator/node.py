@@ -51,7 +51,8 @@ class CarLocatorNode:
         self._ticker = Ticker(schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
-        self._poses, self._scans, self._maps = PoseSource(), ScanSource(lidars), MapSource()
+        self._poses, self._scans, self._maps = PoseSource(), ScanSource(
+            lidars, parameters.time_increment_s), MapSource()
         self._shown: Optional[Tuple[CarState, Rectangle, Tuple[Pose2, ...]]] = None
         self._said = ("", 0)
         self._estimates = publisher(names.CAR_ESTIMATE, CarEstimate)

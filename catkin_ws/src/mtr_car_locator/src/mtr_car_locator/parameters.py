@@ -98,6 +98,7 @@ class LocatorParameters(ParameterSet):
         look_limit_s: the Car has to be seen from the starting place by then.
         map_limit_s: localization has to have adjusted its map by then.
         rear_lidar: the robot has one.
+        time_increment_s: from beam to beam, where the scans do not say it; 0: all are measured at once.
         memory_folder: of the file with which a node that is started again in the same run goes on; empty for none.
     """
 
@@ -117,6 +118,7 @@ class LocatorParameters(ParameterSet):
     look_limit_s: float = number(8.0, 0.5, 60.0, "s")
     map_limit_s: float = number(15.0, 1.0, 120.0, "s")
     rear_lidar: bool = True
+    time_increment_s: float = number(0.0, 0.0, 0.001, "s")
     memory_folder: str = ""
 
     def __post_init__(self) -> None:

@@ -52,8 +52,9 @@ class PoseSource:
 class ScanSource:
     """Scans of the LiDARs, from when they are wanted on."""
 
-    def __init__(self, lidars: LidarMounts):
-        self._mounts = scan_mounts(lidars)
+    def __init__(self, lidars: LidarMounts, time_increment_s: float = 0.0):
+        """time_increment_s: from beam to beam, where the scans do not say it."""
+        self._mounts, self._time_increment_s = scan_mounts(lidars), time_increment_s
         self._queues: List[StampedQueue] = []
         self._usable_from_ns = 0
 
@@ -68,7 +69,7 @@ class ScanSource:
                             for topic in self._mounts]
         # A clock that was set back must not leave the scans unused until it has come to that time again.
         self._usable_from_ns = min(self._usable_from_ns, tick_ns + CONNECTING_NS)
-        return [scan_from(message, mount, topic == names.REAR_SCAN)
+        return [scan_from(message, mount, topic == names.REAR_SCAN, self._time_increment_s)
                 for queue, (topic, mount) in zip(self._queues, self._mounts.items())
                 for message in queue.take(tick_ns) if message.header.stamp.to_nsec() >= self._usable_from_ns]
 

@@ -17,6 +17,7 @@ from mtr_car_locator.conversions import (
     mapping_message,
     markers_message,
     robot_pose_from,
+    scan_from,
     scans_in,
     surface_map_from,
     task_from,
@@ -126,6 +127,12 @@ def test_mapper_and_check_are_told(estimate):
     assert (check.id, check.state, check.message) == (6, CarCheck.FAILED, MOVED.text)
     assert [problem.code for problem in check.problems] == [MOVED.code]
     assert (check.difference_m, check.limit_m) == (0.03, PARAMETERS.refinement.check_limit_m)
+
+
+@pytest.mark.parametrize("said_s, told_s, used_s", [(0.0, 6e-5, 6e-5), (3e-5, 6e-5, 3e-5), (0.0, 0.0, 0.0)])
+def test_beams_are_timed_as_told_where_the_scan_does_not_say_it(said_s, told_s, used_s):
+    message = LaserScan(time_increment=said_s, angle_increment=0.1, range_max=30.0, ranges=[1.0, 2.0])
+    assert scan_from(message, Pose2(0.0, 0.0, 0.0), False, told_s).beam_period_s == pytest.approx(used_s)
 
 
 def test_numbers_are_those_of_the_messages():

@@ -15,6 +15,8 @@ IMU = "imu"
 ROBOT_DESCRIPTION = "/robot_description"
 # Of each node that cannot start, by its name: why. It is gone when the node has started
 START_FAILURES = "/start_failures"
+# Of the robot: its topics of sensors and base, by the arguments of robot.launch
+ROBOT_TOPICS = "/robot_topics"
 # Of the robot: what the last preflight of this run of the ROS master found, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
 

@@ -1,9 +1,9 @@
 """How wrong the robot's sensors are: the true errors of the simulated ones beside what the estimators assume.
 
-The one home of these figures in both languages; `sensor_figures.hpp` is made of it at build time. SIMULATED is the true
-error of the simulated sensor, ASSUMED what an estimator takes it to be. Where they differ, the reason stands beside
-them. Sigmas are 1 standard deviation; densities are per square root of time, distance or angle. Ranges are those of the
-nodes' parameters.
+The one home of these figures in both languages; `sensor_figures.hpp` is made of it at build time. SIMULATED is the
+true error of the simulated sensor, ASSUMED what an estimator takes it to be. Where they differ, the reason stands
+beside them. What the data sheet of one kind of LiDAR says is in mtr_description/config/lidars. Sigmas are 1 standard
+deviation; densities are per square root of time, distance or angle. Ranges are those of the nodes' parameters.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math

@@ -50,6 +50,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   for_each_group(parameters.localization,
                  [&reader](const auto& rows, auto& group) { reader.read_numbers(rows, group); });
   reader.read_numbers(kExternalRows, parameters.external);
+  reader.read_numbers(kScanRows, parameters.scans);
   reader.read("publish_odom_tf", parameters.publish_odom_tf);
   reader.read("rear_lidar", parameters.rear_lidar);
   reader.read("pose_source", parameters.pose_source, {"own", "external"});
@@ -85,8 +86,8 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       memory_(parameters.memory_folder, ros::param::param("/run_id", std::string())),
       outputs_(node, parameters.publish_odom_tf, memory_),
       source_(pose_source_of(parameters)),
-      front_(node, Lidar::kFront, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
-      rear_(node, Lidar::kRear, frames_, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
+      front_(node, Lidar::kFront, frames_, parameters.scans, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
+      rear_(node, Lidar::kRear, frames_, parameters.scans, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),
       gnss_(node, frames_,
             [this](GnssFix fix) {
               fix.stamp_ns = time_of(fix.stamp_ns, ages_.fix_ns);

@@ -37,6 +37,7 @@ struct NodeParameters {
   /// Where the pose comes from: own, or another program.
   std::string pose_source = "own";
   ExternalParameters external;
+  ScanParameters scans;
   /// False: the robot has none, and its description need not either.
   bool rear_lidar = true;
   /// Publish odom -> base_link; false when the base does so itself.

@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/scan_input.hpp"
 
+#include <ros/console.h>
+
 #include <utility>
 
 #include "mtr_core/clock.hpp"
@@ -28,9 +30,11 @@ std::optional<mtr_core::Waiting> input_waiting() {
   return waiting;
 }
 
-ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, RobotFrames& frames, std::function<void(Sweep)> take)
+ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, RobotFrames& frames, const ScanParameters& parameters,
+                     std::function<void(Sweep)> take)
     : lidar_(lidar),
       frames_(frames),
+      parameters_(parameters),
       take_(std::move(take)),
       received_(mtr_core::kLidar, kDueAfterNs, input_waiting()),
       subscriber_(node.subscribe<sensor_msgs::LaserScan>(
@@ -49,7 +53,14 @@ void ScanInput::receive(const sensor_msgs::LaserScan& message) {
   const std::int64_t stamp_ns = mtr_core::to_ns(message.header.stamp);
   received_.add(stamp_ns, stamp_ns);
   if (const Mount* mount = frames_.lidar(message.header.frame_id)) {
-    take_(sweep_of(message, lidar_, *mount));
+    Sweep sweep = sweep_of(message, lidar_, *mount);
+    sweep.time_beams(parameters_.time_increment_s);
+    if (sweep.time_increment_s == 0.0 && !mtr_core::is_simulated()) {
+      ROS_WARN_ONCE(
+          "Scans do not say when each beam was measured; all count as measured at once, which is wrong while the robot "
+          "moves. Name the LiDAR (lidar of robot.launch), or have its driver say it.");
+    }
+    take_(std::move(sweep));
   }
 }
 

@@ -34,6 +34,9 @@ struct Sweep {
   double range_max_m = 0.0;
   std::vector<float> ranges_m;
 
+  /// From beam to beam, where the scan does not say it.
+  void time_beams(double increment_s) { time_increment_s = time_increment_s == 0.0 ? increment_s : time_increment_s; }
+
   std::int64_t beam_ns(std::size_t beam) const;
   std::int64_t last_beam_ns() const { return ranges_m.empty() ? stamp_ns : beam_ns(ranges_m.size() - 1); }
   /// Time at which a LiDAR that turns without a break has sent it.

@@ -55,6 +55,17 @@ TEST(Sweep, HeaderThatIsNotANumberIsTold) {
   EXPECT_EQ(sweep.problem(), "A scan's angles, times or limits are not finite numbers.");
 }
 
+TEST(Sweep, BeamsAreTimedAsToldWhereTheDriverDoesNotSayIt) {
+  Sweep silent = sweep_at(0);
+  silent.time_increment_s = 0.0;
+  silent.time_beams(1e-4);
+  EXPECT_EQ(silent.last_beam_ns(), 10 * kMs);
+  Sweep said = sweep_at(0);
+  const std::int64_t last_ns = said.last_beam_ns();
+  said.time_beams(1e-4);
+  EXPECT_EQ(said.last_beam_ns(), last_ns);
+}
+
 TEST(Sweep, EmptyOneAndNegativeTimeAreTold) {
   Sweep sweep = sweep_at(0);
   sweep.time_increment_s = -1e-4;
