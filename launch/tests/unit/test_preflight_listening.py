@@ -12,8 +12,10 @@ from tf2_msgs.msg import TFMessage
 from mtr_bringup.preflight import listening
 from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.listening import Listener, content_of, sample_of, setup_of_robot
+from mtr_bringup.preflight.obedience import obedience_findings
 from mtr_bringup.preflight.records import ScanContent
 from mtr_core import names
+from mtr_msgs.msg import DriveStatus, Problem
 
 PUBLISHED = [[names.IMU_DATA, ["/b", "/a"]], ["/tf", ["/localization"]]]
 
@@ -34,10 +36,10 @@ def robot(monkeypatch):
 
 def test_scan_is_counted_beam_by_beam():
     scan = LaserScan(range_min=0.1, range_max=30.0, ranges=[1.0, math.inf, -math.inf, math.nan, 0.05, 31.0, 2.0],
-                     angle_increment=math.pi / 6.0)
-    assert content_of(scan) == ScanContent(7, 2, 1)
+                     angle_increment=math.pi / 6.0, time_increment=0.01)
+    assert content_of(scan) == ScanContent(7, 2, 1, pytest.approx(0.06))
     assert sample_of(scan).points_m == pytest.approx(np.array([[1.0, 0.0], [-2.0, 0.0]]))
-    assert content_of(LaserScan()) == ScanContent(0, 0, 0)
+    assert content_of(LaserScan()) == ScanContent(0, 0, 0, 0.0)
 
 
 def test_setup_is_what_the_parameters_say(robot):
@@ -61,6 +63,34 @@ def test_record_has_messages_publishers_types_parameters_and_failures(robot):
     assert record.base == {"cmd_vel_timeout": 0.25} and record.start_failures == {"drive_control": "Because."}
     assert listener.recording.imu[0] == (99.99, (0.0, 0.0, 0.3), (0.0, 0.0, 9.81))
     assert listener.record("/none").base is None
+
+
+def test_what_drive_control_says_of_base_and_sensors_is_found_and_what_else_stops_it_is_not(robot):
+    listener = Listener()
+    said = {"drive_control.base_disobeys": "The base does not obey: told 0.29 m/s.",
+            "drive_control.obstacle": "Blocked."}
+    for code, text in said.items():
+        listener._take_drive_status(DriveStatus(problems=[Problem(code=code, text=text), Problem(code="cause")]))
+    found = obedience_findings(listener.drive_control)
+    assert [(each.is_bad, each.check) for each in found] == [(True, "motion.stopped")]
+    assert "told 0.29 m/s" in found[0].text and not obedience_findings({})
+
+
+def test_a_robot_is_heard_where_it_was_started_and_not_where_others_speak(robot, monkeypatch):
+    heard = {}
+    monkeypatch.setattr(listening.rospy, "Subscriber",
+                        lambda topic, _kind, _take, callback_args=None: heard.update({callback_args: topic}))
+    robot[names.ROBOT_TOPICS] = {"front_scan": "/rear/scan", "rear_scan": "front/scan", "imu_data": "/imu/elsewhere"}
+    record = Listener().record("/none")
+    assert (heard[names.FRONT_SCAN], heard[names.REAR_SCAN]) == (names.REAR_SCAN, names.FRONT_SCAN)
+    assert heard[names.IMU_DATA] == "/imu/elsewhere" and not record.topic(names.IMU_DATA).publishers
+    assert heard[names.WHEEL_ODOMETRY] == names.WHEEL_ODOMETRY
+
+
+def test_topic_that_this_program_is_told_goes_before_that_of_the_start(robot, monkeypatch):
+    monkeypatch.setattr(listening.rospy, "resolve_name", lambda name: {names.IMU_DATA: "/imu/told"}.get(name, name))
+    robot[names.ROBOT_TOPICS] = {"imu_data": "/imu/elsewhere"}
+    assert Listener().names[names.IMU_DATA] == "/imu/told"
 
 
 def test_transforms_are_kept_by_the_node_that_sent_them(robot):

@@ -10,7 +10,7 @@ from mtr_bringup.preflight.topics import topic_findings
 from mtr_core import names
 
 SETUP = Setup(controller=False)
-FULL_SCAN = ScanContent(720, 500, 0)
+FULL_SCAN = ScanContent(720, 500, 0, 0.03)
 
 
 def heard(expected, seconds=5.0, age_s=0.01):
@@ -126,10 +126,35 @@ def test_single_old_message_is_told_by_its_age():
     assert finding.value == 0.31 and finding.limit == 0.1 and "up to 0.310 s old" in finding.text
 
 
-@pytest.mark.parametrize("content, is_bad", [(ScanContent(720, 0, 0), True), (ScanContent(0, 0, 0), True),
-                                             (ScanContent(720, 1, 0), False), (ScanContent(720, 300, 100), True),
-                                             (ScanContent(720, 300, 60), False)])
+@pytest.mark.parametrize("content, is_bad", [((720, 0, 0), True), ((0, 0, 0), True), ((720, 1, 0), False),
+                                             ((720, 300, 100), True), ((720, 300, 60), False)])
 def test_scans_that_see_nothing_or_no_numbers_are_bad(content, is_bad):
     record = robot()
-    record.topics[names.REAR_SCAN].scans = [content] * 125
+    record.topics[names.REAR_SCAN].scans = [ScanContent(*content, 0.03)] * 125
     assert [finding.check for finding in bad_findings(record)] == (["scan.content"] if is_bad else [])
+
+
+def test_beams_that_the_nodes_have_times_for_are_good():
+    setup = replace(SETUP, time_increment_s=6.173e-5)
+    record = robot(setup)
+    record.topics[names.FRONT_SCAN].scans = [FULL_SCAN._replace(sweep_s=0.0)] * 125
+    assert not bad_findings(record, setup)
+
+
+@pytest.mark.parametrize("sweep_s, is_simulated, words", [
+    (0.0, False, "do not say when each beam was measured"), (0.0, True, ""), (0.0, False, "time_increment is 0"),
+    (0.0399, False, ""), (0.0432, False, "takes 0.043 s (time_increment), allowed is the 0.040 s"),
+    (-0.03, False, "takes -0.030 s"), (30.0, True, "takes 30.000 s")])
+def test_times_of_the_beams_are_judged(sweep_s, is_simulated, words):
+    setup = replace(SETUP, is_simulated=is_simulated)
+    record = robot(setup)
+    record.topics[names.FRONT_SCAN].scans = [FULL_SCAN._replace(sweep_s=sweep_s)] * 125
+    assert [finding.check for finding in bad_findings(record, setup)] == (["scan.beam_time"] if words else [])
+    assert all(words in finding.text for finding in bad_findings(record, setup))
+
+
+def test_beams_of_a_robot_whose_clock_stands_still_are_not_judged():
+    record = robot()
+    heard_scan = record.topics[names.FRONT_SCAN]
+    heard_scan.scans, heard_scan.arrivals_s = [FULL_SCAN] * 2, [1.0, 1.0]
+    assert [finding.check for finding in bad_findings(record)] == ["topic.rate"]

@@ -12,6 +12,7 @@ import socket
 import subprocess
 import sys
 import time
+from dataclasses import replace
 from typing import List, Optional
 
 import rospy
@@ -27,11 +28,12 @@ from mtr_dispatcher.preflight_report import PreflightItem, parameter_of, report_
 
 from .clocks import clock_finding, network_findings
 from .expected import Setup
-from .finding import Finding, bad, exit_code
+from .finding import NEEDS_MORE, Finding, bad, exit_code
 from .frames import DESCRIPTION, lidar_mounts
 from .listening import Listener, setup_of_robot
 from .machine import Machine, machine_findings
 from .motion.judge import MotionJudge, is_finished
+from .obedience import obedience_findings
 from .report import standing_findings, write
 
 CANNOT_CHECK = 2
@@ -125,8 +127,13 @@ def robot_findings(options: argparse.Namespace) -> List[Finding]:
     # Not by the simulated clock, which may stand still.
     time.sleep(options.seconds)
     record = listener.record(setup.base_parameters)
-    found += shown(standing_findings(record, setup, geometry, shipped_base()))
-    return found + (shown(motion_findings(listener, geometry, setup)) if options.drive else [])
+    found += shown(named(standing_findings(record, setup, geometry, shipped_base()), listener))
+    return found + (shown(named(motion_findings(listener, geometry, setup), listener)) if options.drive else [])
+
+
+def named(findings: List[Finding], listener: Listener) -> List[Finding]:
+    """The findings with the robot's own names of its topics."""
+    return [replace(finding, subject=listener.names.get(finding.subject, finding.subject)) for finding in findings]
 
 
 def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup: Setup) -> List[Finding]:
@@ -136,12 +143,17 @@ def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup
         return [bad(DESCRIPTION, names.ROBOT_DESCRIPTION, "Nothing was compared in motion, because it does not say "
                     "where the LiDARs are.")]
     print(f"Drive the robot by hand, forward, back and a turn, within {DRIVE_S:.0f} s ...", flush=True)
+    # What stopped the wheels before is over.
+    listener.drive_control.clear()
     judge, end_s = MotionJudge(mounts), time.monotonic() + DRIVE_S
     found: List[Finding] = []
     while time.monotonic() < end_s:
         time.sleep(JUDGE_EVERY_S)
         recording = listener.recording.copy()
         found = judge.findings(recording)
+        stopped = obedience_findings(listener.drive_control)
+        if stopped:
+            return stopped + [finding for finding in found if finding.is_bad and finding.check != NEEDS_MORE]
         if is_finished(found, recording.motion_s()):
             break
     return found

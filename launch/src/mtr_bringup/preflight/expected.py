@@ -29,6 +29,7 @@ class Setup:
         base_guard: the node in front of a base without limits runs.
         base_controller: namespace of the base's parameters.
         is_simulated: time or robot are simulated.
+        time_increment_s: from beam to beam, as the nodes take it where the scans do not say it; 0: they do not know.
     """
 
     rear_lidar: bool = True
@@ -36,6 +37,7 @@ class Setup:
     base_guard: bool = False
     base_controller: str = f"/{CONTROLLER}"
     is_simulated: bool = False
+    time_increment_s: float = 0.0
 
     @property
     def base_parameters(self) -> str:

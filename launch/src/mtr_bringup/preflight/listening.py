@@ -11,7 +11,7 @@ from sensor_msgs.msg import BatteryState, Imu, Joy, LaserScan
 from tf2_msgs.msg import TFMessage
 
 from mtr_core import names
-from mtr_msgs.msg import FirmwareState
+from mtr_msgs.msg import DriveStatus, FirmwareState
 
 from .expected import CONTROLLER_OWNER, Setup
 from .motion.recording import ImuSample, Recording, ScanSample, Sweep, WheelSample, scan_sample
@@ -22,6 +22,22 @@ TYPES: Dict[str, Type[Any]] = {
     names.IMU_DATA: Imu, names.BATTERY: BatteryState, names.FIRMWARE_STATE: FirmwareState, names.JOY: Joy}
 
 
+# Arguments of robot.launch for topics -> the topics' names in the nodes.
+ARGUMENTS = {"front_scan": names.FRONT_SCAN, "rear_scan": names.REAR_SCAN, "imu_data": names.IMU_DATA,
+             "wheel_odometry": names.WHEEL_ODOMETRY, "wheel_command": names.WHEEL_COMMAND, "battery": names.BATTERY}
+
+
+def topics_of_robot() -> Dict[str, str]:
+    """Topics of sensors and base by their names in the nodes: as the robot was started, or as this program was told
+    (/front/scan:=/scan)."""
+    started: Dict[str, Any] = rospy.get_param(names.ROBOT_TOPICS, {})
+    found = {}
+    for argument, topic in ARGUMENTS.items():
+        told = rospy.resolve_name(topic)
+        found[topic] = told if told != topic else rospy.resolve_name(str(started.get(argument, topic)))
+    return found
+
+
 def setup_of_robot() -> Setup:
     """What the robot was started with, by the parameters of drive control and of ROS."""
     drive: Dict[str, Any] = rospy.get_param("/drive_control", {})
@@ -30,7 +46,8 @@ def setup_of_robot() -> Setup:
         bool(drive.get("rear_lidar", default.rear_lidar)), CONTROLLER_OWNER in drive.get("lock_owners", []),
         bool(drive.get("base_guard", default.base_guard)),
         str(drive.get("base_controller", default.base_controller)),
-        bool(rospy.get_param("/use_sim_time", False)) or names.SIM_TRUTH in publishers())
+        bool(rospy.get_param("/use_sim_time", False)) or names.SIM_TRUTH in publishers(),
+        float(rospy.get_param("/localization/time_increment_s", default.time_increment_s)))
 
 
 def publishers() -> Dict[str, Tuple[str, ...]]:
@@ -44,10 +61,14 @@ class Listener:
 
     Attributes:
         recording: what came of the sensors that are compared in motion.
+        drive_control: sentences of drive control about what stops the wheels, by their codes; the newest of each.
+        names: where the robot has its topics, by their names in the nodes; the records bear these.
     """
 
     def __init__(self) -> None:
         self.recording = Recording()
+        self.names = topics_of_robot()
+        self.drive_control: Dict[str, str] = {}
         self._topics: Dict[str, TopicRecord] = {}
         self._transforms: Dict[Tuple[str, str], Set[str]] = {}
         self._clock: Callable[[], float] = rospy.get_time if rospy.get_param("/use_sim_time", False) else time.monotonic
@@ -57,16 +78,17 @@ class Listener:
             names.WHEEL_ODOMETRY: self._keep_wheels, names.IMU_DATA: self._keep_imu}
         for topic, kind in TYPES.items():
             self._topics[topic] = TopicRecord()
-            rospy.Subscriber(topic, kind, self._take, callback_args=topic)
+            rospy.Subscriber(self.names.get(topic, topic), kind, self._take, callback_args=topic)
+        rospy.Subscriber(names.DRIVE_STATUS, DriveStatus, self._take_drive_status)
         for topic in ("/tf", "/tf_static"):
             rospy.Subscriber(topic, TFMessage, self._take_transforms)
 
     def record(self, base_parameters: str) -> RobotRecord:
         """Everything that came until now, with what the master knows."""
-        types = dict(rospy.get_master().getTopicTypes()[2])
-        for topic, nodes in publishers().items():
-            heard = self._topics.setdefault(topic, TopicRecord())
-            heard.publishers, heard.type = nodes, types.get(topic, "")
+        types, known = dict(rospy.get_master().getTopicTypes()[2]), publishers()
+        for topic in {*known, *self.names}:
+            heard, name = self._topics.setdefault(topic, TopicRecord()), self.names.get(topic, topic)
+            heard.publishers, heard.type = known.get(name, ()), types.get(name, "")
         base = rospy.get_param(base_parameters, None)
         failures = rospy.get_param(names.START_FAILURES, {})
         transforms = {pair: set(nodes) for pair, nodes in list(self._transforms.items())}
@@ -84,6 +106,11 @@ class Listener:
         keep = self._keepers.get(topic)
         if keep:
             keep(message)
+
+    def _take_drive_status(self, message: Any) -> None:
+        # Causes of it follow; the first one is what it says.
+        for problem in message.problems[:1]:
+            self.drive_control[problem.code] = problem.text
 
     def _take_transforms(self, message: Any) -> None:
         node = message._connection_header["callerid"]
@@ -114,7 +141,8 @@ def content_of(message: Any) -> ScanContent:
     ranges = np.asarray(message.ranges)
     with np.errstate(invalid="ignore"):
         hits = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
-    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(np.isnan(ranges))))
+    sweep_s = message.time_increment * max(len(ranges) - 1, 0)
+    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(np.isnan(ranges))), sweep_s)
 
 
 def sample_of(message: Any) -> ScanSample:

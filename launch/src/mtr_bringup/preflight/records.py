@@ -7,11 +7,12 @@ from typing import Counter as Count
 
 
 class ScanContent(NamedTuple):
-    """Beams of one scan, and how many of them hit something, or are not a number."""
+    """Beams of one scan, how many of them hit something, or are not a number, and the time from first to last beam."""
 
     beams: int
     hits: int
     not_numbers: int
+    sweep_s: float
 
 
 @dataclass

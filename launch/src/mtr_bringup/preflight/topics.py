@@ -16,8 +16,10 @@ MAX_AHEAD_S = 0.005
 MAX_AHEAD_SIMULATED_S = CLOCK_STEP.period_ns * 1e-9 + MAX_AHEAD_S
 # Beams that are not a number are no measurement (REP 117); a few are usual with some drivers.
 MAX_NOT_NUMBERS = 0.1
-PRESENCE, PUBLISHERS, RATE, GAP, AGE, CONTENT = (
-    "topic.present", "topic.publishers", "topic.rate", "topic.gap", "topic.age", "scan.content")
+# A sweep ends before the next one begins; drivers round both.
+MAX_SWEEP_PERIODS = 1.05
+PRESENCE, PUBLISHERS, RATE, GAP, AGE, CONTENT, BEAM_TIME = (
+    "topic.present", "topic.publishers", "topic.rate", "topic.gap", "topic.age", "scan.content", "scan.beam_time")
 MIN_MESSAGES = 2
 
 
@@ -27,7 +29,8 @@ def topic_findings(record: RobotRecord, setup: Setup) -> List[Finding]:
     for expected in expected_topics(setup):
         heard = record.topic(expected.topic)
         problems = [*presence_problems(expected, heard, record.listened_s)]
-        problems = problems or [*timing_problems(expected, heard, setup), *scan_problems(expected.topic, heard.scans)]
+        problems = problems or [*timing_problems(expected, heard, setup), *scan_problems(expected.topic, heard.scans),
+                                *beam_time_problems(expected.topic, heard, setup)]
         found += problems or [good(RATE, expected.topic, summary(heard), rate_hz(heard), expected.min_rate_hz,
         unit="Hz")]
     return found
@@ -117,6 +120,27 @@ def scan_problems(topic: str, scans: List[ScanContent]) -> Iterator[Finding]:
         yield bad(CONTENT, topic, f"{100.0 * share:.0f} % of its beams are not a number, allowed is "
                   f"{100.0 * MAX_NOT_NUMBERS:.0f} %: look at filters and at the range in its driver.", share,
                   MAX_NOT_NUMBERS)
+
+
+def beam_time_problems(topic: str, heard: TopicRecord, setup: Setup) -> Iterator[Finding]:
+    """Beams that are said to be measured all at once, or one after the other for longer than there is.
+
+    In the first case a robot that turns at 0.5 rad/s sees its surroundings sheared by 1 degree with a LiDAR of 25 Hz,
+    and nothing else says so. Some simulators do measure all beams at once.
+    """
+    rate = rate_hz(heard)
+    # Without a rate, as on a clock that stands still, there is nothing to hold a sweep against.
+    if not heard.scans or not rate:
+        return
+    sweep_s, period_s = statistics.median(scan.sweep_s for scan in heard.scans), 1.0 / rate
+    if sweep_s == 0.0 and not setup.is_simulated and not setup.time_increment_s:
+        yield bad(BEAM_TIME, topic, "Its scans do not say when each beam was measured (time_increment is 0), so that "
+                  "they are wrong while the robot moves: name the LiDAR (lidar of robot.launch), or have its driver "
+                  "say it.", 0.0, unit="s")
+    elif not 0.0 <= sweep_s <= MAX_SWEEP_PERIODS * period_s:
+        yield bad(BEAM_TIME, topic, f"From its first to its last beam a scan takes {sweep_s:.3f} s (time_increment), "
+                  f"allowed is the {period_s:.3f} s from scan to scan: look at the driver's settings.", sweep_s,
+                  period_s, unit="s")
 
 
 def summary(heard: TopicRecord) -> str:
