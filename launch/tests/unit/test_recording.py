@@ -14,7 +14,7 @@ from genpy.dynamic import generate_dynamic
 from geometry_msgs.msg import Twist
 
 from mtr_bringup.recording import listening, mcap_file
-from mtr_bringup.recording.bags import decisions_in
+from mtr_bringup.recording.bags import decisions_in, messages_in
 from mtr_bringup.recording.command_line import compare, parsed, run, written_as_mcap
 from mtr_bringup.recording.decisions import CarSeen, Decisions, differences
 from mtr_bringup.recording.profiles import FULL, PROFILES, REPLAYED, SMALL, CannotRecord, check_room, command_of
@@ -209,3 +209,13 @@ def test_layout_shows_what_is_recorded():
             message = SHOWN[topic]() if fields else None
             for field in filter(None, fields.split(".")):
                 message = getattr(message, field)
+
+
+@pytest.mark.parametrize("content", [b"", b"#ROSBAG V2.0\n", b"#ROSBAG V2\x86.0\n" + bytes(4096),
+                                     b"#ROSBAG V2.0\n" + b"\xff" * 64], ids=["empty", "begin", "no_text", "no_header"])
+def test_damaged_bag_is_a_sentence_whatever_the_library_raises(tmp_path, content):
+    path = tmp_path / "bad.bag"
+    path.write_bytes(content)
+    for read in (lambda: decisions_in([path]), lambda: list(messages_in(path))):
+        with pytest.raises(CannotRecord, match=r"bad.bag cannot be read: .*\.$"):
+            read()

@@ -24,8 +24,8 @@ def decisions_in(bags: Iterable[pathlib.Path]) -> Decisions:
             with rosbag.Bag(str(path)) as bag:
                 for topic, message, _ in bag.read_messages(topics=DECIDED):
                     _take(found, topic, message)
-        except (rosbag.ROSBagException, OSError) as error:
-            raise CannotRecord(f"{path} cannot be read: {error}.") from None
+        except Exception as error:
+            raise _unreadable(path, error) from None
     return found
 
 
@@ -35,8 +35,15 @@ def messages_in(path: pathlib.Path) -> Iterator[Recorded]:
         with rosbag.Bag(str(path)) as bag:
             for topic, raw, time, header in bag.read_messages(raw=True, return_connection_header=True):
                 yield Recorded(topic, raw[0], _text(header["message_definition"]), raw[1], time.to_nsec())
-    except (rosbag.ROSBagException, OSError) as error:
-        raise CannotRecord(f"{path} cannot be read: {error}.") from None
+    except Exception as error:
+        raise _unreadable(path, error) from None
+
+
+def _unreadable(path: pathlib.Path, error: Exception) -> CannotRecord:
+    """The library raises whatever a damaged bag leads it to; what it says itself is of use to a person."""
+    if isinstance(error, (rosbag.ROSBagException, OSError)):
+        return CannotRecord(f"{path} cannot be read: {error}.")
+    return CannotRecord(f"{path} cannot be read: it is damaged, or no bag.")
 
 
 def _text(value: Any) -> str:
