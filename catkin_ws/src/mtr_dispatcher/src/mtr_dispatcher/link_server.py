@@ -24,6 +24,7 @@ LINGER_MS = 200
 HANDSHAKE_MS = 2000
 # Of what has arrived and was not taken yet the system keeps no more; else it takes up to 6 MB of a connection.
 RECEIVE_BUFFER_BYTES = 64 * 1024
+NO_CONNECTION = -1
 
 
 class LinkError(RobotError):
@@ -97,7 +98,7 @@ class LinkServer:
             data = [frame.bytes for frame in frames]
             joined = data[0] if len(data) == 1 else b"\xff".join([b"", *data])
             messages.append(Received(joined, self._key_of(frames[0])))
-            self._limits.delivered(int(frames[0].get(zmq.SRCFD)), len(frames), sum(map(len, data)))
+            self._limits.delivered(_connection_of(frames[0]), len(frames), sum(map(len, data)))
         return messages
 
     def close(self) -> None:
@@ -145,3 +146,14 @@ class LinkServer:
         if self._curve is not None:
             encrypt(socket, self._curve)
         return socket
+
+
+def _connection_of(frame: Any) -> int:
+    """Number of the connection that has brought a frame; none of them for a peer that speaks ZMTP 1 or 2.
+
+    Such a peer's messages do not count as taken, so that it is soon cut off: no application is one.
+    """
+    try:
+        return int(frame.get(zmq.SRCFD))
+    except zmq.ZMQError:
+        return NO_CONNECTION

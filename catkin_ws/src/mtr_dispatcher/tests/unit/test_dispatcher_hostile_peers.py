@@ -18,6 +18,7 @@ from mtr_dispatcher.access.peer_limits import (
     Allowance,
     PeerLimits,
 )
+from mtr_dispatcher.link_server import LinkServer, Ports
 
 # The link alone, in a process of its own whose memory is told at the end.
 SERVE = """
@@ -122,6 +123,19 @@ def test_peer_that_brings_more_than_messages_is_cut_off_and_memory_stays(served,
     honest.close()
     assert sent < FLOOD_BYTES and seen["cut"] == {TOO_MUCH: 1}
     assert seen["heard"] > 0 and seen["grown_mib"] < MAX_GROWTH_MIB
+
+
+def test_message_of_a_peer_with_an_old_protocol_is_received():
+    """ZMTP 2.0, whose messages do not say of which connection they are; ZeroMQ takes them on a link without keys."""
+    ports = free_ports()
+    server = LinkServer(Ports("127.0.0.1", *ports))
+    server.bind()
+    try:
+        with socket.create_connection(("127.0.0.1", ports[1]), timeout=LIMIT_S) as old:
+            old.sendall(b"\xff" + bytes(8) + b"\x7f\x01\x01" + b"\0\0" + b"\0\x05order")
+            assert [message.data for message in server.receive(LIMIT_S)] == [b"order"]
+    finally:
+        server.close()
 
 
 LIMITS = Allowance(burst_bytes=1000.0, bytes_per_s=10.0, connections=2, pause_s=5.0, overhead_bytes=2)

@@ -1,24 +1,18 @@
 """What the link does while messages are lost, clocks are set and strangers send."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from http.client import CannotSendRequest
-from xml.parsers.expat import ExpatError
-from xmlrpc.client import Fault, ProtocolError
 
 import pytest
+from dispatcher_link import START_S, Link
 
-from mtr_core import names
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command import MAX_BUTTON, Command
-from mtr_dispatcher.core import Dispatcher
-from mtr_dispatcher.master_watch import MasterWatch
 from mtr_dispatcher.order_numbers import OrderNumbers
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.sent_statuses import KEPT, SentStatuses
 from mtr_dispatcher.session import MAX_FIRST_ID, MAX_ID_STEP, CommandResult, ControlSession
-from mtr_dispatcher.status.builder import Identity
 from mtr_dispatcher.status.emergency import EmergencyStop, EmergencyWatch
 from mtr_dispatcher.status.inputs import Inputs
 from mtr_dispatcher.status.interventions import Interventions
@@ -28,29 +22,8 @@ from mtr_msgs.msg import CarEstimate, DriveStatus, MotionStatus, PeripheralsStat
 from mtr_msgs.msg import Problem as ProblemMessage
 from mtr_proto import robot_link_pb2 as link
 
-START_S = 100.0
 STEPS_S = [0.05, -0.05, 0.4, -0.4, 60.0, -60.0, 3600.0, -3600.0]
 MAX_STATUS_BYTES = 64 * 1024
-
-
-class Link:
-    """A dispatcher whose steady clock goes on by itself; the robot's clock is what lies above it."""
-
-    def __init__(self, offset_s=1000.0):
-        self.core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
-        self.steady_s, self.offset_s = START_S, offset_s
-
-    def status(self, **known):
-        data = self.core.status(Inputs(self.steady_s + self.offset_s, steady_s=self.steady_s, **known))
-        return link.Status.FromString(data)
-
-    def command(self, answered, number=1, session_id=5, **content):
-        data = link.Command(session_id=session_id, id=number, seen_status_id=answered.id,
-                            seen_robot_time_s=answered.sent_time_s, **content).SerializeToString()
-        return self.core.receive(data, self.steady_s)[0]
-
-    def moves(self):
-        return not self.core.desired(self.steady_s).stop_reason
 
 
 def drive_order():
@@ -249,60 +222,8 @@ def test_emergency_stop_is_as_its_owners_say_and_engaged_when_they_are_silent():
     assert EmergencyWatch(expected=True).at(1.0) is EmergencyStop.ENGAGED
 
 
-@pytest.mark.parametrize("warns, state, told", [
-    (True, EmergencyStop.ABSENT, True), (False, EmergencyStop.ABSENT, False), (True, EmergencyStop.RELEASED, False)])
-def test_operator_reads_that_there_is_no_emergency_stop(warns, state, told):  # A4
-    core = Dispatcher(Parameters(warn_without_emergency_stop=warns), Identity(7, "1.2.3", 0.25, 0.0))
-    message = link.Status.FromString(core.status(Inputs(1.0, emergency_stop=state)))
-    assert ("no_emergency_stop" in {notice.code for notice in message.notifications}) is told
-    assert message.emergency_stop == state
-
-
 def test_waypoint_and_its_problem_are_untouched():
     session = ControlSession(Parameters())
     order = Command(1, 1, 1, 1.0, waypoint=Waypoint(1, "application/1", "car", Pose2(1.0, 2.0, 3.0)), resume_hold_id=9)
     assert session.take(order, 1.0, 1.0) is CommandResult.TAKEN
     assert session.desired(1.0).stop_reason == NO_PROBLEM == Problem() and session.command.resume_hold_id == 9
-
-
-def test_operator_reads_which_node_cannot_start_and_why_until_it_has():
-    core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
-    why = "Parameter speed_mps is 3 m/s; allowed is 0.05 to 2 m/s."
-    told = link.Status.FromString(core.status(Inputs(1.0, start_failures={"walker": why})))
-    notice = next(note for note in told.notifications if note.code == "node_cannot_start")
-    assert notice.severity == link.SEVERITY_ERROR and "walker" in notice.text and why in notice.text
-    later = link.Status.FromString(core.status(Inputs(2.0)))
-    assert "node_cannot_start" not in {note.code for note in later.notifications}
-
-
-@pytest.mark.parametrize("code, is_told", [("drive_control.imu_frozen", True), ("drive_control.lidar_silent", True),
-                                           ("drive_control.obstacle", False), ("dispatcher.no_application", False)])
-def test_operator_reads_which_sensor_stops_the_wheels(code, is_told):
-    drive = DriveStatus(message="Why.", problems=[ProblemMessage(code=code, text="Why.")])
-    notices = {notice.code: notice.text for notice in Link().status(drive=drive).notifications}
-    assert notices.get("drive_control") == ("Why." if is_told else None)
-
-
-@pytest.mark.parametrize("parameter", [None, [], "text", 7, {}])
-def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
-    master = MasterWatch(lambda _: parameter)
-    master.update()
-    assert master.failures == {} and master.preflight is None
-
-
-@pytest.mark.parametrize("trouble", [ConnectionRefusedError("master"), CannotSendRequest(), Fault(1, "master"),
-                                     ProtocolError("/", 500, "master", {}), ExpatError()])
-def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing(trouble):
-    answers = [{f"node_{number}": "Why." for number in range(100)}, trouble]
-
-    def ask(name):
-        if name != names.START_FAILURES:
-            return None
-        answer = answers.pop(0)
-        if isinstance(answer, Exception):
-            raise answer
-        return answer
-    master = MasterWatch(ask)
-    master.update()
-    master.update()
-    assert list(master.failures) == ["node_0", "node_1", "node_10", "node_11"]

@@ -21,7 +21,8 @@ FOREIGN_SHOWN_S = 10.0
 MAX_FOREIGN = 16
 # Codes of drive control's sentences about sensors and base; others tell of obstacles, locks and sources.
 PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
-    "lidar_", "odometry_", "imu_", "base_", "wheels_slip", "second_publisher"))
+    "waiting_for_lidar", "waiting_for_odometry", "lidar_", "odometry_", "imu_", "base_", "wheels_slip",
+    "second_publisher"))
 
 
 class Notice(NamedTuple):

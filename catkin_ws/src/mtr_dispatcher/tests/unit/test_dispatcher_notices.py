@@ -1,0 +1,73 @@
+"""What the Operator reads of the robot's parts."""
+# SPDX-License-Identifier: Apache-2.0
+from http.client import CannotSendRequest
+from xml.parsers.expat import ExpatError
+from xmlrpc.client import Fault, ProtocolError
+
+import pytest
+from dispatcher_link import Link
+
+from mtr_core import names
+from mtr_dispatcher.core import Dispatcher
+from mtr_dispatcher.master_watch import MasterWatch
+from mtr_dispatcher.parameters import Parameters
+from mtr_dispatcher.status.builder import Identity
+from mtr_dispatcher.status.emergency import EmergencyStop
+from mtr_dispatcher.status.inputs import Inputs
+from mtr_msgs.msg import DriveStatus
+from mtr_msgs.msg import Problem as ProblemMessage
+from mtr_proto import robot_link_pb2 as link
+
+
+@pytest.mark.parametrize("warns, state, told", [
+    (True, EmergencyStop.ABSENT, True), (False, EmergencyStop.ABSENT, False), (True, EmergencyStop.RELEASED, False)])
+def test_operator_reads_that_there_is_no_emergency_stop(warns, state, told):  # A4
+    core = Dispatcher(Parameters(warn_without_emergency_stop=warns), Identity(7, "1.2.3", 0.25, 0.0))
+    message = link.Status.FromString(core.status(Inputs(1.0, emergency_stop=state)))
+    assert ("no_emergency_stop" in {notice.code for notice in message.notifications}) is told
+    assert message.emergency_stop == state
+
+
+def test_operator_reads_which_node_cannot_start_and_why_until_it_has():
+    core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
+    why = "Parameter speed_mps is 3 m/s; allowed is 0.05 to 2 m/s."
+    told = link.Status.FromString(core.status(Inputs(1.0, start_failures={"walker": why})))
+    notice = next(note for note in told.notifications if note.code == "node_cannot_start")
+    assert notice.severity == link.SEVERITY_ERROR and "walker" in notice.text and why in notice.text
+    later = link.Status.FromString(core.status(Inputs(2.0)))
+    assert "node_cannot_start" not in {note.code for note in later.notifications}
+
+
+@pytest.mark.parametrize("code, is_told", [("drive_control.imu_frozen", True), ("drive_control.lidar_silent", True),
+                                           ("drive_control.waiting_for_lidar", True),
+                                           ("drive_control.waiting_for_odometry", True),
+                                           ("drive_control.obstacle", False), ("dispatcher.no_application", False)])
+def test_operator_reads_which_sensor_stops_the_wheels(code, is_told):
+    drive = DriveStatus(message="Why.", problems=[ProblemMessage(code=code, text="Why.")])
+    notices = {notice.code: notice.text for notice in Link().status(drive=drive).notifications}
+    assert notices.get("drive_control") == ("Why." if is_told else None)
+
+
+@pytest.mark.parametrize("parameter", [None, [], "text", 7, {}])
+def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
+    master = MasterWatch(lambda _: parameter)
+    master.update()
+    assert master.failures == {} and master.preflight is None
+
+
+@pytest.mark.parametrize("trouble", [ConnectionRefusedError("master"), CannotSendRequest(), Fault(1, "master"),
+                                     ProtocolError("/", 500, "master", {}), ExpatError()])
+def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing(trouble):
+    answers = [{f"node_{number}": "Why." for number in range(100)}, trouble]
+
+    def ask(name):
+        if name != names.START_FAILURES:
+            return None
+        answer = answers.pop(0)
+        if isinstance(answer, Exception):
+            raise answer
+        return answer
+    master = MasterWatch(ask)
+    master.update()
+    master.update()
+    assert list(master.failures) == ["node_0", "node_1", "node_10", "node_11"]
