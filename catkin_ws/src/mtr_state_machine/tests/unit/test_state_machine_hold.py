@@ -3,23 +3,18 @@
 from dataclasses import replace
 
 import pytest
+from state_machine_seen import ALL_WELL, COLLECTING, LOCATED, WANTS, WAYPOINT
 
 from mtr_core.problems import Problem
-from mtr_core.requests import CAR_LOCATOR, NO_GOAL, DesiredState, GoalReport, Waypoint
-from mtr_core.se2 import Pose2
+from mtr_core.requests import NO_GOAL, DesiredState, GoalReport, Waypoint
 from mtr_core.states import CarState, Result, State
 from mtr_state_machine.core import StateMachine
 from mtr_state_machine.observation import Car, Drive, Observation, Part
 from mtr_state_machine.parameters import Parameters
 
-ALL_WELL = {part: 0.1 for part in Part}
 SILENT = {**ALL_WELL, Part.LOCALIZATION: 0.6}
-WAYPOINT = Waypoint(7, "application/9", "car", Pose2(3.0, 1.0, 0.5), 2)
-MAP_PLACE = Waypoint(1, CAR_LOCATOR, "map", Pose2(5.0, 5.0, 0.0))
-WANTS = DesiredState(session_id=9, link_alive=True, stop=False, waypoint=WAYPOINT, max_speed_mps=0.8)
 IDLE = replace(WANTS, waypoint=Waypoint())
 STOPPED = replace(WANTS, stop=True)
-COLLECTING, LOCATED = Car(CarState.COLLECTING, MAP_PLACE), Car(CarState.LOCATED)
 OBSTACLE = Problem("motion_planner.obstacle", "The robot is blocked by an obstacle.")
 
 
