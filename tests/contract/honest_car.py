@@ -4,9 +4,9 @@ import math
 import threading
 
 from mtr_operator.car_link.can_frame import CanFrame
-from mtr_operator.car_link.handle import BusHandle
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.outputs.extender import BusExtender
+from mtr_operator.car_link.outputs.handle import BusHandle
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.ports import CarLink
 from mtr_simulation.car.can_port import MemoryCanPort, SentFrame

@@ -26,6 +26,18 @@ QUIET = {"car": "honest", "noise.sigma_db": 0.1, "noise.lapse": 0.0, "uhf.fading
          "locks.actuator_ms": 0, "errors.line_m": 0.0, "parameters.measurements_distance_m": 10.0,
          "parameters.maximum_distance_m": 3.5, "parameters.measuring_speed_mps": 0.3}
 NEAR_M = 0.03
+# Of 2026-11-23, before margins were computed for many places at once; "unlock" and "lock" of each axis, in m.
+NOISY = {"car": "honest", "seed": 3, "parameters.passes": 1, "parameters.measuring_speed_mps": 0.4,
+         "parameters.measurements_distance_m": 2.0}
+WRONG = {**QUIET, "passive_entry.poll_period_ms": 20, "errors.heading_rad": 0.01, "errors.key_lever_m": 0.004,
+         "errors.clock_s": 0.02, "errors.line_m": 0.002}
+FORMER_M = [
+    (NOISY, {"unlock": [1.205216, 1.085216, 0.725216, 1.285216, 0.725216, 1.165216, 1.285216, 0.845216, 0.965216,
+                        1.325216, 0.685216, 0.925216],
+             "lock": [2.434784, 2.314784, 2.514784, 2.674784, 2.754784, 2.714784, 2.914784, 2.794784, 2.674784,
+                      2.794784, 2.314784, 2.074784]}),
+    (WRONG, {"unlock": [1.387073, 1.165073, 1.591073, 1.165073, 1.495073, 1.069073, 1.633073, 1.117073],
+             "lock": [2.206927, 2.188927, 2.470927, 2.302927, 2.470927, 2.392927, 2.440927, 2.176927]})]
 
 
 def ran(**settings):
@@ -59,6 +71,14 @@ def test_same_run_gives_the_same_and_another_seed_something_else():
     one, other = (ran(seed=seed)[0].distances for seed in (1, 2))
     ran_once.cache_clear()
     assert ran(seed=1)[0].distances == one != other
+
+
+@pytest.mark.parametrize("settings, former_m", FORMER_M, ids=["noise", "errors"])
+def test_distances_are_the_former_ones(tmp_path, settings, former_m):
+    run = Run("radio", "autolock", settings)
+    distances = RadioKernel().run(order_of(run), tmp_path, run.digest).distances
+    for word, expected_m in former_m.items():
+        assert list(distances[word].values()) == pytest.approx(expected_m, abs=1e-9)
 
 
 def test_weaker_antenna_shortens_the_lines_beside_it_alone():

@@ -52,10 +52,15 @@ def by_steps(tmp_path, parameters, until_ns, seed=3):
     return found
 
 
+def poll(car, time_ns, place):
+    at = np.array(place)
+    car.poll(time_ns, place, float(car.margins.field_db(at)), lambda: float(car.margins.answer_db(at, LEVEL)))
+
+
 def by_instants(parameters, until_ns, seed=3):
     car, found = HonestInstants(seed, parameters), []
     for time_ns in [START_NS, *car.polls_ns(START_NS, until_ns)]:
-        car.poll(time_ns, key_at(time_ns), car.margins.polled_db(np.array(key_at(time_ns)), LEVEL))
+        poll(car, time_ns, key_at(time_ns))
         found += car.pass_time(time_ns)
     return found
 
@@ -70,7 +75,7 @@ def test_a_pass_unlocks_and_locks_at_the_same_steps(tmp_path, seed):
 
 def test_the_relock_timer_moves_the_locks_without_a_poll():
     car = HonestInstants(1, dataclasses.replace(CALM, locks=LockParameters(relock_s=5.0)))
-    car.poll(START_NS, (0.0, 9.0, 1.0), car.margins.polled_db(np.array((0.0, 9.0, 1.0)), LEVEL))
+    poll(car, START_NS, (0.0, 9.0, 1.0))
     car.pass_time(START_NS + 1_000_000_000)
     assert car.press(START_NS + 1_000_000_000, Command.UNLOCK, (0.0, 3.0, 1.0), LEVEL)
     moved = car.pass_time(START_NS + 10_000_000_000)

@@ -1,10 +1,8 @@
 """One attempt of the radio, as it happens: margin at the place, noise of the moment, and a lapse for no reason."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Tuple
+from typing import Callable, Tuple
 
 import numpy as np
-
-from mtr_core.arrays import FloatArray
 
 from ..noise import uniform_pair
 from .margins import Margins
@@ -32,21 +30,25 @@ class Attempts:
 
     def press(self, key_xyz: Point, attitude: Attitude) -> bool:
         """A press of a button is received."""
-        return not self._lapses() and self._works(self._margins.button_db(np.array(key_xyz), attitude))
+        return not self._lapses() and self._works(float(self._margins.button_db(np.array(key_xyz), attitude)))
 
     def poll(self, key_xyz: Point, attitude: Attitude, extended_db: float = 0.0) -> Poll:
-        """What a poll finds. extended_db: see Margins."""
-        return self.judge_poll(*self._margins.polled_db(np.array(key_xyz), attitude, extended_db))
+        """What a poll finds. extended_db: what an extender adds to the field that comes to the key."""
+        place = np.array(key_xyz)
+        return self.judge_poll(float(self._margins.field_db(place)) + extended_db,
+                               lambda: float(self._margins.answer_db(place, attitude)))
 
-    def judge_poll(self, unlock_db: FloatArray, lock_db: FloatArray) -> Poll:
-        """The same where the margins of the place are known."""
-        if self._lapses() or not self._works(lock_db):
+    def judge_poll(self, field_db: float, answer_db: Callable[[], float]) -> Poll:
+        """The same where the field's margin at the place is known; that of the answer is asked for where it counts."""
+        if self._lapses() or not (self._works(field_db) and self._works(answer_db())):
             return Poll.GONE
-        return Poll.IN_UNLOCK_ZONE if self._works(unlock_db) else Poll.BETWEEN
+        return Poll.IN_UNLOCK_ZONE if self._works(field_db - self._margins.between_db) else Poll.BETWEEN
 
-    def _works(self, margin_db: FloatArray) -> bool:
-        return bool(margin_db + self._noise.now_db >= 0.0)
+    def _works(self, margin_db: float) -> bool:
+        return margin_db + self._noise.now_db >= 0.0
 
     def _lapses(self) -> bool:
         self._number += 1
+        if self._lapse == 0.0:
+            return False
         return uniform_pair(self._seed, "lapse", self._number)[0] < self._lapse

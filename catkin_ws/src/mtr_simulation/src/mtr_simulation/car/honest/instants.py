@@ -1,9 +1,7 @@
 """The honest Car followed from instant to instant, without bus and contacts: what is left of it where only the radio
 matters, hundreds of times quicker than step by step."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import List, NamedTuple, Optional, Tuple
-
-from mtr_core.arrays import FloatArray
+from typing import Callable, List, NamedTuple, Optional, Tuple
 
 from ..ecu import Command
 from ..noise import uniform_pair
@@ -71,16 +69,21 @@ class HonestInstants:
         """When it looks for its key, later than one instant and not later than another."""
         if not self._is_polling:
             return []
-        first = (after_ns - self._poll_phase_ns) // self._poll_ns
-        found = (_on_grid(number * self._poll_ns + self._poll_phase_ns)
-                 for number in range(first, (until_ns - self._poll_phase_ns) // self._poll_ns + 1))
-        return [time_ns for time_ns in found if after_ns < time_ns <= until_ns]
+        first, last = self._polls_until(after_ns) + 1, self._polls_until(until_ns)
+        return [_on_grid(number * self._poll_ns + self._poll_phase_ns) for number in range(first, last + 1)]
 
-    def poll(self, time_ns: int, key_xyz: Point, margins_db: Tuple[FloatArray, FloatArray]) -> None:
-        """It looks for its key at a place of these margins: of the unlock zone and of the lock zone."""
+    def next_polls_ns(self, after_ns: int, count: int) -> List[int]:
+        """The first ones of them; none where it never looks."""
+        if not self._is_polling:
+            return []
+        first_ns = (self._polls_until(after_ns) + 1) * self._poll_ns + self._poll_phase_ns
+        return [_on_grid(first_ns + number * self._poll_ns) for number in range(count)]
+
+    def poll(self, time_ns: int, key_xyz: Point, field_db: float, answer_db: Callable[[], float]) -> None:
+        """It looks for its key at a place of these margins: see Margins."""
         if not self._advance(time_ns, key_xyz):
             return
-        answer = self._attempts.judge_poll(*margins_db) if self._key.is_awake else Poll.GONE
+        answer = self._attempts.judge_poll(field_db, answer_db) if self._key.is_awake else Poll.GONE
         command = self._passive.poll(answer, time_ns)
         if command is not None:
             self._locks.command(command, Cause.PASSIVE_ENTRY, time_ns)
@@ -110,8 +113,14 @@ class HonestInstants:
             if state is not None:
                 self._moved.append(self._told(due_ns, state))
             due_ns = self._due()
+        if not self._moved:
+            return []
         moved, self._moved = self._moved, []
         return moved
+
+    def _polls_until(self, time_ns: int) -> int:
+        """Number of the last poll not later. One that is put off to the next step is later than the step before."""
+        return (time_ns - time_ns % STEP_NS - self._poll_phase_ns) // self._poll_ns
 
     def _advance(self, time_ns: int, key_xyz: Point) -> bool:
         """To an instant; True when the ECU has booted."""

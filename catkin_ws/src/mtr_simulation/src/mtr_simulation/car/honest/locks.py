@@ -66,9 +66,10 @@ class Locks:
         """When something happens by itself; None when nothing will. Known from the first step on."""
         if not self.is_ready:
             return self._ready_ns
-        due = [each for each in (None if self._ordered is None else self._ordered.due_ns, self._relock_ns)
-               if each is not None]
-        return min(due, default=None)
+        ordered, relock_ns = self._ordered, self._relock_ns
+        if ordered is None or (relock_ns is not None and relock_ns < ordered.due_ns):
+            return relock_ns
+        return ordered.due_ns
 
     def command(self, command: Command, cause: Cause, time_ns: int) -> bool:
         """Order the locks to move; False when they refuse or need not."""

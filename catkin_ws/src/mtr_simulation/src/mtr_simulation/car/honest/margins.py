@@ -1,7 +1,5 @@
 """By how many dB each of the Car's decisions at a place is clear of its threshold, before the noise in time."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Tuple
-
 import numpy as np
 
 from mtr_core.arrays import FloatArray
@@ -28,17 +26,22 @@ class Margins:
 
     def unlock_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
         """Of a poll that finds the key in the unlock zone."""
-        return self.polled_db(places, attitude)[0]
+        return np.minimum(self.field_db(places) - self.between_db, self.answer_db(places, attitude))
 
     def lock_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """Of a poll that finds the key at all; below 0 it is gone."""
-        return self.polled_db(places, attitude)[1]
+        """Of a poll that finds the key at all: both ways have to work; below 0 it is gone."""
+        return np.minimum(self.field_db(places), self.answer_db(places, attitude))
 
-    def polled_db(self, places: FloatArray, attitude: Attitude, extended_db: float = 0.0
-                  ) -> Tuple[FloatArray, FloatArray]:
-        """Both of the former. extended_db: what an extender adds to the field that comes to the key."""
+    def field_db(self, places: FloatArray) -> FloatArray:
+        """Of the Car's field alone, which a key in the lock zone hears."""
+        return self._lf.strength_db(places) - self._parameters.passive_entry.lock_threshold_db
+
+    def answer_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
+        """Of the answer alone of a key that has heard it."""
+        return self._uhf.margin_db(places, attitude)
+
+    @property
+    def between_db(self) -> float:
+        """By how much the field at the border of the unlock zone is above that at the border of the lock zone."""
         passive = self._parameters.passive_entry
-        field_db, answer_db = self._lf.strength_db(places) + extended_db, self._uhf.margin_db(places, attitude)
-        # Both ways have to work: the Car's field to the key, and the key's answer to the Receiver.
-        return (np.minimum(field_db - passive.unlock_threshold_db, answer_db),
-                np.minimum(field_db - passive.lock_threshold_db, answer_db))
+        return passive.unlock_threshold_db - passive.lock_threshold_db

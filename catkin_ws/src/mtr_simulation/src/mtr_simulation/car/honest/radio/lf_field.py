@@ -14,7 +14,7 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 
 from ...parameters import LfAntenna
-from .plane_waves import shadowing
+from .plane_waves import FieldSet, shadowing
 
 _NEAREST_M = 0.2
 
@@ -23,18 +23,23 @@ class LfField:
     """The strongest antenna at each place."""
 
     def __init__(self, place_seed: int, antennas: Sequence[LfAntenna], sigma_db: float, correlation_m: float):
-        self._paths = [(antenna, shadowing(place_seed, antenna.name, sigma_db, correlation_m)) for antenna in antennas]
+        self._bent = FieldSet([shadowing(place_seed, antenna.name, sigma_db, correlation_m) for antenna in antennas])
+        self._strength_db, self._lobe_db, self._lobe_rad, axis_rad, *self._middle_m = np.array(
+            [(each.strength_db, each.lobe_db, each.lobe_rad, each.axis_rad, each.x_m, each.y_m, each.z_m)
+             for each in antennas]).T
+        self._rod = np.cos(axis_rad), np.sin(axis_rad)
 
     def strength_db(self, places: FloatArray) -> FloatArray:
         """Over the key's reference, without the noise in time; places as x, y, z in the last axis."""
-        return np.max([dipole_db(antenna, places) + bent.at(places) for antenna, bent in self._paths], axis=0)
+        strongest: FloatArray = (self._dipoles_db(places) + self._bent.at(places)).max(axis=-1)
+        return strongest
 
-
-def dipole_db(antenna: LfAntenna, places: FloatArray) -> FloatArray:
-    """One antenna alone."""
-    offsets = places - np.array([antenna.x_m, antenna.y_m, antenna.z_m])
-    distance_m = np.maximum(np.linalg.norm(offsets, axis=-1), _NEAREST_M)
-    rod = np.array([np.cos(antenna.axis_rad), np.sin(antenna.axis_rad), 0.0])
-    along = offsets @ rod / distance_m
-    lobe_db = antenna.lobe_db * np.cos(np.arctan2(offsets[..., 1], offsets[..., 0]) - antenna.lobe_rad)
-    return antenna.strength_db + 10.0 * np.log10(1.0 + 3.0 * along * along) + lobe_db - 60.0 * np.log10(distance_m)
+    def _dipoles_db(self, places: FloatArray) -> FloatArray:
+        """Of each antenna alone, in the last axis."""
+        x_m, y_m, z_m = (places[..., axis, None] - middle_m for axis, middle_m in enumerate(self._middle_m))
+        squared = np.maximum(x_m * x_m + y_m * y_m + z_m * z_m, _NEAREST_M * _NEAREST_M)
+        along = x_m * self._rod[0] + y_m * self._rod[1]
+        lobe_db = self._lobe_db * np.cos(np.arctan2(y_m, x_m) - self._lobe_rad)
+        # log10 of the squared distance, times 30, is that of the distance times 60.
+        return self._strength_db + 10.0 * np.log10(1.0 + 3.0 * along * along / squared) + lobe_db - 30.0 * np.log10(
+            squared)

@@ -35,8 +35,8 @@ def two_ray_gain_db(ground_m: FloatArray, heights_m: Tuple[FloatArray, float], w
     key_m, receiver_m = heights_m
     distance_m = np.maximum(ground_m, _NEAREST_M)
     phase_rad = 4.0 * math.pi * key_m * receiver_m / (wave_m * distance_m)
-    reflected = reflection(np.arctan2(key_m + receiver_m, distance_m), permittivity) * np.exp(-1j * phase_rad)
-    return 20.0 * np.log10(np.abs(1.0 + reflected))
+    reflected = reflection(np.arctan2(key_m + receiver_m, distance_m), permittivity)
+    return 20.0 * np.log10(np.hypot(1.0 + reflected * np.cos(phase_rad), reflected * np.sin(phase_rad)))
 
 
 def reflection(grazing_rad: FloatArray, permittivity: float) -> FloatArray:

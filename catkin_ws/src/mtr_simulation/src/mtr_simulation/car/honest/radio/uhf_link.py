@@ -19,6 +19,9 @@ from .two_ray import two_ray_gain_db, wavelength_m
 _NEAREST_M = 0.2
 # The Car's own pattern and the place of its Receiver are those of the gentle Car.
 _CAR = RemoteParameters()
+_RECEIVER_M = np.array(_CAR.receiver_xyz_m)
+_GAINS_DB, _ORDERS, _DIRECTIONS_RAD = np.array([(each.gain_db, each.order, each.direction_rad)
+                                                for each in _CAR.lobes]).T
 
 
 class UhfLink:
@@ -39,17 +42,17 @@ class UhfLink:
     def mean_margin_db(self, places: FloatArray, attitude: Attitude = LEVEL) -> FloatArray:
         """Also without fading."""
         uhf, key = self._uhf, self._key
-        from_receiver = places - np.array(_CAR.receiver_xyz_m)
-        distance_m = np.maximum(np.linalg.norm(from_receiver, axis=-1), _NEAREST_M)
-        ground_m = np.hypot(from_receiver[..., 0], from_receiver[..., 1])
+        from_receiver = places - _RECEIVER_M
+        x_m, y_m = from_receiver[..., 0], from_receiver[..., 1]
+        ground_m = np.hypot(x_m, y_m)
+        distance_m = np.maximum(np.hypot(ground_m, from_receiver[..., 2]), _NEAREST_M)
         rays_db = two_ray_gain_db(ground_m, (places[..., 2], _CAR.receiver_xyz_m[2]), self._wave_m,
                                   uhf.ground_permittivity)
         key_db = pattern_db(self._axis, attitude, -from_receiver, key.pattern_floor_db) + self._battery_db
-        return uhf.margin_at_1m_db - 20.0 * np.log10(distance_m) + rays_db + key_db + _car_pattern_db(from_receiver)
+        car_db = _car_pattern_db(np.arctan2(y_m, x_m))
+        return uhf.margin_at_1m_db - 20.0 * np.log10(distance_m) + rays_db + key_db + car_db
 
 
-def _car_pattern_db(from_receiver: FloatArray) -> FloatArray:
+def _car_pattern_db(azimuth_rad: FloatArray) -> FloatArray:
     """Windscreen and rear window let more through than the doors."""
-    azimuth_rad = np.arctan2(from_receiver[..., 1], from_receiver[..., 0])
-    gains = [lobe.gain_db * np.cos(lobe.order * (azimuth_rad - lobe.direction_rad)) for lobe in _CAR.lobes]
-    return np.sum(gains, axis=0)
+    return np.cos(_ORDERS * (azimuth_rad[..., None] - _DIRECTIONS_RAD)) @ _GAINS_DB
