@@ -93,5 +93,5 @@ def _content(car: str) -> dict[str, Any]:
 
 def _seed(value: Value) -> int:
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= _MAX_SEED:
-        raise CampaignError(f"The setting {SEED} is {value!r}; allowed is a whole number from 0 to {_MAX_SEED}.")
+        raise CampaignError(f"The setting {SEED} is {value!r:.60}; allowed is a whole number from 0 to {_MAX_SEED}.")
     return value

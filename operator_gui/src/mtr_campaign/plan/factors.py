@@ -2,16 +2,18 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
+import sys
 from dataclasses import dataclass
 from statistics import NormalDist
-from typing import Any, Union
+from typing import Any, Sequence, Union
 
 from ..errors import CampaignError
 from .run import Value
 
 # A seed for each of a million repetitions is more than any campaign has.
 MAX_VALUES = 1_000_000
+# A larger number of runs is not written out.
+_MAX_WRITTEN = 10 ** 15
 _WAYS = "a list of values, {from: 1, to: 10}, {low: 0.5, high: 2.0} or {mean: 0.0, sigma: 0.01}"
 
 
@@ -19,7 +21,7 @@ _WAYS = "a list of values, {from: 1, to: 10}, {low: 0.5, high: 2.0} or {mean: 0.
 class Values:
     """One of these."""
 
-    values: tuple[Value, ...]
+    values: Sequence[Value]
 
     def at(self, part: float) -> Value:
         """The value of a part of the whole, 0 to 1."""
@@ -27,7 +29,7 @@ class Values:
 
     def ends(self) -> tuple[Value, ...]:
         """What has to be possible for all of it to be."""
-        return self.values if len(self.values) <= 64 else (self.values[0], self.values[-1])
+        return tuple(self.values) if len(self.values) <= 64 else (self.values[0], self.values[-1])
 
 
 @dataclass(frozen=True)
@@ -69,37 +71,54 @@ Factor = Union[Values, Uniform, Normal]
 
 def factor_from(name: str, content: Any) -> Factor:
     """The factor that a plan describes; CampaignError says what it may be."""
-    if isinstance(content, list) and content and all(isinstance(each, (int, float, str, bool)) for each in content):
+    if isinstance(content, list) and content and all(is_single(each) for each in content):
         if len({(type(each), each) for each in content}) != len(content):
             raise CampaignError(f"The values of {name} hold one twice; each is run once.")
         return Values(tuple(content))
     if not isinstance(content, dict):
-        raise CampaignError(f"{name} is {content!r}; allowed is {_WAYS}.")
+        raise CampaignError(f"{name} is {short(content)}; allowed is {_WAYS}.")
     if set(content) == {"from", "to"} and all(_is_whole(each) for each in content.values()):
         return _whole_numbers(name, content["from"], content["to"])
-    if set(content) == {"low", "high"} and all(_is_number(each) for each in content.values()):
+    if set(content) == {"low", "high"} and all(is_number(each) for each in content.values()):
         if content["low"] >= content["high"]:
             raise CampaignError(f"{name} reaches from {content['low']:g} to {content['high']:g}; low has to be the "
                                 "smaller one.")
         return Uniform(float(content["low"]), float(content["high"]))
-    if set(content) == {"mean", "sigma"} and all(_is_number(each) for each in content.values()):
+    if set(content) == {"mean", "sigma"} and all(is_number(each) for each in content.values()):
         if content["sigma"] <= 0.0:
             raise CampaignError(f"sigma of {name} is {content['sigma']:g}; allowed is more than 0.")
         return Normal(float(content["mean"]), float(content["sigma"]))
-    raise CampaignError(f"{name} is {content!r}; allowed is {_WAYS}.")
+    raise CampaignError(f"{name} is {short(content)}; allowed is {_WAYS}.")
 
 
 def _whole_numbers(name: str, first: int, last: int) -> Values:
     if not first <= last:
         raise CampaignError(f"{name} reaches from {first} to {last}; allowed is up to a larger number.")
     if last - first >= MAX_VALUES:
-        raise CampaignError(f"{name} has {last - first + 1} values; allowed are at most {MAX_VALUES}.")
-    return Values(tuple(range(first, last + 1)))
+        raise CampaignError(f"{name} has {count_text(last - first + 1)} values; allowed are at most {MAX_VALUES}.")
+    # Made when they are asked for: a plan may be refused for its size.
+    return Values(range(first, last + 1))
+
+
+def is_single(value: Any) -> bool:
+    """A number, a text, true or false."""
+    return isinstance(value, (str, bool)) or is_number(value)
+
+
+def is_number(value: Any) -> bool:
+    """A finite one; YAML has whole numbers that are larger than any other."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
+
+
+def count_text(count: int) -> str:
+    """How many, in a sentence."""
+    return str(count) if count <= _MAX_WRITTEN else f"more than {_MAX_WRITTEN}"
+
+
+def short(value: Any) -> str:
+    """A wrong value as a sentence shows it."""
+    return f"{value!r:.60}"
 
 
 def _is_whole(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
-
-
-def _is_number(value: Any) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

@@ -12,15 +12,20 @@ from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 from ..errors import CampaignError
 from . import designs
-from .factors import Factor, factor_from
+from .factors import Factor, count_text, factor_from, is_number, is_single, short
 from .run import Run, Value
 
 # So many runs of the radio kernel take a day on some cores, and a row each in the store.
 MAX_RUNS = 100_000
+# Of the generators of numbers that draw a design.
+_MAX_SEED = 2 ** 32 - 1
 GRID, LATIN_HYPERCUBE, SOBOL, OPTIMISE = "grid", "latin_hypercube", "sobol", "optimise"
 _DESIGN_ENTRIES: dict[str, dict[str, type]] = {
     GRID: {}, LATIN_HYPERCUBE: {"runs": int, "seed": int}, SOBOL: {"samples": int, "seed": int},
     OPTIMISE: {"runs": int, "seed": int, "figure": str, "aim": str, "wanted": float}}
+_KINDS: dict[type, tuple[str, Callable[[Any], bool]]] = {
+    int: ("a whole number", lambda value: isinstance(value, int) and not isinstance(value, bool)),
+    float: ("a number", is_number), str: ("a text", lambda value: isinstance(value, str))}
 _AIMS = ("minimise", "maximise", "wanted")
 _ENTRIES = ("name", "kernel", "scenario", "design", "set", "vary")
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -65,8 +70,8 @@ class Plan:
         elif design.kind == SOBOL:
             size = designs.sobol_size(self.factors, design.samples)
         if not 1 <= size <= MAX_RUNS:
-            raise CampaignError(f"The plan {self.name} asks for {size} runs; allowed are 1 to {MAX_RUNS}. Vary less, "
-                                "or take a latin_hypercube with fewer runs.")
+            raise CampaignError(f"The plan {self.name} asks for {count_text(size)} runs; allowed are 1 to {MAX_RUNS}. "
+                                "Vary less, or take a latin_hypercube with fewer runs.")
         return size
 
     def run(self, settings: Mapping[str, Value]) -> Run:
@@ -113,10 +118,10 @@ def plan_from(content: Any, usual_name: str) -> Plan:
         raise CampaignError(f"Entry {unknown[0]} is unknown; allowed are {', '.join(_ENTRIES)}.")
     name = content.get("name", usual_name)
     if not isinstance(name, str) or not _NAME.fullmatch(name):
-        raise CampaignError(f"name is {name!r}; allowed are up to 64 letters, digits, dots and dashes.")
+        raise CampaignError(f"name is {short(name)}; allowed are up to 64 letters, digits, dots and dashes.")
     kernel, scenario = content.get("kernel", "radio"), content.get("scenario")
     if scenario not in SCENARIOS:
-        raise CampaignError(f"scenario is {scenario!r}; allowed is {', '.join(SCENARIOS)}.")
+        raise CampaignError(f"scenario is {short(scenario)}; allowed is {', '.join(SCENARIOS)}.")
     fixed = {str(key): _value(str(key), value) for key, value in _table(content, "set").items()}
     factors = {str(key): factor_from(str(key), value) for key, value in _table(content, "vary").items()}
     both = sorted(set(fixed) & set(factors))
@@ -133,16 +138,18 @@ def _design(content: Mapping[str, Any]) -> Design:
     given = dict(content)
     kind = given.pop("kind", GRID)
     if kind not in _DESIGN_ENTRIES:
-        raise CampaignError(f"The design is {kind!r}; allowed is {', '.join(_DESIGN_ENTRIES)}.")
+        raise CampaignError(f"The design is {short(kind)}; allowed is {', '.join(_DESIGN_ENTRIES)}.")
     entries = _DESIGN_ENTRIES[kind]
     for name, value in given.items():
         if name not in entries:
             raise CampaignError(f"Entry {name} of the design {kind} is unknown; allowed are "
                                 f"{', '.join(['kind', *entries])}.")
-        kinds = (int, float) if entries[name] is float else (entries[name],)
-        if not isinstance(value, kinds) or isinstance(value, bool):
-            raise CampaignError(f"Entry {name} of the design is {value!r}; allowed is a {entries[name].__name__}.")
+        allowed, is_right = _KINDS[entries[name]]
+        if not is_right(value):
+            raise CampaignError(f"Entry {name} of the design is {short(value)}; allowed is {allowed}.")
     design = Design(kind, **given)
+    if not 0 <= design.seed <= _MAX_SEED:
+        raise CampaignError(f"seed of the design is {short(design.seed)}; allowed is 0 to {_MAX_SEED}.")
     if kind == SOBOL and (design.samples < 2 or design.samples & (design.samples - 1)):
         raise CampaignError(f"samples is {design.samples}; allowed is a power of two, as 64.")
     if kind == OPTIMISE and (design.aim not in _AIMS or not design.figure):
@@ -153,11 +160,11 @@ def _design(content: Mapping[str, Any]) -> Design:
 def _table(content: Mapping[str, Any], name: str) -> Mapping[Any, Any]:
     table = content.get(name) or {}
     if not isinstance(table, dict):
-        raise CampaignError(f"{name} is {table!r}; allowed is a table of names and values.")
+        raise CampaignError(f"{name} is {short(table)}; allowed is a table of names and values.")
     return table
 
 
 def _value(name: str, value: Any) -> Value:
-    if isinstance(value, (int, float, str, bool)) or (isinstance(value, list) and value):
-        return value  # type: ignore[return-value]  # a list is what some parameters are
-    raise CampaignError(f"{name} is {value!r}; allowed is a number, a text, true or false.")
+    if is_single(value) or (isinstance(value, list) and value and all(map(is_single, value))):
+        return value  # type: ignore[no-any-return]  # a list is what some parameters are
+    raise CampaignError(f"{name} is {short(value)}; allowed is a number, a text, true or false.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import logging
 from typing import Any, Callable, Iterator, Protocol, Sequence
 
@@ -46,7 +47,7 @@ class DaskCrew:
         # Workers may come and go.
         room = _WAITING_PER_WORKER * max(len(self.client.scheduler_info()["workers"]), 1)
         digests: dict[str, str] = {}
-        first = [self._submit(run, folder, digests) for run, _ in zip(waiting, range(room))]
+        first = [self._submit(run, folder, digests) for run in itertools.islice(waiting, room)]
         ahead = as_completed(first)
         for future in ahead:
             failed = future.status == "error"

@@ -12,6 +12,10 @@ GRID = {"name": "small", "scenario": "autolock", "set": {"car": "honest"},
         "vary": {"seed": {"from": 1, "to": 3}, "key.battery_v": [3.0, 2.4]}}
 
 
+# YAML reads a whole number of any length; no other number is as large.
+HUGE = 10 ** 400
+
+
 def plan(**changes):
     return plan_from({**GRID, **changes}, "unnamed")
 
@@ -78,7 +82,17 @@ def test_sobol_asks_for_saltellis_samples_and_normal_factors_stay_within_three_s
     ({"design": {"kind": "latin_hypercube", "runs": "many"}}, "Entry runs of the design is 'many'"),
     ({"design": {"kind": "grid", "runs": 4}}, "Entry runs of the design grid is unknown"),
     ({"vary": {}, "design": {"kind": "latin_hypercube", "runs": 4}}, "needs something under vary"),
-    ({"set": 3}, "set is 3; allowed is a table")])
+    ({"set": 3}, "set is 3; allowed is a table"),
+    ({"vary": {f"place{number}": {"from": 1, "to": 10 ** 6} for number in range(800)}}, "asks for more than 10"),
+    ({"vary": {"seed": {"from": 1, "to": HUGE}}}, "seed has more than 10"),
+    ({"vary": {"key.battery_v": {"low": 0, "high": HUGE}}}, "allowed is a list of values"),
+    ({"vary": {"key.battery_v": {"mean": 0, "sigma": HUGE}}}, "allowed is a list of values"),
+    ({"vary": {"key.battery_v": [HUGE]}}, "allowed is a list of values"),
+    ({"set": {"errors.clock_s": HUGE}}, "errors.clock_s is 1000"),
+    ({"design": {"kind": "latin_hypercube", "runs": HUGE}}, "asks for more than 10"),
+    ({"design": {"kind": "latin_hypercube", "runs": 3, "seed": -1}}, "seed of the design is -1; allowed is 0 to"),
+    ({"design": {"kind": "optimise", "runs": 3, "figure": "lines", "seed": HUGE}}, "seed of the design is 1000"),
+    ({"design": {"kind": "optimise", "runs": 3, "figure": "lines", "wanted": float("nan")}}, "allowed is a number")])
 def test_plan_that_cannot_be_is_a_sentence(changes, sentence):
     with pytest.raises(CampaignError) as caught:
         plan(**changes)

@@ -7,6 +7,7 @@ from xml.etree import ElementTree
 import measured
 import pytest
 import yaml
+from distributed import Client
 
 from mtr_campaign import cli
 from mtr_campaign.errors import CampaignError
@@ -14,9 +15,9 @@ from mtr_campaign.kernels import registry
 from mtr_campaign.kernels.outcome import Outcome
 from mtr_campaign.kernels.stack import StackKernel
 from mtr_campaign.plan.plan import plan_from
-from mtr_campaign.work import one_run
+from mtr_campaign.work import crew, one_run
 from mtr_campaign.work.conductor import Conductor, Course
-from mtr_campaign.work.crew import Here
+from mtr_campaign.work.crew import DaskCrew, Here
 from mtr_campaign.work.folder import CampaignFolder
 from mtr_campaign.work.optimiser import figure_of
 from mtr_operator.domain.errors import OperatorError
@@ -70,6 +71,15 @@ def test_what_is_done_is_not_run_again(kernel, folder):
     assert campaign(folder).known == 0 and kernel.seeds == [1, 2, 3, 4, 5]
     course = campaign(folder, vary={"seed": {"from": 3, "to": 7}})
     assert kernel.seeds == [1, 2, 3, 4, 5, 6, 7] and course.known == 3 and len(course.runs) == 5
+
+
+def test_no_run_is_lost_of_more_than_wait_with_the_scheduler(kernel, folder, monkeypatch):
+    monkeypatch.setattr(crew, "_WAITING_PER_WORKER", 2)
+    course = Course()
+    with Client(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as client:
+        Conductor(plan_from({**PLAN, "vary": {"seed": {"from": 1, "to": 7}}}, "camp"), folder,
+                  DaskCrew(client)).run(course)
+    assert sorted(kernel.seeds) == [1, 2, 3, 4, 5, 6, 7] and len(course.runs) == 7 and not course.failed
 
 
 def test_failure_is_kept_with_its_log_and_run_again_and_stops_no_other(kernel, folder):
