@@ -17,6 +17,7 @@ from std_msgs.msg import Bool, Header
 
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
+from mtr_core.lockstep.clock import reading, steady_ns
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
 from mtr_core.se2 import Pose2
 from mtr_description.base_controller import CONTROLLER, base_controller_of
@@ -26,7 +27,7 @@ from mtr_msgs.msg import ActiveFaults
 from . import conversions
 from .clock import connections
 from .clock.barrier import Barrier, Watcher
-from .clock.machine import offset_of, stamped
+from .clock.machine import MADE_UP_S, StampOffset, stamped, take_precedence
 from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
 from .parameters import SimulatorParameters
@@ -57,8 +58,14 @@ class SimulatorNode:
         self._output = Output(parameters.rear_lidar, self._firmware.publishers)
         self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output), has_ended=self._has_ended)
         self._holds: Optional[rospy.Subscriber] = None
-        self._pace = Pace(parameters.real_time_factor)
-        self._offset_ns = offset_of(rospy.get_param("/use_sim_time", False), parameters.real_time_factor)
+        is_simulated = rospy.get_param("/use_sim_time", False)
+        self._pace = Pace(parameters.real_time_factor, lambda: steady_ns() * 1e-9,
+                          made_up_s=0.0 if is_simulated else MADE_UP_S)
+        self._stamps = StampOffset(is_simulated, parameters.real_time_factor, lambda: self._pace.due_s, reading)
+        if not is_simulated and not take_precedence():
+            rospy.logwarn("The simulator may not run before other programs: on a busy machine its world stands still "
+                          "now and then, and wheels, gyro and LiDARs disagree. Start it as a user who may set "
+                          "priorities.")
         self._stopped = threading.Event()
         self._received: Deque[Callable[[], None]] = collections.deque()
         self._contacts: Set[str] = set()
@@ -88,7 +95,7 @@ class SimulatorNode:
             delay_s = self._pace.delay(time_ns * 1e-9)
             if delay_s:
                 self._stopped.wait(delay_s)
-            self._output.publish(sensors, self._world, self._offset_ns(time_ns))
+            self._output.publish(sensors, self._world, self._stamps.at(time_ns))
             self._firmware.publish(time_ns)
             self._output.clock(time_ns, self._barrier.asleep(time_ns))
             self._world.sim.cast_ahead()

@@ -249,6 +249,17 @@ def test_pace_does_not_make_up_for_lost_time(clock):
     assert pace.delay(2.0) == pytest.approx(1.0)
 
 
+def test_pace_makes_up_for_so_much_lost_time_and_says_when_a_tick_was_due(clock):
+    pace = Pace(1.0, clock, made_up_s=0.5)
+    pace.start(0.0)
+    clock.now_s = 1.3
+    assert (pace.delay(1.0), pace.due_s) == (0.0, 1.0)
+    assert (pace.delay(1.25), pace.due_s) == (0.0, 1.25)
+    assert (pace.delay(1.5), pace.due_s) == (pytest.approx(0.2), 1.5)
+    clock.now_s = 10.0
+    assert (pace.delay(1.75), pace.due_s) == (0.0, 9.5)
+
+
 def test_pace_reports_the_factor_each_30_s(clock):
     pace = Pace(0.0, clock)
     pace.start(1.0)

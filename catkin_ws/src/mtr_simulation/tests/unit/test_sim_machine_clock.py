@@ -1,29 +1,77 @@
-"""The simulated robot on the machine's clock: stamps as drivers give them."""
+"""The simulated robot on the machine's clock: stamps of the instants at which sensors measured."""
 # SPDX-License-Identifier: Apache-2.0
+import os
+
 import pytest
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.liveness import Instant
 from mtr_core.schedule import LIDAR
-from mtr_simulation.clock.machine import offset_of, stamped
+from mtr_simulation.clock.machine import NICENESS, StampOffset, stamped, take_precedence
 from mtr_simulation.sim import Sim
 from mtr_simulation.site.scenario import named_scenario
 
 
+class Clocks:
+    """The machine's clock, which is set, and the steady one."""
+
+    def __init__(self):
+        self.clock_ns, self.steady_ns, self.due_s = 5_000_000_000, 2_000_000_000, 2.0
+
+    def read(self) -> Instant:
+        """Both."""
+        return Instant(self.clock_ns, self.steady_ns)
+
+    def pass_by(self, duration_ns: int) -> None:
+        """Let time go on."""
+        self.clock_ns += duration_ns
+        self.steady_ns += duration_ns
+
+    def offset(self) -> StampOffset:
+        """Of stamps by them."""
+        return StampOffset(False, 1.0, lambda: self.due_s, self.read)
+
+
 def test_in_simulation_stamps_are_the_simulated_clocks():
-    assert offset_of(True, 0.0)(1_020_000_000) == 0
+    assert StampOffset(True, 0.0, lambda: 7.0, Clocks().read).at(1_020_000_000) == 0
 
 
 def test_on_the_machines_clock_stamps_follow_it_where_it_is_set():
-    machine = [5_000_000_000]
-    offset = offset_of(False, 1.0, lambda: machine[0])
-    assert 1_000_000_000 + offset(1_000_000_000) == 5_000_000_000
-    machine[0] -= 3_600_000_000_000
-    assert 1_020_000_000 + offset(1_020_000_000) == machine[0]
+    clocks = Clocks()
+    offset = clocks.offset()
+    assert 1_000_000_000 + offset.at(1_000_000_000) == 5_000_000_000
+    clocks.clock_ns -= 3_600_000_000_000
+    assert 1_000_000_000 + offset.at(1_000_000_000) == clocks.clock_ns
+
+
+def test_a_tick_that_comes_late_is_stamped_when_it_was_due():
+    clocks = Clocks()
+    offset = clocks.offset()
+    stamps = [1_000_000_000 + offset.at(1_000_000_000)]
+    clocks.pass_by(80_000_000)
+    clocks.due_s += 0.02
+    # The clocks are not read at the very same instant.
+    clocks.clock_ns += 300_000
+    stamps.append(1_020_000_000 + offset.at(1_020_000_000))
+    assert stamps == [5_000_000_000, 5_020_000_000]
 
 
 def test_machines_clock_cannot_run_faster():
     with pytest.raises(ConfigurationError, match="real_time_factor is 4"):
-        offset_of(False, 4.0)
+        StampOffset(False, 4.0, lambda: 0.0, Clocks().read)
+
+
+def test_the_simulator_runs_before_other_programs_where_the_system_permits_it(monkeypatch):
+    wanted = []
+    monkeypatch.setattr("os.setpriority", lambda *values: wanted.append(values))
+    assert take_precedence()
+    assert wanted == [(os.PRIO_PROCESS, 0, NICENESS)]
+
+    def refuse(*_: int) -> None:
+        raise PermissionError
+
+    monkeypatch.setattr("os.setpriority", refuse)
+    assert not take_precedence()
 
 
 def test_scans_keep_their_age_when_all_stamps_are_moved():

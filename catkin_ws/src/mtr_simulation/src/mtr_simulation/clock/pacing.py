@@ -7,25 +7,30 @@ REPORT_EVERY_S = 30.0
 
 
 class Pace:
-    """Times in s; a factor of 0 is as fast as possible."""
+    """Times in s; a factor of 0 is as fast as possible.
 
-    def __init__(self, factor: float, wall_clock: Callable[[], float] = time.monotonic):
-        self._factor, self._wall_clock = factor, wall_clock
-        self._start = self._report = self._due = (0.0, 0.0)
+    Attributes:
+        due_s: wall time at which the newest simulated time was due.
+    """
+
+    def __init__(self, factor: float, wall_clock: Callable[[], float] = time.monotonic, made_up_s: float = 0.0):
+        """made_up_s: the loop makes up for so much lost wall time, and for no more."""
+        self._factor, self._wall_clock, self._made_up_s = factor, wall_clock, made_up_s
+        self._start = self._report = (0.0, 0.0)
+        self._newest_s = self.due_s = 0.0
 
     def start(self, simulated_s: float) -> None:
         """Begin at this simulated time."""
-        self._start = self._report = self._due = (simulated_s, self._wall_clock())
+        self._newest_s, self.due_s = self._start = self._report = (simulated_s, self._wall_clock())
 
     def delay(self, simulated_s: float) -> float:
-        """Wall time to wait before the simulated time; time that the loop lost is not made up for."""
+        """Wall time to wait before the simulated time."""
         if not self._factor:
             return 0.0
-        begun, wall = self._due
         now = self._wall_clock()
-        due = wall + (simulated_s - begun) / self._factor
-        self._due = (simulated_s, max(due, now))
-        return max(0.0, due - now)
+        due_s = self.due_s + (simulated_s - self._newest_s) / self._factor
+        self._newest_s, self.due_s = simulated_s, max(due_s, now - self._made_up_s)
+        return max(0.0, self.due_s - now)
 
     def report(self, simulated_s: float) -> Optional[str]:
         """A sentence each 30 simulated seconds."""
