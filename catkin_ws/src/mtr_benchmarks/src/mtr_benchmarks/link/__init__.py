@@ -1,0 +1,2 @@
+"""What encryption costs the link."""
+# SPDX-License-Identifier: Apache-2.0
