@@ -1,16 +1,38 @@
-"""Outputs as a profile declares them: a message, its signal, and the values for both of its states."""
+"""Outputs as a profile declares them: a message for somebody beside the Car, its signal, the values of both states."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from dataclasses import dataclass
+from typing import Any
+
+import can
+import cantools
+
+from mtr_operator.domain.errors import ConnectionFailed
+
 from ..further.entries import Entries, is_whole
-from ..handle import HandleOutput, handle_output
 
 HANDLE_KEY, EXTENDER_KEY = "handle_request", "extender_switch"
 # Names of the two values, that of the active state first.
 _VALUES = {HANDLE_KEY: ("taken", "released"), EXTENDER_KEY: ("switched_on", "switched_off")}
 
 
-def read_output(entries: Entries, key: str) -> HandleOutput | None:
+@dataclass(frozen=True, eq=False)
+class DeclaredOutput:
+    """active, idle: data of the message that a profile declares."""
+
+    can_id: int
+    is_extended: bool
+    active: bytes
+    idle: bytes
+
+    def frame(self, is_active: bool) -> can.Message:
+        """As it is sent."""
+        return can.Message(arbitration_id=self.can_id, is_extended_id=self.is_extended,
+                           data=self.active if is_active else self.idle)
+
+
+def read_output(entries: Entries, key: str) -> DeclaredOutput | None:
     """Of HANDLE_KEY or EXTENDER_KEY; None when the profile declares none, ConnectionFailed says what is wrong."""
     if key not in entries.content:
         return None
@@ -24,4 +46,18 @@ def read_output(entries: Entries, key: str) -> HandleOutput | None:
     if table[active] == table[idle]:
         raise entries.wrong(f"{active} and {idle} of {key} are both {table[active]}; give two values.")
     message = entries.message(table["message"])
-    return handle_output(message, entries.signal(message, table["signal"]), table[active], table[idle])
+    return _output(message, entries.signal(message, table["signal"]), table[active], table[idle])
+
+
+def _output(message: Any, signal: str, active: int, idle: int) -> DeclaredOutput:
+    """All other signals of the message are 0; ConnectionFailed when the signal has no such values."""
+    return DeclaredOutput(message.frame_id, message.is_extended_frame, _data(message, signal, active),
+                          _data(message, signal, idle))
+
+
+def _data(message: Any, signal: str, value: int) -> bytes:
+    values = {each.name: 0 for each in message.signals}
+    try:
+        return bytes(message.encode({**values, signal: value}, scaling=False, strict=False))
+    except (cantools.database.EncodeError, ValueError, OverflowError):
+        raise ConnectionFailed(f"Signal {signal} of message {message.name} cannot carry the value {value}.") from None

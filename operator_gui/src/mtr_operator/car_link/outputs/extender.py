@@ -9,34 +9,37 @@ import can
 
 from mtr_operator.domain.assistance import OUTPUT, ExtenderPort
 
-from ..handle import HandleOutput
+from .declared import DeclaredOutput
+from .switch import OutputSwitch
 
 
 class BusExtender(ExtenderPort):
-    """send: gives a frame to the adapter; the event that it returns is set when the frame has left."""
+    """send: see OutputSwitch."""
 
     by = OUTPUT
 
-    def __init__(self, output: HandleOutput, send: Callable[[can.Message], threading.Event]):
-        self._output = output
-        self._send = send
-        self._left: threading.Event | None = None
-        self._is_on = False
+    def __init__(self, output: DeclaredOutput, send: Callable[[can.Message], threading.Event]):
+        self._switch = OutputSwitch(output, send)
+        self._is_asked = False
 
     def switch(self, is_on: bool) -> None:
         """See ExtenderPort."""
-        self._is_on = is_on
-        self._left = self._send(self._output.frame(is_on))
+        self._is_asked = True
+        self._switch.switch(is_on)
 
     def is_switched(self) -> bool:
         """See ExtenderPort."""
-        return self._left is not None and self._left.is_set()
+        return self._is_asked and self._switch.is_done()
 
     def release(self) -> None:
         """See ExtenderPort."""
-        self._left = None
+        self._is_asked = False
+
+    def reopened(self) -> None:
+        """See OutputSwitch."""
+        self._switch.reopened()
 
     def close(self) -> None:
         """Leave no extender on behind; safe to call twice."""
-        if self._is_on:
-            self.switch(False)
+        if self._switch.is_active:
+            self._switch.switch(False)

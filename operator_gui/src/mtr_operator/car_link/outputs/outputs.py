@@ -7,11 +7,9 @@ from typing import Callable
 
 import can
 
-from mtr_operator.domain.assistance import HandlePort
-
-from ..handle import BusHandle
 from ..profile import CarProfile
 from .extender import BusExtender
+from .handle import BusHandle
 
 _HANDLE_IDLE = ("The car's profile names an output that takes the handle, and the CAN adapter only listens: a person "
                 "takes it; choose normal mode (--can-normal) to have it switched.")
@@ -27,10 +25,16 @@ class Outputs:
 
     def __init__(self, profile: CarProfile, is_listening: bool, send: Callable[[can.Message], threading.Event]):
         handle, extender = profile.handle_output, profile.extender_output
-        self.handle: HandlePort | None = None if handle is None or is_listening else BusHandle(handle, send)
+        self.handle = None if handle is None or is_listening else BusHandle(handle, send)
         self.extender = None if extender is None or is_listening else BusExtender(extender, send)
         declared = ((handle, _HANDLE_IDLE), (extender, _EXTENDER_IDLE))
         self.notices = tuple(notice for output, notice in declared if output is not None and is_listening)
+
+    def reopened(self) -> None:
+        """The adapter is back after a failure, see OutputSwitch."""
+        for output in (self.handle, self.extender):
+            if output is not None:
+                output.reopened()
 
     def close(self) -> None:
         """Let go of the handle and switch the extender off; safe to call twice."""

@@ -1,0 +1,39 @@
+"""The output that takes the Car's handle: a message on its bus that an actuator at the handle listens to."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import threading
+from typing import Callable
+
+import can
+
+from mtr_operator.domain.assistance import OUTPUT, HandlePort
+
+from .declared import DeclaredOutput
+from .switch import OutputSwitch
+
+
+class BusHandle(HandlePort):
+    """send: see OutputSwitch."""
+
+    by = OUTPUT
+
+    def __init__(self, output: DeclaredOutput, send: Callable[[can.Message], threading.Event]):
+        self._switch = OutputSwitch(output, send)
+
+    def request(self, distance_m: float) -> None:
+        """See HandlePort."""
+        self._switch.switch(True)
+
+    def is_taken(self) -> bool:
+        """See HandlePort."""
+        return self._switch.is_active and self._switch.is_done()
+
+    def release(self) -> None:
+        """See HandlePort."""
+        if self._switch.is_active:
+            self._switch.switch(False)
+
+    def reopened(self) -> None:
+        """See OutputSwitch."""
+        self._switch.reopened()
