@@ -5,7 +5,7 @@ import threading
 import cantools
 import pytest
 
-from mtr_operator.car_link.handle import HandleOutput
+from mtr_operator.car_link.outputs.declared import DeclaredOutput
 from mtr_operator.car_link.outputs.extender import BusExtender
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.domain.errors import ConnectionFailed
@@ -159,7 +159,7 @@ def test_extender_is_switched_when_its_frame_has_left_and_is_not_left_on():
         sent.append(bytes(message.data))
         return left
 
-    extender = BusExtender(HandleOutput(1, False, b"\x01", b"\x00"), send)
+    extender = BusExtender(DeclaredOutput(1, False, b"\x01", b"\x00"), send)
     assert not extender.is_switched()
     extender.switch(True)
     assert sent == [b"\x01"] and not extender.is_switched()
@@ -172,9 +172,36 @@ def test_extender_is_switched_when_its_frame_has_left_and_is_not_left_on():
     assert sent == [b"\x01", b"\x00"]
 
 
+def test_extender_that_could_not_be_switched_off_is_when_the_adapter_is_back_and_never_on():
+    sent, left = [], []
+
+    def send(message):
+        sent.append(bytes(message.data))
+        left.append(threading.Event())
+        return left[-1]
+
+    extender = BusExtender(DeclaredOutput(1, False, b"\x01", b"\x00"), send)
+    extender.reopened()
+    extender.switch(True)
+    extender.reopened()
+    assert sent == [b"\x01"]
+    extender.switch(False)
+    extender.reopened()
+    assert sent == [b"\x01", b"\x00", b"\x00"] and not extender.is_switched()
+    left[-1].set()
+    extender.reopened()
+    assert extender.is_switched() and len(sent) == 3
+
+
 def test_broken_database_is_refused_with_a_sentence(tmp_path):
     with pytest.raises(ConnectionFailed, match="other.dbc cannot be read"):
         load_profile(write(tmp_path, dbc="BO_ what"))
+
+
+def test_sentence_about_a_broken_database_does_not_quote_all_of_it(tmp_path):
+    with pytest.raises(ConnectionFailed) as error:
+        load_profile(write(tmp_path, dbc="BO_ 100 " + "a" * 5000))
+    assert len(str(error.value)) < 1000
 
 
 def test_unknown_profile_names_the_shipped_ones():

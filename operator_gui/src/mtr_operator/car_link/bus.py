@@ -290,6 +290,8 @@ class CanCarLink(CarLink, FrameSink):
 
     def reopened(self) -> None:
         """See FrameSink."""
+        if self._outputs is not None:
+            self._outputs.reopened()
         with self._changed:
             if self._watch is not None:
                 self._watch.restart()

@@ -15,8 +15,7 @@ from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 from .further.declared import KEYS, SOURCES, Further, is_elsewhere, read_further
 from .further.entries import DRIVER_ONLY, FIRST_BUS, Entries, one_line
-from .handle import HandleOutput
-from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, read_output
+from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, DeclaredOutput, read_output
 from .phone.address import FeedAddress
 from .phone.car_signal import KEY as PHONE
 from .phone.car_signal import PhoneSignal, read_phone
@@ -96,14 +95,14 @@ class CarProfile:
     changed_signal: str = ""
     min_state_s: float = _MIN_STATE_S
     relock_after_s: float | None = None
-    handle_output: HandleOutput | None = None
+    handle_output: DeclaredOutput | None = None
     message_names: Mapping[tuple[int, bool], str] = field(default_factory=dict)
     door_signals: Mapping[str, str] = field(default_factory=dict)
     driver_only: frozenset[int] = frozenset()
     further: Further = field(default_factory=Further)
     poll: UdsPoll | None = None
     phone: PhoneSignal | FeedAddress | None = None
-    extender_output: HandleOutput | None = None
+    extender_output: DeclaredOutput | None = None
 
     @property
     def facts(self) -> LockFacts:

@@ -137,7 +137,7 @@ class CanReader:
         if self._stopping.wait(_REOPEN_PERIOD_S):
             return
         try:
-            self._bus = self._open_bus()
+            bus = self._open_bus()
         except ConnectionFailed as error:
             self._sink.fault(str(error))
             return
@@ -145,6 +145,9 @@ class CanReader:
         except Exception as error:
             self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
             return
+        # What was asked for while the adapter was being opened would come too late, as well.
+        self._send_all()
+        self._bus = bus
         self._health = AdapterHealth(self._interface, self._sink)
         self._sink.reopened()
         self._sink.fault("")

@@ -26,6 +26,7 @@ _STAMP_DIGITS = 4
 _STAMP_LIMIT_MS = 60_000
 # Characters before the data of each kind of frame line.
 _HEAD = {"t": 5, "r": 5, "T": 10, "R": 10, "d": 5, "D": 10, "b": 5, "B": 10}
+_STANDARD_HEAD, _STANDARD_BITS, _EXTENDED_BITS = 5, 11, 29
 _WITH_DATA, _FD = "tTdDbB", "dDbB"
 
 # Bits of the answer to F; the first two are cleared by it.
@@ -123,6 +124,9 @@ def _stamp_of(line: str) -> int | None:
     end = head + (2 * length if line[0] in _WITH_DATA else 0)
     stamp = line[end:-1]
     if not is_fd and length > _MAX_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
+        raise ValueError(line)
+    # Eight digits hold more than the 29 bits of an identifier, three more than 11.
+    if int(line[1:head - 1], 16) >= 1 << (_STANDARD_BITS if head == _STANDARD_HEAD else _EXTENDED_BITS):
         raise ValueError(line)
     stamp_ms = int(stamp, 16) if stamp else None
     if stamp_ms is not None and stamp_ms >= _STAMP_LIMIT_MS:

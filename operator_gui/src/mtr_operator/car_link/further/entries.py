@@ -12,8 +12,12 @@ import cantools
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
 
+from .sizes import MAX_SIZE, too_large
+
 # Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
 _MAX_DATABASE_BYTES = 16 * 1024 * 1024
+# Of a library's sentence, characters.
+_MAX_SAID = 300
 # The bus of the profile's own database; further ones have names.
 FIRST_BUS = ""
 # A state of some cars' signal: all but the driver's door are still locked.
@@ -117,8 +121,8 @@ def is_whole(value: Any) -> bool:
 
 
 def one_line(error: Exception) -> str:
-    """What an exception of a library says, without a full stop."""
-    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")
+    """What an exception of a library says, without a full stop; a damaged line is not quoted whole."""
+    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")[:_MAX_SAID]
 
 
 def _either(words: Sequence[str] | Mapping[str, Any]) -> str:
@@ -142,6 +146,10 @@ def _load(path: pathlib.Path) -> Any:
         if path.stat().st_size > _MAX_DATABASE_BYTES:
             raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
                                    "leave the messages that the profile does not name out of it.")
+        size = too_large(path.read_text(encoding="cp1252", errors="replace"), path.suffix)
+        if size:
+            raise ConnectionFailed(f"CAN database {path} cannot be read: it says {size} where a place or a size of a "
+                                   f"message or signal stands; allowed is up to {MAX_SIZE}.")
         database = _parsed(path)
     except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
         raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None

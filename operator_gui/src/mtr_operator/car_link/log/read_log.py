@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 import pathlib
 from typing import Iterator, NamedTuple
 
@@ -15,6 +16,8 @@ SUFFIXES = (".blf", ".asc", ".trc", ".mf4", ".log", ".csv", ".db")
 _GAP_S, _DISORDER_S = 1.0, 0.1
 # Of a log with many gaps the first ones suffice.
 _MAX_NOTES = 3
+# Of a CAN FD frame, ISO 11898-1.
+_MAX_DATA_BYTES = 64
 
 
 class LoggedFrame(NamedTuple):
@@ -27,6 +30,14 @@ class LoggedFrame(NamedTuple):
     data: bytes
     is_fd: bool
     channel: int = 0
+
+
+def _check(message: can.Message) -> None:
+    """ValueError or TypeError for what no bus has carried; the library's readers of texts believe any text."""
+    limit = 1 << (29 if message.is_extended_id else 11)
+    if not (math.isfinite(message.timestamp) and 0 <= message.arbitration_id < limit
+            and len(message.data) <= _MAX_DATA_BYTES):
+        raise ValueError(f"{message.arbitration_id:x}")
 
 
 class ReadLog:
@@ -64,6 +75,7 @@ class ReadLog:
             for message in self._reader:
                 if message.is_error_frame or message.is_remote_frame:
                     continue
+                _check(message)
                 self.count += 1
                 self._look_at_time(message.timestamp, last_s)
                 last_s = message.timestamp
