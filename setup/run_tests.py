@@ -117,7 +117,7 @@ def in_packages(pattern: str) -> List[pathlib.Path]:
 def unit() -> Counts:
     """Tests without a ROS master."""
     folders = [*in_packages("tests/unit"), TOP / "operator_gui" / "tests", TOP / "tests" / "architecture",
-               TOP / "tests" / "contract"]
+               TOP / "tests" / "contract", TOP / "tests" / "fuzz"]
     paths = sorted(str(folder) for folder in folders if any(folder.rglob("test_*.py")))
     return pytest("unit", paths, 60)
 
@@ -126,7 +126,7 @@ def system() -> Counts:
     """Tests of the whole stack."""
     if not firmware_is_built():
         return 0, 1
-    return pytest("system", [str(TOP / "tests" / "system")], 600)
+    return pytest("system", [str(TOP / "tests" / "system"), str(TOP / "tests" / "security")], 600)
 
 
 def pytest(name: str, paths: List[str], timeout_s: int) -> Counts:

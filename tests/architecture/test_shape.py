@@ -17,7 +17,7 @@ WITH_ROS = ("_replay", "_ros")
 ROS_HEADER = re.compile(r"(ros|rosbag|tf2|tf2_ros|urdf|\w+_msgs)/")
 # Folders of tests that setup/run_tests.py runs.
 SUITES = ("tests/unit/", "tests/gui/", "tests/end_to_end/", "tests/architecture/", "tests/contract/", "tests/rostest/",
-          "tests/system/", "tests/host/", "tests/emulated/")
+          "tests/system/", "tests/security/", "tests/fuzz/", "tests/host/", "tests/emulated/")
 
 
 def is_test(path: pathlib.Path) -> bool:

@@ -1,6 +1,5 @@
 """Mutated Statuses at the inbox, and what a test does with those that are taken."""
 # SPDX-License-Identifier: Apache-2.0
-import functools
 import json
 import math
 
@@ -19,8 +18,8 @@ WHOLES = (0, 1, -1, 100, 101, 2 ** 31 - 1, 2 ** 32 - 1, 2 ** 63, 2 ** 64 - 1)
 LATEST_S = 1e12
 
 
-def cases(count, chance):
-    """So many cases; each returns what became of it."""
+def prepare(_):
+    """The case of this border."""
     robot = VirtualRobot(1)
     for _ in range(100):
         robot.step()
@@ -28,7 +27,8 @@ def cases(count, chance):
     for _ in range(50):
         robot.step()
         messages.append(status_message_from(robot.status()))
-    for _ in range(count):
+
+    def case(chance):
         message = type(messages[0])()
         message.CopyFrom(chance.choice(messages))
         for _ in range(chance.randint(1, 3)):
@@ -36,7 +36,8 @@ def cases(count, chance):
         payload = message.SerializePartialToString()
         if chance.random() < 0.3:
             payload = spoilt_bytes(payload, chance)
-        yield functools.partial(try_status, payload)
+        return try_status(payload)
+    return case
 
 
 def spoil(message, chance):

@@ -1,5 +1,6 @@
 """Mutated progress files and journals, at the loaders of window and command line, and what is done with one taken."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import copy
 import functools
 import json
@@ -18,7 +19,7 @@ from mtr_operator.storage.journal_file import Entry, journal_path, line_of
 from mtr_operator.storage.progress_file import load_progress, save_progress
 from mtr_operator.storage.store import Store
 
-WRITTEN_BEFORE = pathlib.Path(__file__).resolve().parents[1] / "unit" / "written_before"
+WRITTEN_BEFORE = pathlib.Path(__file__).resolve().parents[3] / "operator_gui" / "tests" / "unit" / "written_before"
 NASTY = (None, True, False, 0, -1, 1, 2 ** 31, 2 ** 63, 10 ** 400, -0.0, 1e-300, 1e30, -1e30, 4.5e6, "1e999", "NaN", "",
          "x", "0", "\0", "a" * 5000, [], [1], [[]], {}, {"a": 1}, [None] * 50, math.pi)
 
@@ -26,17 +27,18 @@ NASTY = (None, True, False, 0, -1, 1, 2 ** 31, 2 ** 63, 10 ** 400, -0.0, 1e-300,
 NAMES = sorted(path.name for path in WRITTEN_BEFORE.iterdir())
 
 
-def cases(folder, count, chance):
-    """So many cases; each returns what became of it."""
+def prepare(folder):
+    """The case of this border; folder: for its files."""
     documents = {name: json.loads((WRITTEN_BEFORE / name / "progress.json").read_text(encoding="utf-8"))
                  for name in NAMES}
     with_journal = {name: _with_journal(folder / name, name) for name in NAMES}
-    for number in range(count):
+
+    def case(chance):
         name = chance.choice(NAMES)
         path = folder / "case" / "progress.json"
         shutil.rmtree(path.parent, ignore_errors=True)
         path.parent.mkdir()
-        if number % 5:
+        if chance.randrange(5):
             path.write_bytes(mutated(documents[name], chance))
         else:
             shutil.copy(with_journal[name], path)
@@ -45,7 +47,8 @@ def cases(folder, count, chance):
             journal.write_bytes(mutated_journal(journal.read_bytes(), chance))
             if chance.random() < 0.3:
                 path.unlink()
-        yield functools.partial(try_file, path, name, documents[name]["parameters"])
+        return try_file(path, name, documents[name]["parameters"])
+    return case
 
 
 def _with_journal(folder, name):
@@ -85,7 +88,10 @@ def mutated(document, chance):
         elif change == 1 and isinstance(inner, list):
             inner.insert(key, copy.deepcopy(inner[key]))
         elif change == 2 and isinstance(inner[key], (int, float)) and not isinstance(inner[key], bool):
-            inner[key] *= chance.choice((-1, 0, 1e3, 1e6, 1e300))
+            factor = chance.choice((-1, 0, 1e3, 1e6, 1e300))
+            # A whole number of hundreds of digits is no float.
+            with contextlib.suppress(OverflowError):
+                inner[key] *= factor
         else:
             inner[key] = copy.deepcopy(chance.choice(NASTY))
     text = json.dumps(document).replace('"1e999"', "1e999")

@@ -1,0 +1,2 @@
+"""Where bytes of others come in; each module has `prepare`, see harness.py."""
+# SPDX-License-Identifier: Apache-2.0
