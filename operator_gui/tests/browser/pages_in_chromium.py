@@ -3,11 +3,15 @@
 The name keeps it out of `make test`, which needs no browser.
 """
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
+import os
+import pathlib
 import re
 import threading
 
 import measured
 import pytest
+from followed_tests import Measuring, following
 from selenium import webdriver
 from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
@@ -23,26 +27,43 @@ from mtr_results.web.server import make_server
 PATIENCE_S = 20.0
 # A small telephone, held upright.
 NARROW_PX, WIDE_PX, HIGH_PX = 360, 1280, 900
+# Folder for pictures of what the tests have seen.
+SHOTS = "MTR_BROWSER_SHOTS"
 # So few px high a letter cannot be read any more.
 LEAST_LETTER_PX = 7.0
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory):
+def folder(tmp_path_factory):
+    """Of the store; tests that are being measured lie in the folder running within it."""
+    return tmp_path_factory.mktemp("store")
+
+
+@pytest.fixture(scope="module")
+def address(folder):
     """Of a served store: test 1, 2 its repetition and 3 with a weaker antenna, both of the campaign winter."""
-    folder = tmp_path_factory.mktemp("store")
     place = Place(str(folder / "store.sqlite"), spool=folder / "spool")
     door = place.door()
     for number, distances in enumerate(((5.0, 5.5, 6.0, 6.5), (5.05, 5.45, 6.0, 6.5), (4.0, 4.5, 5.0, 5.5)), start=1):
         path = measured.in_folder(folder / str(number), *distances, mark=f"m{number}",
                                   started=f"2026-11-2{number}T10:00:00+00:00")
         door.take(path, "winter" if number > 1 else "")
-    server, listening = make_server(Pages(place.open(), place.kept_files()), Access(port=0))
+    with served(place, folder) as port:
+        yield f"http://127.0.0.1:{port}"
+
+
+@contextlib.contextmanager
+def served(place, folder, port=0):
+    """Context with a server; its port."""
+    server, listening = make_server(Pages(place.open(), place.kept_files()),
+                                    following(place.open(), folder / "running"), Access(port=port))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
     thread.start()
-    yield f"http://127.0.0.1:{listening.getsockname()[1]}"
-    server.should_exit = True
-    thread.join(PATIENCE_S)
+    try:
+        yield listening.getsockname()[1]
+    finally:
+        server.should_exit = True
+        thread.join(PATIENCE_S)
 
 
 @pytest.fixture(scope="module")
@@ -158,6 +179,74 @@ def test_narrow_screen_scrolls_tables_only_and_letters_can_be_read(browser, addr
         "return [...svg.querySelectorAll('text')].filter(each => {const box = each.getBoundingClientRect(); "
         "return box.left < frame.left - 1 || box.right > frame.right + 1;}).map(each => each.textContent)})")
     assert beyond == []
+
+
+@pytest.fixture
+def running(folder):
+    """A test that is being measured: one radial is done, and the next one begun."""
+    name = f"golf {1 + len(list(folder.glob('running/*')))}"
+    with Measuring(folder / "running" / name) as test:
+        test.begin(1, 5.0)
+        for place_m, worked in ((3.0, True), (5.4, False), (4.9, True)):
+            test.press(place_m, worked, 10.0 + place_m)
+        test.end(1, 5.0)
+        test.begin(2, 65.0)
+        test.stand_at(0.5, 4.0, 70.0)
+        yield test
+
+
+def shot(browser, name):
+    """A picture for a person, where one is wanted."""
+    wanted = os.environ.get(SHOTS)
+    if wanted:
+        browser.save_screenshot(str(pathlib.Path(wanted, f"{name}.png")))
+
+
+def test_running_test_is_followed_in_two_windows_without_a_reload(browser, running):
+    browser.find_element(By.LINK_TEXT, "Live").click()
+    waits(browser, expected_conditions.url_contains("/live"))
+    browser.find_element(By.PARTIAL_LINK_TEXT, running.path.parent.name).click()
+    waits(browser, lambda driver: "radial 2: go to the start" in text_of(driver, "#now"))
+    assert "1 of 4 lines" in text_of(browser, "#now") and "about 3 min" in text_of(browser, "#now")
+    first = browser.current_window_handle
+    page = browser.current_url
+    browser.switch_to.new_window("window")
+    second = browser.current_window_handle
+    browser.get(page)
+    running.press(6.5, False, 75.0)
+    running.stand_at(0.5, 6.5, 76.0)
+    for window in (first, second):
+        browser.switch_to.window(window)
+        waits(browser, lambda driver: "4 points" in text_of(driver, "#points"))
+        waits(browser, lambda driver: "y 6.50 m" in text_of(driver, "#now"))
+        assert len(browser.find_elements(By.CSS_SELECTOR, "#picture svg .robot")) == 1
+    shot(browser, "live_wide")
+    browser.close()
+    browser.switch_to.window(first)
+    shot(browser, "live_first")
+
+
+def test_live_page_says_when_the_server_is_not_heard_and_then_shows_all(browser, folder, running):
+    place = Place(str(folder / "store.sqlite"), spool=folder / "spool")
+    with served(place, folder) as port:
+        browser.get(f"http://127.0.0.1:{port}/live")
+        browser.find_element(By.PARTIAL_LINK_TEXT, running.path.parent.name).click()
+        waits(browser, lambda driver: "3 points" in text_of(driver, "#points"))
+    waits(browser, lambda driver: "not heard" in text_of(driver, "#link"))
+    running.press(6.5, False, 75.0)
+    with served(place, folder, port):
+        waits(browser, lambda driver: "4 points" in text_of(driver, "#points") and not text_of(driver, "#link"))
+    # The browser has logged that there was no server.
+    browser.get_log("browser")
+
+
+def test_narrow_live_page_scrolls_tables_only(browser, address, running):
+    browser.set_window_size(NARROW_PX, HIGH_PX)
+    browser.get(address + "/live")
+    browser.find_element(By.PARTIAL_LINK_TEXT, running.path.parent.name).click()
+    waits(browser, lambda driver: "3 points" in text_of(driver, "#points"))
+    shot(browser, "live_narrow")
+    assert browser.execute_script("return document.documentElement.scrollWidth <= window.innerWidth")
 
 
 def test_printed_page_has_no_controls(browser, address):

@@ -18,7 +18,7 @@ class Lock:
     """Context in which this application alone writes the test; InUse when another one does, and says which."""
 
     def __init__(self, path: pathlib.Path):
-        self._path = path.with_name(f".{path.stem}.lock")
+        self._path = _lock_of(path)
         self._descriptor: int | None = None
 
     def __enter__(self) -> Lock:
@@ -69,6 +69,15 @@ class Lock:
         process = f" (process {owner})" if owner.isdigit() else ""
         return (f"Another application{process} is measuring the test in the folder {self._path.parent}; end it there "
                 "first, or choose another folder.")
+
+
+def is_held(path: pathlib.Path) -> bool:
+    """True while an application writes the test with this progress file, or when one was killed; takes no lock."""
+    return os.path.lexists(_lock_of(path))
+
+
+def _lock_of(path: pathlib.Path) -> pathlib.Path:
+    return path.with_name(f".{path.stem}.lock")
 
 
 if sys.platform == "win32":

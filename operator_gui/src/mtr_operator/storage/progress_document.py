@@ -64,9 +64,11 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
     if not isinstance(document, dict) or document.get("format") != FORMAT:
         raise ProgressFileError("It is not a progress file of this application.")
     if document.get("version") != VERSION:
-        raise ProgressFileError(f"It has version {document.get('version')}; this application reads version {VERSION}.")
+        raise ProgressFileError(f"It has version {str(document.get('version'))[:_MAX_SHOWN]}; this application reads "
+                                f"version {VERSION}.")
     if document.get("scenario") != scenario.name:
-        raise ProgressFileError(f"It belongs to the scenario {document.get('scenario')}, not to {scenario.name}.")
+        raise ProgressFileError(f"It belongs to the scenario {str(document.get('scenario'))[:_MAX_SHOWN]}, not to "
+                                f"{scenario.name}.")
     _check_parameters(document.get("parameters"), parameters, scenario)
     try:
         progress = Progress(scenario.name, parameters, _session_from(document["session"]),

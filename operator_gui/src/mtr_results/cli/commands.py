@@ -115,6 +115,8 @@ def _serving(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> N
     command.add_argument("--host", default="127.0.0.1",
                          help="where it listens; beyond this computer only with a token over TLS; default %(default)s")
     command.add_argument("--port", type=int, default=PORT, help="0 for any that is free; default %(default)s")
+    command.add_argument("--follow", action="append", default=[], type=pathlib.Path, metavar="FOLDER",
+                         help="show how tests go on that are measured into this folder; several times for several")
     command.add_argument("--token-file", type=pathlib.Path, default=None, help="file with the token of those who read")
     command.add_argument("--certificate", type=pathlib.Path, default=None, help="of TLS, PEM")
     command.add_argument("--key", type=pathlib.Path, default=None, help="likewise")

@@ -9,8 +9,8 @@ _GAP = "  "
 
 
 def print_json(document: Any) -> None:
-    """One document, as it is."""
-    print(json.dumps(document, indent=1, ensure_ascii=False))
+    """One document, as it is, and at once: a program waits for the address of a server."""
+    print(json.dumps(document, indent=1, ensure_ascii=False), flush=True)
 
 
 def print_table(headings: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:

@@ -13,13 +13,18 @@ from .output import print_json
 
 def serve(options: argparse.Namespace) -> int:
     """Serve until Ctrl-C."""
+    from ..live.followed import Followed
+    from ..live.watch import Watch
     from ..web.access import Access
+    from ..web.live_pages import LivePages
     from ..web.pages import Pages
     from ..web.server import make_server
     place = place_of(options)
     access = Access(options.host, options.port, options.token_file, options.certificate, options.key,
                     options.behind_proxy)
-    server, listening = make_server(Pages(place.open(), place.kept_files()), access)
+    database = place.open()
+    live = LivePages(Watch(Followed(options.follow), database))
+    server, listening = make_server(Pages(database, place.kept_files()), live, access)
     # With port 0 the system chooses.
     address = dataclasses.replace(access, port=listening.getsockname()[1]).address
     if options.json:

@@ -8,6 +8,7 @@ import tempfile
 import zipfile
 from typing import Collection, Iterator
 
+from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.storage.progress_file import FILE_NAME
 
 from ..errors import StoreAway, StoreError
@@ -27,7 +28,11 @@ def unpacked(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pat
         place = pathlib.Path(folder)
         if not (place / FILE_NAME).is_file():
             raise StoreError(f"The bundle {path} holds no {FILE_NAME}; import the folder of the test.")
-        yield place
+        try:
+            yield place
+        except ProgressFileError as error:
+            # The folder is gone when somebody reads this; the bundle is what that person has.
+            raise ProgressFileError(str(error).replace(str(place / FILE_NAME), str(path))) from None
 
 
 def _verify(path: pathlib.Path, stations: Collection[str]) -> None:

@@ -40,6 +40,16 @@ def _style() -> str:
     return (_TEMPLATES / "style.css").read_text(encoding="utf-8")
 
 
+def template_text(name: str) -> str:
+    """A file beside the templates, as it is."""
+    return (_TEMPLATES / name).read_text(encoding="utf-8")
+
+
+def render_part(template: str, **values: Any) -> str:
+    """A part of a page that is changed while the page is shown."""
+    return _environment().get_template(template).render(**values)
+
+
 def render(template: str, title: str, served: bool = False, **values: Any) -> str:
     """A page by its template. served: it is in the browser, with links to others; else it stands alone."""
     # The style is the project's own text, and goes in as it is.
@@ -50,25 +60,40 @@ def render(template: str, title: str, served: bool = False, **values: Any) -> st
 def page_of_test(test: Row, parts: Mapping[str, Sequence[Row]], side: Side, served: bool = False,
               kept: frozenset[str] = frozenset()) -> str:
     """Page of one test. kept: check sums of files that can be had."""
-    names = {result.number: line_name(side.scenario, result) for result in side.progress.results}
-    reasons = {line["number"]: line["reason"] for line in parts["lines"]}
-    words = {word: number for number, word in enumerate(side.scenario.distance_words)}
-    current = sorted((row for row in parts["measurements"] if row["is_current"]),
-                     key=lambda row: (row["line"], words.get(row["word"], len(words))))
-    distances = [{"name": names[row["line"]], "word": row["word"], "text": figure_text(row), "status": row["status"],
-                  "interval": _interval(row), "expanded": _metres(row["expanded_m"]),
-                  "reason": reasons[row["line"]]} for row in current]
+    names = names_of(side)
+    distances = distance_texts(side, parts["lines"], parts["measurements"])
     facts = [(title, test[name]) for name, title in _FACTS.items() if test[name] not in ("", None)]
     facts += [("equipment", " ".join(filter(None, (each["name"], each["serial"], each["calibrated"]))))
               for each in test["equipment"]]
     verdicts = [{**row, "name": names.get(row["line"], f"line {row['line']}")} for row in parts["verdicts"]
                 if row["line"]]
-    trials = [{**row, "place": _place(row)} for row in parts["trials"]]
+    trials = trial_texts(parts["trials"])
     files = [{**file, "is_kept": file["sha256"] in kept} for file in parts["files"]]
     title = f"Test {test['id']}: {side.scenario.title}, {test['started'].replace('T', ' ')[:16]}"
     return render("test.html", title, served, test=test, picture=around_car(side), line_word=side.scenario.line_word,
                   distances=distances, verdicts=verdicts, facts=facts,
                   trials=trials, files=files)
+
+
+def names_of(side: Side) -> dict[int, str]:
+    """Of the lines that have a result."""
+    return {result.number: line_name(side.scenario, result) for result in side.progress.results}
+
+
+def distance_texts(side: Side, lines: Sequence[Row], measurements: Sequence[Row]) -> list[dict[str, str]]:
+    """The distances that count, line by line, as they are shown."""
+    names, reasons = names_of(side), {line["number"]: line["reason"] for line in lines}
+    words = {word: number for number, word in enumerate(side.scenario.distance_words)}
+    current = sorted((row for row in measurements if row["is_current"]),
+                     key=lambda row: (row["line"], words.get(row["word"], len(words))))
+    return [{"name": names[row["line"]], "word": row["word"], "text": figure_text(row), "status": row["status"],
+             "interval": _interval(row), "expanded": _metres(row["expanded_m"]), "reason": reasons[row["line"]]}
+            for row in current]
+
+
+def trial_texts(trials: Sequence[Row]) -> list[dict[str, Any]]:
+    """Points with their places as they are shown."""
+    return [{**row, "place": _place(row)} for row in trials]
 
 
 def page_of_comparison(first: Sequence[Side], second: Sequence[Side], texts: tuple[str, str],

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import math
-from typing import Sequence
+from typing import Any, Mapping, Sequence
 
+from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.picture import PointSet, Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.history.estimate import Estimate, Known
@@ -18,6 +21,8 @@ from .drawing import Drawing, Point
 
 # A label stands so far beyond the end of its line, in m.
 _LABEL_M = 0.35
+# Length of the robot, in m.
+ROBOT_M = 0.51
 # A side takes the room of so many lines.
 _ROOM_OF_SIDE = 1.8
 # The figures of control limits stand beside the chart, by its width.
@@ -32,15 +37,58 @@ def around_car(side: Side) -> str:
     """What the protocol of a test shows, the Car's front on top; empty before the Car was mapped."""
     if side.progress.car is None:
         return ""
-    picture = side.scenario.picture(side.parameters, side.progress.car, side.progress.results)
     drawing = Drawing(f"{side.scenario.title}: points around the Car")
-    _draw_car(drawing, side.progress.car)
+    _draw_test(drawing, side, side.progress.car)
+    return drawing.svg()
+
+
+def around_car_so_far(side: Side, points: Sequence[Mapping[str, Any]], robot: Pose | None) -> str:
+    """The same of a test that is being measured, with the lines that are still to come, so that the picture stays as
+    large as it is. points: rows of trials, of which those of lines without a result are drawn. robot: base_link in the
+    Car coordinate system, None where nobody knows it."""
+    car = side.progress.car
+    if car is None:
+        return ""
+    drawing = Drawing(f"{side.scenario.title}: points around the Car so far")
+    near_m, far_m = side.scenario.distance_range(side.parameters)
+    rays = {line.number: line.ray for line in side.scenario.lines(side.parameters, car)}
+    for ray in rays.values():
+        drawing.line([_up(ray.point(near_m)), _up(ray.point(far_m))], "stretch planned")
+    _draw_test(drawing, side, car)
+    measured = set(side.progress.measured())
+    for row in points:
+        place = _place_of(row, rays)
+        if place is not None and row["line"] not in measured:
+            kind = "first" if row["status"] == LineStatus.OK.value else "failed"
+            drawing.dot(_up(place), f"point {kind}", f"{row['word']}: {row['status']}")
+    if robot is not None:
+        _draw_robot(drawing, robot)
+    return drawing.svg()
+
+
+def _place_of(row: Mapping[str, Any], rays: Mapping[int, Ray]) -> Point | None:
+    """Of a trial; None where the key's place is not told."""
+    if row["x_m"] is not None and row["y_m"] is not None:
+        return float(row["x_m"]), float(row["y_m"])
+    if row["distance_m"] is None or row["line"] not in rays:
+        return None
+    return rays[row["line"]].point(float(row["distance_m"]))
+
+
+def _draw_test(drawing: Drawing, side: Side, car: CarDimensions) -> None:
+    picture = side.scenario.picture(side.parameters, car, side.progress.results)
+    _draw_car(drawing, car)
     for stretch in picture.stretches:
         _draw_stretch(drawing, stretch)
     for point_set in picture.point_sets:
         _draw_set(drawing, point_set)
-    return drawing.svg()
 
+
+def _draw_robot(drawing: Drawing, robot: Pose) -> None:
+    """A triangle that points where the robot looks."""
+    ahead, beside = ROBOT_M / 2.0, ROBOT_M / 2.5
+    corners = [robot.apply(corner) for corner in ((ahead, 0.0), (-ahead, beside), (-ahead, -beside))]
+    drawing.line([_up(corner) for corner in corners], "robot", is_closed=True, title="Robot")
 
 
 

@@ -83,6 +83,12 @@ def number_of(connection: Connection, word: str) -> int:
     return int(found[0])
 
 
+def number_by_key(connection: Connection, test_key: str) -> int | None:
+    """Of the test with this key; None when it is not in the store."""
+    found = connection.execute(select(Test.id).where(Test.test_key == test_key)).scalar()
+    return None if found is None else int(found)
+
+
 def side(connection: Connection, number: int) -> Side:
     """All of a test, as the application has it; StoreError when there is none of this number."""
     document = connection.execute(select(Test.document).where(Test.id == number)).scalar()

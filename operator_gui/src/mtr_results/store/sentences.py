@@ -16,7 +16,7 @@ _AWAY = (
     ("no space left", "its disk is full; make room"),
     ("unable to open", "its file cannot be opened; look for the folder and its rights"),
     ("readonly", "its file may not be written; look for its rights"),
-    ("disk i/o error", "its disk has errors"),
+    ("disk i/o error", "its disk is full, or has errors; make room, and look at the disk"),
     ("can't create a connection", "no database server answers there; look whether it runs, and at the address"),
     ("network error", "the connection to the database server broke"),
 )

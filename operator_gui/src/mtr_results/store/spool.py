@@ -18,6 +18,8 @@ from ..intake.record import TestRecord
 _PART = ".part-"
 # Hidden, so that it is no file of the test.
 _CAMPAIGN = ".campaign"
+# Of a copy, in its folder, as long as it is made.
+_WHOLE = "test"
 
 
 class Spool:
@@ -37,26 +39,20 @@ class Spool:
             return target
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            part = pathlib.Path(tempfile.mkdtemp(prefix=_PART, dir=self.folder))
-            for file, source in record.files.items():
-                copied = part / _own_name(file, progress_path(path))
-                copied.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source, copied)
-            (part / _CAMPAIGN).write_text(campaign, encoding="utf-8")
-            self._name(part, target)
+            # What is left of a copy that fails would keep a full disk full.
+            with tempfile.TemporaryDirectory(prefix=_PART, dir=self.folder) as name:
+                part = pathlib.Path(name, _WHOLE)
+                part.mkdir()
+                for file, source in record.files.items():
+                    copied = part / _own_name(file, progress_path(path))
+                    copied.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copyfile(source, copied)
+                (part / _CAMPAIGN).write_text(campaign, encoding="utf-8")
+                _name(part, target)
         except OSError as error:
             raise StoreError(f"The test in {path} cannot wait in the folder {self.folder}: {error.strerror or error}. "
                              "It is where it was; import it again.") from None
         return target
-
-    def _name(self, part: pathlib.Path, target: pathlib.Path) -> None:
-        try:
-            os.rename(part, target)
-        except OSError:
-            # Where another program has just put the same test, its copy is as good.
-            shutil.rmtree(part, ignore_errors=True)
-            if not target.is_dir():
-                raise
 
     def campaign_of(self, place: pathlib.Path) -> str:
         """Into which a test that waits is to go; empty when nobody said."""
@@ -73,6 +69,15 @@ class Spool:
     def remove(self, place: pathlib.Path) -> None:
         """A test that is in the store waits no longer; where that fails it goes in again, which changes nothing."""
         shutil.rmtree(place, ignore_errors=True)
+
+
+def _name(part: pathlib.Path, target: pathlib.Path) -> None:
+    try:
+        os.rename(part, target)
+    except OSError:
+        # Where another program has just put the same test, its copy is as good.
+        if not target.is_dir():
+            raise
 
 
 def _own_name(name: str, record: pathlib.Path) -> str:

@@ -4,18 +4,19 @@ from __future__ import annotations
 
 import hmac
 import mimetypes
-from typing import Callable
+from typing import Callable, Mapping
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
 from starlette.requests import Request
-from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from mtr_operator.domain.errors import OperatorError
 
 from ..errors import StoreAway
 from ..report.pages import render
+from .live_pages import LivePages
 from .pages import Pages
 
 COOKIE = "mtr_results"
@@ -23,18 +24,21 @@ COOKIE = "mtr_results"
 HEADERS = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; form-action 'self'; "
                                       "base-uri 'none'; frame-ancestors 'none'",
            "X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin", "Cache-Control": "no-store"}
+# A page that follows a test runs the server's own script, which asks this server alone.
+LIVE_HEADERS = {**HEADERS, "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
+    "default-src 'none';", "default-src 'none'; script-src 'self'; connect-src 'self';")}
 Answer = Callable[[Request], Response]
 
 
-def application(pages: Pages, token: str = "", hosts: frozenset[str] = frozenset()) -> Starlette:
+def application(pages: Pages, live: LivePages, token: str = "", hosts: frozenset[str] = frozenset()) -> Starlette:
     """Answers requests. token: who reads has to know it, empty for everybody who reaches the server. hosts: names under
     which a browser may ask, empty for any: a page from elsewhere that calls itself this computer is refused."""
 
-    def route(path: str, answer: Answer) -> Route:
+    def route(path: str, answer: Answer, headers: Mapping[str, str] = HEADERS) -> Route:
         async def endpoint(request: Request) -> Response:
             refused = _refusal(request, token, hosts)
             response = refused or await run_in_threadpool(_answered, answer, request)
-            response.headers.update(HEADERS)
+            response.headers.update(headers)
             return response
         return Route(path, endpoint, methods=["GET"])
 
@@ -42,6 +46,10 @@ def application(pages: Pages, token: str = "", hosts: frozenset[str] = frozenset
         route("/", lambda request: HTMLResponse(pages.tests(request.query_params))),
         route("/compare", lambda request: HTMLResponse(pages.comparison(request.query_params))),
         route("/trend", lambda request: HTMLResponse(pages.trend(request.query_params))),
+        route("/live", lambda request: HTMLResponse(live.list())),
+        route("/live.js", lambda request: Response(live.script(), media_type="text/javascript")),
+        route("/live/{name}", lambda request: HTMLResponse(live.page(request.path_params["name"])), LIVE_HEADERS),
+        route("/live/{name}/events", lambda request: _events(live, request.path_params["name"])),
         route("/report/compare.html", lambda request: _download(
             pages.comparison(request.query_params, served=False).encode(), "comparison.html")),
         route("/report/{number:int}.html", lambda request: _download(
@@ -52,6 +60,15 @@ def application(pages: Pages, token: str = "", hosts: frozenset[str] = frozenset
             pages.test_document(request.path_params["number"]))),
         route("/tests/{number:int}/files/{name:path}", lambda request: _download(
             pages.file(request.path_params["number"], request.path_params["name"]), request.path_params["name"]))])
+
+
+def _events(live: LivePages, name: str) -> Response:
+    test = live.test(name)
+    if live.is_full:
+        return HTMLResponse(render("problem.html", "Not possible", True,
+                                   sentence="So many browsers follow tests that no more are served."), 503)
+    return StreamingResponse(live.events(test.name), media_type="text/event-stream",
+                             headers={"X-Accel-Buffering": "no"})
 
 
 def _answered(answer: Answer, request: Request) -> Response:

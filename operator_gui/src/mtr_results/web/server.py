@@ -9,13 +9,18 @@ import uvicorn
 from ..errors import StoreError
 from .access import Access
 from .application import application
+from .live_pages import LivePages
 from .pages import Pages
 
+# Browsers that follow a test hold their connections; the server ends without them.
+_FAREWELL_S = 1
 
-def make_server(pages: Pages, access: Access) -> tuple[uvicorn.Server, socket.socket]:
+
+def make_server(pages: Pages, live: LivePages, access: Access) -> tuple[uvicorn.Server, socket.socket]:
     """A server and its socket, which already listens; StoreError when the port is taken or TLS cannot be done."""
-    app = application(pages, access.token(), access.hosts)
+    app = application(pages, live, access.token(), access.hosts)
     config = uvicorn.Config(app, log_level="warning", lifespan="off", server_header=False,
+                            timeout_graceful_shutdown=_FAREWELL_S,
                             ssl_certfile=access.certificate, ssl_keyfile=access.key)
     try:
         family = socket.AF_INET6 if ":" in access.host else socket.AF_INET

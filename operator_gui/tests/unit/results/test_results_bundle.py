@@ -82,6 +82,17 @@ def test_a_bundle_of_a_newer_version_says_so(place, bundle, tmp_path):
     assert intake.outcome == "refused" and "was written by a newer version" in intake.sentence
 
 
+def test_a_bundle_of_a_test_of_a_newer_version_is_named_in_the_sentence(place, tmp_path, station):
+    path = measured.in_folder(tmp_path / "test", 5.0)
+    scenario, _, progress = open_progress(path, SCENARIOS)
+    path.write_text(path.read_text("utf-8").replace('"version": 1', '"version": 2'), encoding="utf-8")
+    newer = tmp_path / "newer.mtr.zip"
+    write_bundle(newer, path, scenario, progress, None, station=station)
+    (intake,) = taken(place, newer)
+    assert intake.outcome == "refused" and count(place) == 0
+    assert f"from {newer}. It has version 2; this application reads version 1." in intake.sentence
+
+
 def test_a_bundle_waits_in_the_spool_while_the_store_is_away(place, bundle, tmp_path):
     place.open()
     away = type(place)("postgresql://nobody@127.0.0.1:1/none", tmp_path / "files", place.spool)

@@ -1,6 +1,10 @@
 """The store: each test once, whole, with every point; two writers at once; nothing lost while it is away."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
+import errno
 import json
+import os
+import shutil
 import sqlite3
 import threading
 import time
@@ -12,17 +16,20 @@ from alembic.autogenerate import compare_metadata
 from alembic.config import Config
 from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
-from sqlalchemy import text
+from sqlalchemy import Engine, event, text
+from sqlalchemy.exc import OperationalError
 
 import mtr_results.migrations
 from mtr_operator.domain.identity.identity import Equipment, Identity
 from mtr_operator.domain.verdict.limits_document import limits_from
 from mtr_operator.history.line_pairs import open_side
-from mtr_results.errors import StoreError
+from mtr_results.errors import StoreAway, StoreError
 from mtr_results.intake.record import read_record
 from mtr_results.model.tables import EXPORTED, METADATA
 from mtr_results.store import reading
 from mtr_results.store.reading import Search
+from mtr_results.store.sentences import told
+from mtr_results.store.spool import Spool
 from mtr_results.store.writing import Outcome, add
 
 GOLF = Identity("WVW1", "Golf", "SW 7", key_serial="0042", operator="Nov\u00e1k", notes="Doors SHUT 100%",
@@ -204,6 +211,46 @@ def test_what_comes_while_the_store_is_away_waits_and_goes_in_later(tmp_path, pl
     with away.open().reading() as connection:
         assert [row["campaign"] for row in reading.find(connection, Search())] == ["winter", "winter"]
         assert {len(reading.parts(connection, number)["files"]) for number in (1, 2)} == {2}
+
+
+@contextlib.contextmanager
+def full_disk():
+    """Context in which no store that is opened can grow."""
+    def limit(connection, _record):
+        # SQLite takes the size that there is already for the least.
+        connection.execute("PRAGMA max_page_count = 1")
+    event.listen(Engine, "connect", limit)
+    try:
+        yield
+    finally:
+        event.remove(Engine, "connect", limit)
+
+
+def test_full_store_is_away_and_takes_what_waits_when_there_is_room(place, tmp_path):
+    place.open().close()
+    with full_disk():
+        found = place.door().take(measured.in_folder(tmp_path / "one", *[5.0] * 40, lines=40))
+        assert found.outcome == "spooled" and "its disk is full; make room" in found.sentence
+        with place.open().reading() as connection:
+            assert reading.find(connection, Search()) == []
+    assert [each.outcome for each in place.door().take_waiting()] == ["added"]
+
+
+def test_nothing_is_left_of_a_test_that_cannot_wait_on_a_full_disk(tmp_path, monkeypatch):
+    def copy_part(source, target):
+        target.write_bytes(source.read_bytes()[:100])
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    monkeypatch.setattr(shutil, "copyfile", copy_part)
+    path, spool = measured.in_folder(tmp_path / "one", 5.0), Spool(tmp_path / "spool")
+    with pytest.raises(StoreError, match="No space left on device. It is where it was; import it again."):
+        spool.put(read_record(path), path)
+    assert [*spool.folder.iterdir()] == []
+
+
+def test_store_that_cannot_be_read_on_a_full_disk_says_so():
+    # What SQLite says when the file that its readers share finds no room.
+    with pytest.raises(StoreAway, match="its disk is full, or has errors"), told("lab"):
+        raise OperationalError("SELECT 1", {}, sqlite3.OperationalError("disk I/O error"))
 
 
 def test_locked_store_is_away_and_says_so(place, tmp_path, monkeypatch):

@@ -8,6 +8,7 @@ import threading
 
 import measured
 import pytest
+from followed_tests import following
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.verdict.limits_document import limits_from
@@ -61,7 +62,8 @@ def serve(store):
     ending = []
 
     def start(**access):
-        server, listening = make_server(Pages(store.open(), store.kept_files()), Access(port=0, **access))
+        server, listening = make_server(Pages(store.open(), store.kept_files()), following(store.open()),
+                                        Access(port=0, **access))
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]})
         thread.start()
         ending.append((server, thread))
@@ -164,6 +166,6 @@ def test_token_is_asked_for_once_and_a_stranger_s_name_is_refused(serve, tmp_pat
 
 
 def test_taken_port_is_a_sentence(store):
-    _, listening = make_server(Pages(store.open(), None), Access(port=0))
+    _, listening = make_server(Pages(store.open(), None), following(store.open()), Access(port=0))
     with listening, pytest.raises(StoreError, match="choose another --port"):
-        make_server(Pages(store.open(), None), Access(port=listening.getsockname()[1]))
+        make_server(Pages(store.open(), None), following(store.open()), Access(port=listening.getsockname()[1]))

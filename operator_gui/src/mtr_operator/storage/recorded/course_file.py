@@ -9,9 +9,11 @@ A line that is cut off ends what can be read.
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import dataclasses
 import json
 import math
+import os
 import pathlib
 from typing import Any, Iterator, Mapping, NamedTuple, TextIO, Union
 
@@ -30,6 +32,8 @@ _NAMES = (*_VALUES, _FRAME, _CLOCK_STEPS)
 _MARK = tuple(item.name for item in dataclasses.fields(BusMark))
 # Statuses between two times at which what was written leaves this program.
 _FLUSH_EVERY = 10
+# Some hundred Statuses.
+_TAIL_BYTES = 64 * 1024
 
 
 class Moment(NamedTuple):
@@ -109,6 +113,26 @@ def read_course(path: pathlib.Path) -> Iterator[Entry]:
         raise ProgressFileError(f"The course {path} cannot be read: {error.strerror or error}.") from None
     except UnicodeDecodeError:
         raise ProgressFileError(f"The course {path} is damaged; it is no text.") from None
+
+
+def newest_moment(path: pathlib.Path) -> Moment | None:
+    """The last Status that is whole, without reading what lies before; None when none is found near the end."""
+    try:
+        with open(path, "rb") as file:
+            names = json.loads(file.readline())[2]
+            begun, ended = file.tell(), file.seek(0, os.SEEK_END)
+            file.seek(max(begun, ended - _TAIL_BYTES))
+            # What lies behind the last end of a line is still being written.
+            lines = file.read().split(b"\n")[:-1]
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):
+        return None
+    for line in reversed(lines):
+        # The first one may be cut, and notes lie between.
+        with contextlib.suppress(ValueError, LookupError, TypeError, RecursionError):
+            kind, values, *_ = json.loads(line)
+            if kind == _STATUS:
+                return Moment(_status(dict(zip(names, values))), None)
+    return None
 
 
 def _entries(path: pathlib.Path, file: TextIO) -> Iterator[Entry]:

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+"use strict";
+// Each event holds the sections that have changed, by their ids; the first one after each connection holds them all.
+(() => {
+  const address = document.currentScript.dataset.events;
+  const link = document.getElementById("link");
+  const AGAIN_MS = 3000;
+  function follow() {
+    const source = new EventSource(address);
+    source.onopen = () => { link.textContent = ""; };
+    source.onmessage = (event) => {
+      for (const [id, html] of Object.entries(JSON.parse(event.data))) {
+        document.getElementById(id).innerHTML = html;
+      }
+    };
+    source.onerror = () => {
+      link.textContent = "The server is not heard; what is shown is as old as that. It is asked again.";
+      // A refusal ends the connection for good, a server that is away does not.
+      if (source.readyState === EventSource.CLOSED) { setTimeout(follow, AGAIN_MS); }
+    };
+  }
+  follow();
+})();
