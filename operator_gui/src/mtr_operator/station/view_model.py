@@ -19,6 +19,7 @@ from mtr_operator.report.assessed import assess
 
 from .checks.checklist import Facts, Wanted, checklist
 from .checks.finding import Item
+from .checks.remaining import Remaining
 from .estimate import USUAL_CAR, USUAL_FACTS, TimeLeft, plan_of
 from .events import (
     ActionBegun,
@@ -91,6 +92,7 @@ class ViewModel:
         self.obstacles = ObstacleMap()
         self.events = EventList()
         self.wanted = Wanted()
+        self._remaining = Remaining()
         self.free_bytes: int | None = None
         self._answered_s: float | None = None
 
@@ -120,9 +122,10 @@ class ViewModel:
     def checklist(self) -> tuple[Item, ...]:
         """What has to be right before the robot moves."""
         answered_s = None if self._answered_s is None else self._clock() - self._answered_s
-        test, wanted = self.test, self.wanted
-        if test is not None and test.progress.limits is not None:
-            wanted = Wanted(limits=len(test.progress.limits.requirements))
+        mapped = None if self.robot is None else self.robot.status.car
+        wanted = self.wanted
+        if self.test is not None and wanted.plan is None:
+            wanted = self._remaining.of(self.test, self.results, mapped, self.facts, self.obstacles)
         return checklist(Facts(self.robot, self.silent_s, wanted, answered_s, self.free_bytes))
 
     @property

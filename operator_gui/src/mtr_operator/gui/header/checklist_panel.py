@@ -9,6 +9,7 @@ from PyQt5.QtWidgets import QGridLayout, QLabel, QWidget
 
 from mtr_operator.station.checks.finding import Item, State
 
+from ..fitting.prose import Prose
 from ..i18n import translate
 from ..theme.scale import XS, M
 from ..theme.state import show_state
@@ -30,7 +31,7 @@ class ChecklistPanel(QWidget):
         self._grid.setHorizontalSpacing(M)
         self._grid.setVerticalSpacing(XS)
         self._grid.setColumnStretch(_COLUMNS - 1, 1)
-        self._rows: list[tuple[QLabel, ...]] = []
+        self._rows: list[tuple[QLabel, QLabel, Prose]] = []
 
     def show_items(self, items: Sequence[Item]) -> None:
         """Show these."""
@@ -50,16 +51,15 @@ class ChecklistPanel(QWidget):
         return [" ".join(label.text() for label in row if label.text()) for row in self._rows[:len(self._shown)]]
 
     def _add_row(self) -> None:
-        row = tuple(QLabel() for _ in range(_COLUMNS))
+        row = (QLabel(), QLabel(), Prose())
         for column, label in enumerate(row):
             label.setAlignment(Qt.AlignmentFlag.AlignTop)
             label.setTextFormat(Qt.TextFormat.PlainText)
-            label.setWordWrap(column == _COLUMNS - 1)
             self._grid.addWidget(label, len(self._rows), column)
         self._rows.append(row)
 
     @staticmethod
-    def _fill(row: tuple[QLabel, ...], item: Item) -> None:
+    def _fill(row: tuple[QLabel, QLabel, Prose], item: Item) -> None:
         sign, name, sentence = row
         sign.setText(sign_of(item.state))
         sign.setAccessibleName(state_word(item.state))

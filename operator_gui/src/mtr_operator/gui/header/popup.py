@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from PyQt5.QtCore import QPoint, Qt
-from PyQt5.QtWidgets import QFrame, QLabel, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QFrame, QVBoxLayout, QWidget
 
 from ..fitting.place import available
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..stopping import Stopping
 from ..theme.scale import M, S
@@ -94,8 +95,7 @@ class Popup(QFrame):
         self.fit()
 
     def _add(self, text: str, role: str) -> None:
-        label = QLabel(text)
-        label.setWordWrap(True)
+        label = Prose(text)
         label.setTextFormat(Qt.TextFormat.PlainText)
         label.setProperty("role", role)
         self._layout.addWidget(label)

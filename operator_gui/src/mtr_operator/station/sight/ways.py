@@ -39,15 +39,19 @@ class Ways:
 
 def ways_of(stretches: Sequence[Stretch], car: CarDimensions, obstacles: ObstacleMap) -> Ways:
     """Of the lines of a plan, by what the robot has seen around this Car."""
-    half = np.array([car.length / 2.0, car.width / 2.0])
-    places = obstacles.places
-    places = places[np.hypot(*np.maximum(np.abs(places) - half, 0.0).T) > _CAR_M]
+    places = beside_car(obstacles.places, car)
     found = [(stretch.label, place) for stretch in stretches for place in _on_way(stretch, places)]
     hindered = tuple(dict.fromkeys(label for label, _ in found))
     gap_m = min((gap_to_outline((float(place[0]), float(place[1])), car) for _, place in found), default=math.nan)
     unseen = dict.fromkeys(stretch.label for stretch in stretches
                            if stretch.label not in hindered and not _is_seen(stretch, obstacles))
     return Ways(hindered, gap_m, tuple(unseen))
+
+
+def beside_car(places: Any, car: CarDimensions) -> Any:
+    """Those of the places, (n, 2), m, where something else than the Car is seen."""
+    half = np.array([car.length / 2.0, car.width / 2.0])
+    return places[np.hypot(*np.maximum(np.abs(places) - half, 0.0).T) > _CAR_M]
 
 
 def spans(labels: Sequence[str]) -> str:
