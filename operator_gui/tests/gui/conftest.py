@@ -265,6 +265,14 @@ def operator(start, qtbot, tmp_path):
 
 
 @pytest.fixture
+def protocol(operator, opener):
+    """The protocol screen of a finished Autolock test on 8 axes."""
+    opener.passive = True
+    operator.begin("autolock")
+    return operator.finish()
+
+
+@pytest.fixture
 def newcomer(start, qtbot, tmp_path):
     """A person at the connection window."""
     return Operator(start(), qtbot, tmp_path)

@@ -54,6 +54,12 @@ def test_newest_event_is_first_and_the_list_grows_and_is_filtered(window, applic
     assert window.table.model().index(0, 0).data(Qt.ForegroundRole) is not None
 
 
+@pytest.mark.parametrize("application", ["en"], indirect=True)
+def test_each_event_begins_with_a_capital_letter(window, application):
+    tell(application.flow, entry("axis 7 (right): measured", EventKind.TEST, INFO, "application"))
+    assert texts(window)[0] == "Axis 7 (right): measured"
+
+
 @pytest.mark.parametrize("application", ["cs"], indirect=True)
 def test_events_speak_czech_and_are_searched_so(window):
     assert texts(window)[1] == "Robot má poruchu."
@@ -84,12 +90,12 @@ def test_robots_log_locks_and_orders_are_listed_and_kept_with_the_test(operator,
     found = texts(window)
     assert found.count("The lift is slow.") == 1
     assert any(text.startswith("The Car is unlocked now") for text in found)
-    assert "The test begins." in found and any(text.startswith("radial 1 (") for text in found)
+    assert "The test begins." in found and any(text.startswith("Radial 1 (") for text in found)
     path, = recorded_events(recording_folder(operator.model.test.path))
     kept = [each.text for each in read_events(path)]
     assert kept[0] == "The test begins." and kept[-1] == "All lines are measured."
     window.of.setCurrentIndex(1)
-    assert texts(window) == kept[::-1]
+    assert texts(window) == [text[:1].upper() + text[1:] for text in kept[::-1]]
     assert "They are kept in" in window.notice.text()
 
 

@@ -46,6 +46,17 @@ def test_parameters_fit_with_the_longest_sentences_and_the_picture_is_seen(appli
     assert screen.picture.view.height() >= 100
 
 
+@pytest.mark.parametrize("size", [QSize(1360, 860), QSize(1008, 660)])
+def test_preview_has_its_tools_in_sight(application, main, size):
+    tell(application)
+    main.types.chosen.emit("autolock")
+    screen = main.settings["autolock"]
+    main.resize(size)
+    QApplication.processEvents()
+    ruler = screen.picture.ruler
+    assert ruler.visibleRegion().boundingRect() == ruler.rect()
+
+
 @pytest.mark.parametrize("size", [QSize(1350, 696), QSize(1008, 660)])
 def test_what_speaks_against_the_parameters_is_seen_without_scrolling(application, main, size):
     tell(application)

@@ -28,6 +28,10 @@ def test_connection_window_fits__B6(application, show, monkeypatch):
     window.can.interface.setCurrentIndex(1)
     window._show_refusal("robot", "No answer from the subscriber port 3334 of 192.168.0.10; is the robot on?")
     assert_fits(window, monkeypatch)
+    window.pairing._show_refusal("192.168.0.300 is no address of a robot that is reached.")
+    window.robot.host.show_fault("Robot address is 192.168.0.300; an IPv4 address is four numbers from 0 to 255.")
+    window.can.interface.setCurrentIndex(window.can.interface.count() - 1)
+    assert_fits(window, monkeypatch)
 
 
 def test_adapters_of_three_buses_fit(application, main, show, monkeypatch, tmp_path):

@@ -15,6 +15,7 @@ from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.history.history_model import HistoryModel
 from mtr_operator.gui.history.replay_window import ReplayWindow
 from mtr_operator.gui.history.spread_window import SpreadWindow
+from mtr_operator.gui.i18n import Language
 from mtr_operator.replay import replay_file
 from mtr_operator.replay.replay import ReplayedTest
 from mtr_operator.storage.progress_file import open_progress, save_progress
@@ -98,6 +99,13 @@ def test_two_tests_are_compared_with_stop_in_sight(lab):
     window.table.selectRow(1)
     assert "Car's VIN: OTHER / \N{EN DASH}" in window.summary.text()
     window.close()
+    language = Language()
+    language.use("cs")
+    try:
+        said = ComparisonWindow(window.comparison, lab.application.appearance).summary.text()
+    finally:
+        language.use("en")
+    assert "2kr\u00e1t " in said
 
 
 def opened(lab, kind):
@@ -236,6 +244,20 @@ def test_ten_thousand_tests_with_a_broken_one_are_found_and_only_those_in_sight_
     assert 0 < len(asked) < 10_000
     history.filters.car.setCurrentIndex(history.filters.car.findData("VIN9999"))
     assert [each.car for each in history.shown] == ["VIN9999"]
+
+
+def test_choice_of_ten_thousand_is_kept_at_once_while_the_list_grows(lab, monkeypatch):
+    history = show(lab)
+    entry = history.shown[0]
+    entries = [dataclasses.replace(entry, path=f"{number}.json", test_id=str(number)) for number in range(10_000)]
+    history._learn(entries[:-1])
+    history.table.selectAll()
+    looks = []
+    show_choice = history._show_choice
+    monkeypatch.setattr(history, "_show_choice", lambda: looks.append(1) or show_choice())
+    history._learn(entries)
+    # Each look is at all that is chosen.
+    assert len(history.chosen) == 9_999 and len(looks) < 10
 
 
 def test_test_without_a_profile_that_can_be_read_says_so_when_it_is_computed_anew(lab):

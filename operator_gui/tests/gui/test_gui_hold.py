@@ -182,8 +182,9 @@ def test_full_disk_hinders_the_start_with_a_sentence(operator, monkeypatch):
 def test_start_tells_why_not_in_the_words_of_the_checklist(operator, opener):
     screen = operator.choose("key_press")
     opener.spoil_with(mode=Mode.STARTING)
-    operator.wait(lambda: not screen.start.isEnabled())
-    assert screen._hindrance.text() == "The robot is still starting."
+    # A busy machine may find it silent before.
+    operator.wait(lambda: screen._hindrance.text() == "The robot is still starting.")
+    assert not screen.start.isEnabled()
 
 
 @pytest.fixture

@@ -3,16 +3,14 @@
 import csv
 import pathlib
 import shutil
-import sys
 
 import pytest
-from PyQt5.QtCore import QByteArray, Qt
+from PyQt5.QtCore import QAbstractItemModel, QByteArray, QCoreApplication, QEvent, QItemSelectionModel, Qt
 from PyQt5.QtGui import QImage
 from PyQt5.QtSvg import QSvgRenderer
 from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
-from mtr_operator.evidence.verification import verify_bundle
 from mtr_operator.gui.figure_text import interval_text, sign_text
 from mtr_operator.gui.pictures.export import pdf, png
 from mtr_operator.gui.pictures.layers.points_layer import PointsLayer
@@ -20,13 +18,6 @@ from mtr_operator.gui.pictures.protocol_sheet import ProtocolSheet
 from mtr_operator.gui.pictures.protocol_tables import Row, pages_of, table_rows
 from mtr_operator.gui.screens.measurement_facts import newest_text
 from mtr_operator.gui.theme.palette import LIGHT
-
-
-@pytest.fixture
-def protocol(operator, opener):
-    opener.passive = True
-    operator.begin("autolock")
-    return operator.finish()
 
 
 def points_layer(protocol):
@@ -54,6 +45,26 @@ def test_row_marks_its_points_and_point_selects_its_row(protocol, operator):
     assert protocol.table.currentIndex().row() == 5
     protocol.panel.view.clicked.emit(other[0] + 30.0, other[1])
     assert protocol.table.currentIndex().row() == 5
+
+
+def test_protocol_of_the_test_before_is_kept_no_longer_than_it_is_shown(protocol, operator):
+    def models():
+        # With a model goes what was chosen in it, at the next turn.
+        for _ in range(2):
+            QCoreApplication.sendPostedEvents(None, QEvent.DeferredDelete)
+        return len(protocol.findChildren(QAbstractItemModel)), len(protocol.findChildren(QItemSelectionModel))
+
+    saved(protocol, operator)
+    protocol.table.selectRow(2)
+    before, shown = models(), protocol.protocol
+    for row in range(3):
+        protocol.show_test()
+        protocol.table.selectRow(row)
+        # Two that write into one folder would be in each other's way.
+        saved(protocol, operator)
+    assert models() == before
+    assert protocol.table.currentIndex().row() == 2
+    assert protocol.protocol is not shown
 
 
 def test_areas_are_closed_outlines(protocol):
@@ -249,58 +260,3 @@ def test_table_of_a_search_has_a_column_of_intervals(operator):
         "Press [m]", "\N{PLUS-MINUS SIGN} [m]", "95 % [m]"]
     low, high = model.data(model.index(0, 4)).split(" to ")
     assert float(low) < float(model.data(model.index(0, 2))) < float(high)
-
-
-@pytest.fixture
-def station(tmp_path, monkeypatch):
-    """A station of this test's own."""
-    monkeypatch.setattr("platformdirs.user_data_path", lambda *_, **__: tmp_path / "data")
-
-
-def bundle_of(protocol, operator):
-    """Path of the bundle that the window has written."""
-    operator.wait(protocol.bundle.isEnabled)
-    operator.click(protocol.bundle)
-    operator.wait(lambda: "mtr.zip" in protocol.notice.text())
-    path, = operator.application.flow.store.settings.result_folder.glob("*/*.mtr.zip")
-    return path
-
-
-@pytest.mark.usefixtures("station")
-def test_bundle_has_report_and_findings_and_is_verified_in_the_history(protocol, operator):
-    path = bundle_of(protocol, operator)
-    found = verify_bundle(path)
-    assert found.is_intact
-    record = next(name for name in found.manifest.files if name.startswith("autolock_") and name.endswith(".json"))
-    assert path.name == record.replace(".json", ".mtr.zip")
-    assert {"results.csv", "budget.json", "protocol.png", "record.json", "parameters.json"} <= set(found.manifest.files)
-    said = protocol.notice.text().replace("\N{ZERO WIDTH SPACE}", "")
-    assert path.name in said and str(path.parent) in said
-    assert f"It is bundle 1 of {found.manifest.station}." in said
-    history = operator.window.history
-    history.verify_bundle(path)
-    operator.wait(lambda: "is intact: " in history.notice.text())
-    assert history.verify.isEnabled() and "bundle 1 of" in history.notice.text()
-    content = path.read_bytes()
-    path.write_bytes(content[:900] + bytes([content[900] ^ 1]) + content[901:])
-    history.verify_bundle(path)
-    operator.wait(lambda: "is not as it was signed: " in history.notice.text())
-
-
-@pytest.mark.usefixtures("station")
-def test_what_a_bundle_leaves_out_is_said(protocol, operator, monkeypatch):
-    monkeypatch.setitem(sys.modules, "duckdb", None)
-    bundle_of(protocol, operator)
-    assert "Left out is results.parquet: The package duckdb is not installed; pip install duckdb" in \
-        protocol.notice.text()
-
-
-@pytest.mark.usefixtures("station")
-def test_bundle_that_cannot_be_signed_is_a_sentence_and_the_report_is_kept(protocol, operator, tmp_path):
-    (tmp_path / "data" / "evidence").mkdir(parents=True)
-    (tmp_path / "data" / "evidence" / "signing.key").write_text("damaged")
-    operator.wait(protocol.bundle.isEnabled)
-    operator.click(protocol.bundle)
-    operator.wait(lambda: "is damaged; restore it from a copy" in protocol.notice.text())
-    folder = operator.application.flow.store.settings.result_folder
-    assert not list(folder.glob("*/*.mtr.zip")) and list(folder.glob("*/results.csv"))

@@ -105,7 +105,9 @@ def cut_off(widget, window):
 def room_of(widget):
     """What the text needs, and what there is."""
     if isinstance(widget, QLabel) and widget.wordWrap():
-        words = max((widget.fontMetrics().horizontalAdvance(word) for word in _BREAKS.split(widget.text())), default=0)
+        # As it is shown, with what keeps a figure and its unit together.
+        shown = _BREAKS.split(QLabel.text(widget))
+        words = max((widget.fontMetrics().horizontalAdvance(word) for word in shown), default=0)
         needs = QSize(words, widget.heightForWidth(widget.width()))
         return needs, QSize(widget.contentsRect().width(), widget.height())
     return widget.minimumSizeHint(), widget.size()

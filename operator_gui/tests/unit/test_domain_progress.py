@@ -82,6 +82,8 @@ def edited(path, **changes):
 @pytest.mark.parametrize(("changes", "part"), [
     ({"format": "something else"}, "not a progress file"),
     ({"version": 2}, "version 2; this application reads version 1"),
+    ({"version": "a" * 5000}, f"version {60 * 'a'}; this application reads version 1"),
+    ({"scenario": "a" * 5000}, f"belongs to the scenario {60 * 'a'}, not to"),
     ({"scenario": "autolock"}, "belongs to the scenario autolock, not to key_press"),
     ({"parameters": {**PARAMETERS, "attempts": 4}}, "other parameters: attempts was 4, now it is 1"),
     ({"parameters": None}, "damaged"),
@@ -150,10 +152,18 @@ def test_reports_without_their_progress_file_are_not_overwritten(tmp_path):
         refuse_to_overwrite(tmp_path / "progress.json", ["results.csv"])
 
 
+def is_refused(path):
+    try:
+        refuse_to_overwrite(path)
+    except OutputError:
+        return True
+    return False
+
+
 def test_file_without_lines_may_be_overwritten(path, tmp_path):
+    assert is_refused(path)
     edited(path, results=[])
-    refuse_to_overwrite(path)
-    refuse_to_overwrite(tmp_path / "none.json")
+    assert not is_refused(path) and not is_refused(tmp_path / "none.json")
 
 
 def test_interrupted_write_leaves_the_former_file(path, monkeypatch, progress):

@@ -16,6 +16,7 @@ from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.robot_link.fake import FakeRobotLink
 from mtr_operator.robot_link.server import ConnectionServer
 from mtr_operator.robot_link.substitute import RobotSubstitute
+from mtr_proto import robot_link_pb2 as pb
 
 TIME_FACTOR = 20.0
 HEIGHTS_M = (0.7, 1.024, 1.5, 0.35)
@@ -95,6 +96,19 @@ def test_second_session_waits_until_the_first_has_gone(link):
         assert status.rejected_messages > before
     finally:
         with_second.close()
+
+
+def test_time_in_which_the_substitute_was_held_up_is_no_silence_of_the_session(monkeypatch):
+    def command(session_id):
+        return [pb.Command(id=1, session_id=session_id).SerializeToString()]
+
+    now = [100.0]
+    monkeypatch.setattr(substitute.time, "monotonic", lambda: now[0])
+    robot = RobotSubstitute(None, seed=1)
+    robot._take(command(1))
+    now[0] += 5.0
+    robot._take(command(2))
+    assert (robot._session_id, robot.rejected) == (1, 1)
 
 
 def test_fake_is_the_same_for_the_same_seed():

@@ -36,6 +36,8 @@ class RobotSubstitute:
     """Virtual robot behind the two ports of a ConnectionServer; run() serves until stop(), start() does so in a thread.
 
     time_factor: virtual seconds per second of wall time. robot: another one than that of the seed in the world.
+
+    Attributes: period_s: wall time from one Status to the next; may be changed while it serves. rejected: messages.
     """
 
     def __init__(self, server: ConnectionServer, seed: int = 1, time_factor: float = 1.0,
@@ -43,12 +45,14 @@ class RobotSubstitute:
         self.server = server
         self.rejected = 0
         self._robot = robot or VirtualRobot(seed, world)
-        self._period_s = STATUS_PERIOD_S / time_factor
+        self.period_s = STATUS_PERIOD_S / time_factor
         self._silence_limit_wall_s = max(_SILENCE_LIMIT_S / time_factor, _MIN_SILENCE_WALL_S)
         self._stopping = threading.Event()
         self._thread: threading.Thread | None = None
         self._session_id = 0
         self._newest_command_s = -math.inf
+        # Statuses since the newest Command.
+        self._unanswered = math.inf
 
     def start(self) -> None:
         """Serve in a thread; the server must be open."""
@@ -67,14 +71,20 @@ class RobotSubstitute:
         deadline = time.monotonic()
         while not self._stopping.is_set():
             # A late turn is not caught up: virtual time just runs slower on a loaded machine.
-            deadline = max(deadline + self._period_s, time.monotonic())
+            deadline = max(deadline + self.period_s, time.monotonic())
             self._take_commands_until(deadline)
-            if time.monotonic() - self._newest_command_s > self._silence_limit_wall_s:
+            if self._is_silent(time.monotonic()):
                 self._robot.halt()
             self._robot.step()
+            self._unanswered += 1
             message = status_message_from(self._robot.status())
             message.rejected_messages = self.rejected
             self.server.status_socket.send(message.SerializeToString())
+
+    def _is_silent(self, now: float) -> bool:
+        """Whether the session at hand has gone: time in which this program itself was held up says nothing of it."""
+        return now - self._newest_command_s > self._silence_limit_wall_s and \
+            self._unanswered * STATUS_PERIOD_S > _SILENCE_LIMIT_S
 
     def _take_commands_until(self, deadline: float) -> None:
         socket = self.server.command_socket
@@ -90,14 +100,15 @@ class RobotSubstitute:
         except UndecodableMessage:
             self.rejected += 1
             return
-        if command.session_id != self._session_id and now - self._newest_command_s <= self._silence_limit_wall_s:
+        if command.session_id != self._session_id and not self._is_silent(now):
             self.rejected += 1
             return
         if command.end_session:
             self._robot.halt()
             self._newest_command_s = -math.inf
+            self._unanswered = math.inf
             return
-        self._session_id, self._newest_command_s = command.session_id, now
+        self._session_id, self._newest_command_s, self._unanswered = command.session_id, now, 0
         self._robot.take(command.session_id, command.id, desired_from_command(command))
 
 

@@ -103,6 +103,8 @@ def _shift_m(frame: CarFrame) -> float:
 
 
 def _interventions(before: RobotStatus, now: RobotStatus) -> Iterator[Said]:
+    if now.interventions == before.interventions:
+        return
     for name, text in _INTERVENTIONS.items():
         if _count(now.interventions, name) > _count(before.interventions, name):
             yield Said(EventKind.FAULT, INFO if name in _ORDINARY else WARNING, text)

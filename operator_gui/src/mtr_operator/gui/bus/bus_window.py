@@ -18,6 +18,7 @@ from mtr_operator.station.bus.bus_view import BusView
 
 from ..fitting.place import open_within
 from ..fitting.plain_table import plain_table
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..i18n import number
@@ -46,13 +47,11 @@ class BusWindow(QDialog):
         super().__init__(parent)
         self.setWindowTitle(self.tr("Live bus view"))
         self._flow = flow
-        self.summary = QLabel()
-        self.summary.setWordWrap(True)
+        self.summary = Prose()
         self._model = MessageModel(appearance, self)
         self.table = self._make_table()
         self.time_line = TimeLineView(appearance)
-        self.newest = QLabel()
-        self.newest.setWordWrap(True)
+        self.newest = Prose()
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD_MS)
         self._timer.timeout.connect(self.refresh)

@@ -96,4 +96,9 @@ def _texts(entry: EventEntry) -> tuple[str, ...]:
     source = {ROBOT: translate("Event", "robot"), CAR: translate("Event", "Car"),
               APPLICATION: translate("Event", "application")}.get(entry.source, entry.source)
     return (entry.time.astimezone().strftime(_TIME), _SIGNS[entry.severity], kind_text(entry.kind), source,
-            translated(entry.text))
+            _begun_large(translated(entry.text)))
+
+
+def _begun_large(sentence: str) -> str:
+    """What a running test says of itself goes on from its title elsewhere; in the list each stands alone."""
+    return sentence[:1].upper() + sentence[1:]

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from PyQt5.QtCore import QAbstractItemModel
 from PyQt5.QtWidgets import QHeaderView, QTableView
 
 
@@ -18,3 +19,12 @@ def plain_table(name: str, min_height_px: int) -> QTableView:
     table.setHorizontalScrollMode(QTableView.ScrollMode.ScrollPerPixel)
     table.setMinimumHeight(min_height_px)
     return table
+
+
+def show_in(table: QTableView, model: QAbstractItemModel) -> None:
+    """Show another model; the one before, which Qt would keep with all that it knows, goes."""
+    before, chosen = table.model(), table.selectionModel()
+    table.setModel(model)
+    for old in (chosen, before):
+        if old is not None:
+            old.deleteLater()

@@ -6,12 +6,13 @@ import re
 from typing import Any, Mapping
 
 from PyQt5.QtCore import Qt, pyqtSignal
-from PyQt5.QtWidgets import QCheckBox, QGridLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QCheckBox, QGridLayout, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.parameters import Declaration, Flag
 from mtr_operator.domain.scenario import ScenarioParameters
 
+from ..fitting.prose import Prose
 from ..names import flag_title, parameter_doc
 from ..sentences import parameter_sentence
 from ..theme.scale import L, M
@@ -47,8 +48,7 @@ class ParameterForm(QWidget):
         self.more.setCheckable(True)
         self.more.setProperty("role", "flat")
         self.usual.setProperty("role", "flat")
-        self.fault = QLabel()
-        self.fault.setWordWrap(True)
+        self.fault = Prose()
         self.fault.setProperty("role", "error")
         self._main, self._rest = QWidget(), QWidget()
         self._grids = (QGridLayout(self._main), QGridLayout(self._rest))

@@ -48,7 +48,8 @@ class ComparisonWindow(TestsWindow):
         comparison = self.comparison
         lines = [self.tr("First: {test}").format(test=_name(comparison.first)),
                  self.tr("Second: {test}").format(test=_name(comparison.second))]
-        counts = ", ".join(f"{count} {change_text(change)}" for change, count in comparison.counts().items())
+        counts = ", ".join(self.tr("{count} {change}").format(count=count, change=change_text(change))
+                           for change, count in comparison.counts().items())
         lines.append(self.tr("{counts}. By chance alone about {expected} would differ.").format(
             counts=counts or "0", expected=number(comparison.expected_by_chance, 1)))
         lines.append(self.tr("A distance is called farther or nearer in the second test only where the whole 95 % "

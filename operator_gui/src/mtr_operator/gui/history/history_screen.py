@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 from typing import TYPE_CHECKING, Callable, Sequence
 
-from PyQt5.QtCore import QItemSelection, QItemSelectionModel, pyqtSignal
+from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import (
     QHBoxLayout,
     QHeaderView,
@@ -28,6 +28,8 @@ from ..dialogs import ask_bundle
 from ..evidence.bundle_check import BundleCheck, check_text
 from ..fitting.breaks import breakable
 from ..fitting.plain_table import plain_table
+from ..fitting.prose import Prose
+from ..fitting.rows import choose_rows, chosen_rows
 from ..fitting.scroller import Scroller
 from ..sentences import translated
 from ..theme.scale import L, M, S
@@ -79,8 +81,7 @@ class HistoryScreen(QWidget):
         self.filters.changed.connect(self._show)
         self.search = self.filters.search
         self.table = self._make_table()
-        self.notice = QLabel()
-        self.notice.setWordWrap(True)
+        self.notice = Prose()
         self.open = self._button(self.tr("Open"), self._open)
         self.open.setProperty("role", "primary")
         self.repeat = self._button(self.tr("Repeat"), self._repeat)
@@ -156,8 +157,7 @@ class HistoryScreen(QWidget):
     @property
     def chosen(self) -> list[TestEntry]:
         """Tests whose rows are chosen, the oldest first."""
-        rows = sorted((index.row() for index in self.table.selectionModel().selectedRows()), reverse=True)
-        return [self._model.entries[row] for row in rows]
+        return [self._model.entries[row] for row in reversed(chosen_rows(self.table))]
 
     @property
     def shown(self) -> Sequence[TestEntry]:
@@ -227,10 +227,8 @@ class HistoryScreen(QWidget):
         before = set(map(_mark, self.chosen))
         self._model.show_entries(self.filters.sifted(self._entries))
         # What grows while it is read must not take a choice away.
-        for row, entry in enumerate(self._model.entries if before else ()):
-            if _mark(entry) in before:
-                whole = QItemSelection(self._model.index(row, 0), self._model.index(row, self._model.columnCount() - 1))
-                self.table.selectionModel().select(whole, QItemSelectionModel.SelectionFlag.Select)
+        if before:
+            choose_rows(self.table, (row for row, entry in enumerate(self._model.entries) if _mark(entry) in before))
         self._show_choice()
 
     def _show_choice(self) -> None:

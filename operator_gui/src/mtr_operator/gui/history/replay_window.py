@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Sequence
 
 from PyQt5.QtCore import QModelIndex, QObject, QSize, Qt
-from PyQt5.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QDialog, QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance
 
 from ..fitting.place import open_within
 from ..fitting.plain_table import plain_table
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..i18n import number
 from ..names import domain_word
@@ -62,8 +63,7 @@ class ReplayWindow(QDialog):
         self.setWindowTitle(self.tr("Computed anew: {name}").format(name=name))
         self.table = plain_table(self.tr("Distances as recorded and as they would be now"), _TABLE_HEIGHT)
         self.table.setModel(ReplayModel(found, self))
-        self.summary = QLabel(self._summary(found))
-        self.summary.setWordWrap(True)
+        self.summary = Prose(self._summary(found))
         close = QPushButton(self.tr("Close"))
         close.setDefault(True)
         close.clicked.connect(self.accept)

@@ -9,7 +9,6 @@ from PyQt5.QtWidgets import (
     QComboBox,
     QDialog,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -18,7 +17,8 @@ from PyQt5.QtWidgets import (
 from mtr_operator.domain.geometry.pose import Point
 
 from ..fitting.place import open_within
-from ..fitting.plain_table import plain_table
+from ..fitting.plain_table import plain_table, show_in
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..i18n import translate
 from ..names import domain_word, identity_title
@@ -48,14 +48,13 @@ class TestsWindow(QDialog):
         self.word.setVisible(self.word.count() > 1)
         self.panel = PicturePanel(appearance)
         self.table = plain_table("", _TABLE_HEIGHT)
-        self.summary = QLabel()
-        self.summary.setWordWrap(True)
+        self.summary = Prose()
         self._points = PointsLayer()
         self._lay_out()
 
     def show_tests(self, model: TableModel, table_name: str, summary: str) -> None:
         """Show what came out. table_name: for a screen reader."""
-        self.table.setModel(model)
+        show_in(self.table, model)
         self.table.setAccessibleName(table_name)
         self.summary.setText(summary)
         self.word.currentIndexChanged.connect(self._show_word)

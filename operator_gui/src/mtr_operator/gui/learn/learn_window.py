@@ -28,7 +28,7 @@ from mtr_operator.station.connection import CanChoice
 
 from ..fitting.breaks import breakable
 from ..fitting.place import open_within
-from ..fitting.plain_table import plain_table
+from ..fitting.plain_table import plain_table, show_in
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.field import Field
@@ -210,7 +210,7 @@ class LearnWindow(QDialog):
         self.name.edit.setFocus()
 
     def _show_table(self, findings: Findings) -> None:
-        self.table.setModel(CandidateModel(findings, self.table))
+        show_in(self.table, CandidateModel(findings, self.table))
         self.table.setVisible(bool(findings.candidates))
         self.progress.hide()
 

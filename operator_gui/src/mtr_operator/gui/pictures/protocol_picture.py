@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 from dataclasses import dataclass
 from typing import Sequence
 
@@ -41,6 +42,13 @@ class Protocol:
     def picture_of(self, index: int) -> Picture:
         """Line and points of one result."""
         return self.scenario.picture(self.parameters, self.progress.measured_car, [self.progress.results[index]])
+
+    def nearest(self, x: float, y: float, limit_m: float) -> int | None:
+        """Index of the result with the point nearest to this place (m), None where none is within limit_m."""
+        distances = [(math.dist((x, y), point), index) for index in range(len(self.progress.results))
+                     for each in self.picture_of(index).point_sets for point in each.known]
+        nearest_m, found = min(distances, default=(math.inf, -1))
+        return found if nearest_m <= limit_m else None
 
 
 class ProtocolPicture:

@@ -13,6 +13,7 @@ from mtr_operator.station.readiness import HELD_CODE, Phase, can_resume
 from mtr_operator.station.view_model import ViewModel
 
 from ..bridge import FRAME_MS
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..forms.hold_button import HoldButton
 from ..i18n import number
@@ -80,8 +81,7 @@ class MeasurementScreen(QWidget):
 
     @staticmethod
     def _label(role: str) -> QLabel:
-        label = QLabel()
-        label.setWordWrap(True)
+        label = Prose()
         label.setProperty("role", role)
         return label
 

@@ -13,6 +13,7 @@ from mtr_operator.station.readiness import Phase
 from mtr_operator.station.view_model import ViewModel
 
 from ..figure_text import figure_text
+from ..fitting.prose import Prose
 from ..i18n import duration, number
 from ..names import domain_word, locks_text, scenario_title
 from ..prospect_text import prospect_text
@@ -36,15 +37,14 @@ class MeasurementFacts(QFrame):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("card")
-        self.title, self.percent, self.count = QLabel(), QLabel(), QLabel()
-        self.left, self.action, self.age = QLabel(), QLabel(), QLabel()
+        self.title, self.percent, self.count = Prose(), Prose(), Prose()
+        self.left, self.action, self.age = Prose(), Prose(), Prose()
         self.bar = QProgressBar()
         self.bar.setAccessibleName(self.tr("Progress of the test"))
         for label, role in ((self.title, "large"), (self.percent, "title"), (self.count, "soft"), (self.left, "soft"),
                             (self.action, ""), (self.age, "error")):
             label.setProperty("role", role)
-            label.setWordWrap(True)
-        self.values = {name: QLabel() for name in ("car", "locks", "key", "speed", "position", "newest", "verdict")}
+        self.values = {name: Prose() for name in ("car", "locks", "key", "speed", "position", "newest", "verdict")}
         names = {"car": self.tr("Car"), "locks": self.tr("Locks"), "key": self.tr("Key height"),
                  "speed": self.tr("Speed"), "position": self.tr("Position"), "newest": self.tr("Last result"),
                  "verdict": self.tr("Verdict so far")}
@@ -53,7 +53,6 @@ class MeasurementFacts(QFrame):
         rows.setHorizontalSpacing(M)
         rows.setVerticalSpacing(S)
         for name, label in self.values.items():
-            label.setWordWrap(True)
             heading = self._verdict_heading if name == "verdict" else QLabel()
             heading.setText(names[name])
             heading.setProperty("role", "soft")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import math
 import os
 import pathlib
 from typing import TYPE_CHECKING, Callable
@@ -20,7 +19,8 @@ from mtr_operator.station.identity_entry import Annotation
 from mtr_operator.station.test import report_folder
 
 from ..dialogs import ask_folder
-from ..fitting.plain_table import plain_table
+from ..fitting.plain_table import plain_table, show_in
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.hold_button import HoldButton
@@ -70,10 +70,9 @@ class ProtocolScreen(QWidget):
         self._folder: pathlib.Path | None = None
         self.panel = PicturePanel(appearance)
         self.panel.view.clicked.connect(self._choose_point)
-        self.title, self.date, self.notice = QLabel(), QLabel(), QLabel()
+        self.title, self.date, self.notice = QLabel(), QLabel(), Prose()
         self.title.setProperty("role", "heading")
         self.date.setProperty("role", "soft")
-        self.notice.setWordWrap(True)
         self.table = plain_table(self.tr("Results; choose a row to see its points, or several to measure them again"),
                                  _TABLE_HEIGHT)
         self.table.setSelectionMode(QTableView.ExtendedSelection)
@@ -158,7 +157,7 @@ class ProtocolScreen(QWidget):
         self._folder = None
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
-        self.table.setModel(ResultsModel(protocol, self))
+        show_in(self.table, ResultsModel(protocol, self))
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(protocol.picture.point_sets)
         self.panel.view.show_layers(self._shown.layers)
@@ -211,17 +210,13 @@ class ProtocolScreen(QWidget):
         protocol = self.protocol
         line = protocol.progress.results[row].number if row >= 0 else None
         budget = BudgetModel(protocol.assessment, line, self.budget)
-        self.budget.setModel(budget)
+        show_in(self.budget, budget)
         self.budget.setVisible(budget.rowCount() > 0)
 
     def _choose_point(self, x: float, y: float) -> None:
         """Select the row of the point that was clicked."""
-        limit_m = _CLICK_PX / self.panel.view.viewport.px_per_m
-        distances = [(min((math.dist((x, y), point) for each in self.protocol.picture_of(row).point_sets
-                           for point in each.known), default=math.inf), row)
-                     for row in range(len(self.protocol.progress.results))]
-        nearest_m, row = min(distances, default=(math.inf, -1))
-        if nearest_m <= limit_m:
+        row = self.protocol.nearest(x, y, _CLICK_PX / self.panel.view.viewport.px_per_m)
+        if row is not None:
             self.table.selectRow(row)
 
     def _write(self, kinds: tuple[str, ...], annotation: Annotation | None = None) -> None:

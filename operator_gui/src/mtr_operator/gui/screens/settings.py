@@ -6,16 +6,17 @@ from typing import Sequence
 
 from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
-from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.checks.checklist import Wanted, hindrances
 from mtr_operator.station.checks.finding import Check
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
-from mtr_operator.station.sight.ways import Ways, spans, ways_of
+from mtr_operator.station.sight.ways import Ways, beside_car, spans, ways_of
 from mtr_operator.station.view_model import ViewModel
 
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..forms.given_form import GivenForm
 from ..forms.hold_button import HoldButton
@@ -67,16 +68,15 @@ class SettingsScreen(QWidget):
         self.identity = IdentityForm()
         self.picture = PicturePanel(appearance)
         self.picture.setMinimumHeight(_PICTURE_HEIGHT)
-        self.notice = QLabel()
-        self.notice.setWordWrap(True)
-        self.caution = QLabel()
-        self.caution.setWordWrap(True)
+        # Where there is less room than it likes it is smaller; nothing scrolls for that.
+        self.picture.view.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Ignored)
+        self.notice = Prose()
+        self.caution = Prose()
         self.caution.setProperty("role", "error")
         self.start = HoldButton(self.tr("Hold to start"))
         self.start.setProperty("role", "primary")
         self.start.held.connect(self._start)
-        self._hindrance = QLabel()
-        self._hindrance.setWordWrap(True)
+        self._hindrance = Prose()
         self._hindrance.setProperty("role", "error")
         self._lay_out()
         self.form.changed.connect(self._preview)
@@ -157,7 +157,8 @@ class SettingsScreen(QWidget):
     def _show_obstacles(self) -> None:
         """What stands around the Car, and what speaks against the parameters."""
         obstacles, parameters, car = self._model.obstacles, self.form.parameters, self._model.mapped_car
-        self._seen_mark, self._obstacles.places = obstacles.mark, obstacles.places
+        self._seen_mark = obstacles.mark
+        self._obstacles.places = obstacles.places if car is None else beside_car(obstacles.places, car)
         self._ways = None if car is None or self._plan is None else ways_of(self._plan.stretches, car, obstacles)
         cautions = [in_window_words(sentence, self._scenario.parameters_type)
                     for sentence in (*(self._plan.cautions if self._plan else ()), *self.given.cautions(parameters))]

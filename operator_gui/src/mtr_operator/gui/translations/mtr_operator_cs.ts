@@ -210,67 +210,67 @@
 <context>
     <name>BusWindow</name>
     <message>
-        <location filename="../bus/bus_window.py" line="47"/>
+        <location filename="../bus/bus_window.py" line="48"/>
         <source>Live bus view</source>
         <translation>Živý pohled na sběrnici</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="65"/>
+        <location filename="../bus/bus_window.py" line="64"/>
         <source>Messages of the bus</source>
         <translation>Zprávy sběrnice</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="72"/>
+        <location filename="../bus/bus_window.py" line="71"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="75"/>
+        <location filename="../bus/bus_window.py" line="74"/>
         <source>The Car&apos;s locks, and below them the key&apos;s distance from the Car&apos;s outline</source>
         <translation>Zámky auta a pod nimi vzdálenost klíče od obrysu auta</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="117"/>
+        <location filename="../bus/bus_window.py" line="116"/>
         <source>There is no bus: the Car is a substitute inside the application.</source>
         <translation>Žádná sběrnice tu není: auto je náhradou uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="121"/>
+        <location filename="../bus/bus_window.py" line="120"/>
         <source>Load {load} %, {count} messages.</source>
         <translation>Vytížení {load} %, zpráv: {count}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="124"/>
+        <location filename="../bus/bus_window.py" line="123"/>
         <source>{count} frames of further messages are not shown.</source>
         <translation>Rámce dalších zpráv, které se nezobrazují: {count}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="132"/>
+        <location filename="../bus/bus_window.py" line="131"/>
         <source>Nothing is known of the locks yet.</source>
         <translation>O zámcích zatím není nic známo.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="134"/>
+        <location filename="../bus/bus_window.py" line="133"/>
         <source>Now: {locks}.</source>
         <translation>Nyní: {locks}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="135"/>
+        <location filename="../bus/bus_window.py" line="134"/>
         <source>Now: {locks}, key at {distance} m.</source>
         <translation>Nyní: {locks}, klíč ve vzdálenosti {distance} m.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="140"/>
+        <location filename="../bus/bus_window.py" line="139"/>
         <source>Last change {age} s ago: {locks}.</source>
         <translation>Poslední změna před {age} s: {locks}.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="140"/>
+        <location filename="../bus/bus_window.py" line="139"/>
         <source>Last change {age} s ago: {locks}, key at {distance} m.</source>
         <translation>Poslední změna před {age} s: {locks}, klíč ve vzdálenosti {distance} m.</translation>
     </message>
     <message>
-        <location filename="../bus/bus_window.py" line="127"/>
+        <location filename="../bus/bus_window.py" line="126"/>
         <source>Frames are timed by {clock}.</source>
         <translation>Čas rámců udávají {clock}.</translation>
     </message>
@@ -278,17 +278,17 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="48"/>
+        <location filename="../windows/calibration_window.py" line="49"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="56"/>
+        <location filename="../windows/calibration_window.py" line="57"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="56"/>
+        <location filename="../windows/calibration_window.py" line="57"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
@@ -373,7 +373,7 @@
     <message>
         <location filename="../forms/can_form.py" line="35"/>
         <source>Simulated Car (to try the application)</source>
-        <translation>Simulované auto (na vyzkoušení aplikace)</translation>
+        <translation>Simulované auto (na zkoušku)</translation>
     </message>
     <message>
         <location filename="../forms/can_form.py" line="40"/>
@@ -388,7 +388,7 @@
     <message>
         <location filename="../forms/can_form.py" line="36"/>
         <source>Take part in the bus (a bench of one node)</source>
-        <translation>Účastnit se sběrnice (stůl s jedním uzlem)</translation>
+        <translation>Účastnit se sběrnice (stůl o 1 uzlu)</translation>
     </message>
     <message>
         <location filename="../forms/can_form.py" line="37"/>
@@ -447,7 +447,7 @@
 <context>
     <name>CarCard</name>
     <message>
-        <location filename="../windows/car_card.py" line="24"/>
+        <location filename="../windows/car_card.py" line="25"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
@@ -1092,19 +1092,24 @@
         <translation>Druhý: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="52"/>
+        <location filename="../history/comparison_window.py" line="53"/>
         <source>{counts}. By chance alone about {expected} would differ.</source>
         <translation>{counts}. Jen náhodou by se jich lišilo asi {expected}.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="54"/>
+        <location filename="../history/comparison_window.py" line="55"/>
         <source>A distance is called farther or nearer in the second test only where the whole 95 % interval of its difference is on that side of zero.</source>
         <translation>Vzdálenost je v druhém testu označena dále nebo blíže jen tam, kde celý 95% interval rozdílu leží na té straně nuly.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="58"/>
+        <location filename="../history/comparison_window.py" line="59"/>
         <source>Lines of one test only: {first} of the first, {second} of the second.</source>
         <translation>Přímky jen jednoho testu: {first} prvního, {second} druhého.</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="51"/>
+        <source>{count} {change}</source>
+        <translation>{count}krát {change}</translation>
     </message>
 </context>
 <context>
@@ -2164,7 +2169,7 @@
 <context>
     <name>MeasurementFacts</name>
     <message>
-        <location filename="../screens/measurement_facts.py" line="42"/>
+        <location filename="../screens/measurement_facts.py" line="43"/>
         <source>Progress of the test</source>
         <translation>Průběh testu</translation>
     </message>
@@ -2199,27 +2204,27 @@
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="76"/>
+        <location filename="../screens/measurement_facts.py" line="75"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="109"/>
+        <location filename="../screens/measurement_facts.py" line="108"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="116"/>
+        <location filename="../screens/measurement_facts.py" line="115"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="122"/>
+        <location filename="../screens/measurement_facts.py" line="121"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="124"/>
+        <location filename="../screens/measurement_facts.py" line="123"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
@@ -2229,12 +2234,12 @@
         <translation>Zatím verdikt</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="92"/>
+        <location filename="../screens/measurement_facts.py" line="91"/>
         <source>The values below are {age} s old.</source>
         <translation>Údaje níže jsou {age} s staré.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="126"/>
+        <location filename="../screens/measurement_facts.py" line="125"/>
         <source>Waits until the robot is heard again.</source>
         <translation>Čeká se, až bude robot zase slyšet.</translation>
     </message>
@@ -2242,12 +2247,12 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="72"/>
+        <location filename="../screens/measurement.py" line="73"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="74"/>
+        <location filename="../screens/measurement.py" line="75"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
@@ -2262,17 +2267,17 @@
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="65"/>
+        <location filename="../screens/measurement.py" line="66"/>
         <source>Hold to resume</source>
         <translation>Podržením pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="63"/>
+        <location filename="../screens/measurement.py" line="64"/>
         <source>Hold to go on</source>
         <translation>Podržením jet dál</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="73"/>
+        <location filename="../screens/measurement.py" line="74"/>
         <source>Events</source>
         <translation>Události</translation>
     </message>
@@ -2292,7 +2297,7 @@
         <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="67"/>
+        <location filename="../screens/measurement.py" line="68"/>
         <source>Leave the line that is being measured and go on with the next one (Ctrl+K); it can be measured again when the test is done</source>
         <translation>Opustit přímku, která se právě měří, a pokračovat další (Ctrl+K); po skončení testu ji lze změřit znovu</translation>
     </message>
@@ -3218,7 +3223,7 @@
 <context>
     <name>ParameterForm</name>
     <message>
-        <location filename="../forms/parameter_form.py" line="45"/>
+        <location filename="../forms/parameter_form.py" line="46"/>
         <source>Usual values</source>
         <translation>Obvyklé hodnoty</translation>
     </message>
@@ -3457,27 +3462,27 @@
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="152"/>
+        <location filename="../screens/protocol.py" line="158"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="257"/>
+        <location filename="../screens/protocol.py" line="259"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="275"/>
+        <location filename="../screens/protocol.py" line="277"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="283"/>
+        <location filename="../screens/protocol.py" line="285"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="186"/>
+        <location filename="../screens/protocol.py" line="192"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
@@ -3487,7 +3492,7 @@
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="291"/>
+        <location filename="../screens/protocol.py" line="293"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
@@ -3502,17 +3507,17 @@
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="160"/>
+        <location filename="../screens/protocol.py" line="166"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="194"/>
+        <location filename="../screens/protocol.py" line="200"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="195"/>
+        <location filename="../screens/protocol.py" line="201"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
     </message>
@@ -3532,17 +3537,17 @@
         <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="262"/>
+        <location filename="../screens/protocol.py" line="264"/>
         <source>The bundle is written: {percent} %.</source>
         <translation>Balíček se zapisuje: {percent} %.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="265"/>
+        <location filename="../screens/protocol.py" line="267"/>
         <source>It is bundle {number} of {station}.</source>
         <translation>Je to balíček {number} stanice {station}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="268"/>
+        <location filename="../screens/protocol.py" line="270"/>
         <source>Left out is {name}: {reason}</source>
         <translation>Chybí {name}: {reason}</translation>
     </message>
@@ -3550,22 +3555,22 @@
 <context>
     <name>ReplayModel</name>
     <message>
-        <location filename="../history/replay_window.py" line="45"/>
+        <location filename="../history/replay_window.py" line="46"/>
         <source>Line</source>
         <translation>Přímka</translation>
     </message>
     <message>
-        <location filename="../history/replay_window.py" line="45"/>
+        <location filename="../history/replay_window.py" line="46"/>
         <source>In the record [m]</source>
         <translation>V záznamu [m]</translation>
     </message>
     <message>
-        <location filename="../history/replay_window.py" line="45"/>
+        <location filename="../history/replay_window.py" line="46"/>
         <source>Now [m]</source>
         <translation>Nyní [m]</translation>
     </message>
     <message>
-        <location filename="../history/replay_window.py" line="52"/>
+        <location filename="../history/replay_window.py" line="53"/>
         <source>would change</source>
         <translation>změnila by se</translation>
     </message>
@@ -3573,12 +3578,12 @@
 <context>
     <name>ReplayWindow</name>
     <message>
-        <location filename="../history/replay_window.py" line="62"/>
+        <location filename="../history/replay_window.py" line="63"/>
         <source>Computed anew: {name}</source>
         <translation>Přepočteno: {name}</translation>
     </message>
     <message>
-        <location filename="../history/replay_window.py" line="63"/>
+        <location filename="../history/replay_window.py" line="64"/>
         <source>Distances as recorded and as they would be now</source>
         <translation>Vzdálenosti podle záznamu a jaké by byly nyní</translation>
     </message>
@@ -6645,42 +6650,42 @@
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="203"/>
+        <location filename="../screens/settings.py" line="204"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="207"/>
+        <location filename="../screens/settings.py" line="208"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="212"/>
+        <location filename="../screens/settings.py" line="213"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="213"/>
+        <location filename="../screens/settings.py" line="214"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="75"/>
+        <location filename="../screens/settings.py" line="76"/>
         <source>Hold to start</source>
         <translation>Podržením spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="172"/>
+        <location filename="../screens/settings.py" line="173"/>
         <source>Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. Move it, or measure from nearer.</source>
         <translation>V cestě stojí překážka ({lines}): šedé čtverce, nejbližší {distance} m od auta. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="202"/>
+        <location filename="../screens/settings.py" line="203"/>
         <source>No preview of the lines while the parameters are not right.</source>
         <translation>Dokud nejsou parametry v pořádku, není náhled přímek.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="180"/>
+        <location filename="../screens/settings.py" line="181"/>
         <source>Not all seen by the robot yet: {lines}.</source>
         <translation>Robot ještě celé neviděl: {lines}.</translation>
     </message>
@@ -7057,7 +7062,7 @@
         <translation>Vzdálenost</translation>
     </message>
     <message>
-        <location filename="../history/tests_window.py" line="76"/>
+        <location filename="../history/tests_window.py" line="75"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>

@@ -16,6 +16,7 @@ from mtr_operator.station.links.idle_loop import CalibrationRequest
 from mtr_operator.station.readiness import ReadinessWord
 
 from ..fitting.place import open_within
+from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.parameter_field import ParameterField
@@ -56,8 +57,7 @@ class CalibrationWindow(QDialog):
         self.buttons = {1: QCheckBox(self.tr("Lock")), 2: QCheckBox(self.tr("Unlock"))}
         self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "locks")}
         self.car = CarCard(flow)
-        self.notice = QLabel()
-        self.notice.setWordWrap(True)
+        self.notice = Prose()
         self.notice.setProperty("role", "soft")
         self.guide = QPushButton(self.tr("Guided calibration"))
         self.guide.setToolTip(self.tr("Press strength, key height and key's lever, kept with their date."))

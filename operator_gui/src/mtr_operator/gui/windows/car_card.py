@@ -8,6 +8,7 @@ from mtr_operator.domain.robot_status import CheckState, Mode, RobotStatus
 from mtr_operator.station.links.idle_loop import CarRequest
 from mtr_operator.station.motion import ROUNDS
 
+from ..fitting.prose import Prose
 from ..flow import Flow
 from ..forms.hold_button import HoldButton
 from ..i18n import number
@@ -23,8 +24,7 @@ class CarCard(Card):
         super().__init__(parent=parent)
         self.add_heading(self.tr("Car"))
         self._flow = flow
-        self.notice = QLabel()
-        self.notice.setWordWrap(True)
+        self.notice = Prose()
         self.check = self._button(self.tr("Hold to check its position"), CarRequest.CHECK)
         self.map = self._button(self.tr("Hold to map it again"), CarRequest.MAP)
         hint = QLabel(self.tr("The robot drives around the Car for both: hold the button when its way is clear."))
