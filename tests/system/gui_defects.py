@@ -10,7 +10,7 @@ import sys
 import traceback
 from typing import Any, Callable, Dict, List
 
-from gui_campaign import TEST_LIMIT_S, campaign
+from gui_campaign import campaign
 from gui_desk import Robot, window_manager
 from gui_person import Person, button_of, run, visible_texts, xdotool
 from gui_session import prepare
@@ -210,7 +210,7 @@ def protocol(laptop: Laptop) -> None:
     """A5 to A9: the end of the test has figures with what they mean, and writes them by itself (B7)."""
     person = laptop.person
     person.hold("Hold to resume")
-    person.wait_for("Key press protocol", TEST_LIMIT_S)
+    person.follow("Key press protocol")
     laptop.must_fit()
     person.wait_for("Saved protocol.png, results.csv to")
     table = laptop.person.application.window.protocol.table.model()

@@ -18,6 +18,8 @@ MANAGER = pathlib.Path(__file__).with_name("window_manager.xml")
 TIME_FACTOR = 10.0
 WORLD = VirtualWorld(mapping_s=60.0)
 _START_LIMIT_S = 20.0
+# Wall time from one Status to the next, shorter than a silence that a window tells.
+_SLOW_PERIOD_S = 0.8
 
 
 def on_a_desk(script: pathlib.Path, folder: pathlib.Path) -> "subprocess.CompletedProcess[str]":
@@ -62,6 +64,16 @@ class Robot:
         self.status_port, self.command_port = server.subscriber_port, server.publisher_port
         self._substitute = RobotSubstitute(server, time_factor=TIME_FACTOR, robot=self._kind(self._starts, WORLD))
         self._substitute.start()
+
+    @contextlib.contextmanager
+    def slowly(self) -> Iterator[None]:
+        """Context in which hardly any virtual time passes, however long it takes; the robot is heard all the same."""
+        substitute = self._substitute
+        period_s, substitute.period_s = substitute.period_s, _SLOW_PERIOD_S
+        try:
+            yield
+        finally:
+            substitute.period_s = period_s
 
     def switch_off(self) -> None:
         """End; safe to call twice."""

@@ -105,6 +105,20 @@ class Person:
         said = self.said(text)
         self.until(f"{said!r}", lambda: any(said in shown for shown in visible_texts()), limit_s)
 
+    def follow(self, text: str) -> None:
+        """Wait until a text with this part is visible, for as long as what is visible changes: how long a test takes is
+        the machine's matter, and one that stands still is not waited for."""
+        said, deadline, before = self.said(text), 0.0, None
+        while True:
+            shown_now = self._gui.ask(visible_texts)
+            if any(said in each for each in shown_now):
+                return
+            if shown_now != before:
+                before, deadline = shown_now, time.monotonic() + self._limit_s
+            elif time.monotonic() > deadline:
+                raise TimeoutError(f"{said!r} did not appear; visible is: {shown_now}")
+            time.sleep(POLL_S)
+
     def type_into(self, label: str, text: str) -> None:
         """Replace what stands in the field with this label."""
         label = self.said(label)

@@ -29,7 +29,6 @@ from mtr_operator.station.bus.bus_view import BusView
 LOCKS = BusMessage(0x320, False, "LockStatus", 1234, 0.1, 0.04, bytes([1, 2, 0xAB]))
 GONE = BusMessage(0x18FEF100, True, "", 7, None, 12.3, bytes(8))
 BUS = BusMessages((LOCKS, GONE), 17), BusTraffic(0.234, 0.1, 0.1)
-TEST_LIMIT_S = 120.0
 SIMULATED_CAR = "Simulated Car (to try the application)"
 
 
@@ -57,8 +56,8 @@ def _session(camera: Camera, language: str) -> int:
         take_connection(person, camera)
         connect(person, robot)
         take_beginning(person, camera)
-        take_autolock(person, camera)
-        take_key_press(person, camera)
+        take_autolock(person, camera, robot)
+        take_key_press(person, camera, robot)
         take_history(person, camera)
         take_windows(person, camera)
         take_others(person, camera)
@@ -122,7 +121,7 @@ def take_beginning(person: Person, camera: Camera) -> None:
     person.look(camera, "06_measurement_type")
 
 
-def take_autolock(person: Person, camera: Camera) -> None:
+def take_autolock(person: Person, camera: Camera, robot: Robot) -> None:
     """The Autolock scenario from its settings to its protocol."""
     person.click("Autolock")
     person.type_into("Measurements distance", "1")
@@ -136,8 +135,9 @@ def take_autolock(person: Person, camera: Camera) -> None:
     person.look(camera, "08_autolock_settings_invalid")
     person.type_into("Starting distance", "4")
     person.hold("Hold to start")
-    person.wait_for("7 of 16 lines measured", TEST_LIMIT_S)
-    person.look(camera, "09_autolock_measurement")
+    person.follow("7 of 16 lines measured")
+    with robot.slowly():
+        person.look(camera, "09_autolock_measurement")
     person.click("Stop")
     person.wait_for("Paused.")
     person.click("Paused")
@@ -148,13 +148,13 @@ def take_autolock(person: Person, camera: Camera) -> None:
     person.look(camera, "10_events")
     close(person)
     person.hold("Hold to resume")
-    person.wait_for("Autolock protocol", TEST_LIMIT_S)
+    person.follow("Autolock protocol")
     person.wait_for("Saved protocol.png, results.csv to")
     person.look(camera, "11_autolock_protocol")
     person.click("New test")
 
 
-def take_key_press(person: Person, camera: Camera) -> None:
+def take_key_press(person: Person, camera: Camera, robot: Robot) -> None:
     """The Key press scenario from its settings to its protocol."""
     person.click("New test")
     person.click("Key press")
@@ -162,9 +162,10 @@ def take_key_press(person: Person, camera: Camera) -> None:
     person.look(camera, "12_key_press_settings")
     person.type_into("Degrees between radials", "120")
     person.hold("Hold to start")
-    person.wait_for("1 of 3 lines measured", TEST_LIMIT_S)
-    person.look(camera, "13_key_press_measurement")
-    person.wait_for("Key press protocol", TEST_LIMIT_S)
+    person.follow("1 of 3 lines measured")
+    with robot.slowly():
+        person.look(camera, "13_key_press_measurement")
+    person.follow("Key press protocol")
     person.look(camera, "14_key_press_protocol")
     person.click("Notes and photos")
     person.wait_for("Further photos")
@@ -182,7 +183,7 @@ def take_history(person: Person, camera: Camera) -> None:
     person.choose_rows(table, 0)
     person.click("Repeat")
     person.hold("Hold to start")
-    person.wait_for("Key press protocol", TEST_LIMIT_S)
+    person.follow("Key press protocol")
     person.click("New test")
     person.click("Tests so far")
     person.wait_for("3 tests, 3 of them shown.")
@@ -219,8 +220,9 @@ def take_others(person: Person, camera: Camera) -> None:
     person.click("Handle request")
     person.wait_for("Hold to start")
     person.look(camera, "19_handle_settings")
+    person.type_into("Measurements distance", "2")
     person.hold("Hold to start")
-    person.wait_for("Handle request protocol", TEST_LIMIT_S)
+    person.follow("Handle request protocol")
     person.look(camera, "20_handle_protocol")
 
 

@@ -6,7 +6,7 @@ import pathlib
 import time
 from typing import Any, Callable, Dict, List, NamedTuple, Optional
 
-from PyQt5.QtCore import QEventLoop, QSize, Qt
+from PyQt5.QtCore import QEvent, QEventLoop, QSize, Qt
 from PyQt5.QtTest import QTest
 from PyQt5.QtWidgets import QApplication
 
@@ -179,3 +179,5 @@ def until(condition: Callable[[], bool], limit_s: Optional[float] = READY_LIMIT_
         if end_s is not None and time.monotonic() > end_s:
             raise TimeoutError("The window did not get that far.")
         QApplication.processEvents(flags)
+        # What a window's own loop deletes in its next turn stays for ever without one.
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
