@@ -6,7 +6,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth bench-real bench-results bench-campaign browser-test bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
+	bench-truth red-team sanitize bench-link bench-real bench-results bench-campaign browser-test bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
 SEED ?= 1
@@ -170,6 +170,15 @@ bench-can: setup build ## The Car's bus at full load, learning, replay; figures 
 bench-faults: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/faults.json
 	@$(RUN) python -m mtr_benchmarks.faults --seed $(SEED) --out out/bench
 
+bench-link: setup build ## What encryption costs a Command on its way to the dispatcher; figures in out/bench/link.json
+	@$(RUN) python -m mtr_benchmarks.link --out out/bench
+
+sanitize: setup build ## The C++ tests with sanitizers; SANITIZERS="address thread", PACKAGES="..." for some packages
+	@PACKAGES="$(PACKAGES)" setup/sanitize.sh $(SANITIZERS)
+
+red-team: setup build ## Attacks of somebody without a controller's key on the running robot; figures in out/bench/red_team.json
+	@$(RUN) python tests/security/report.py --out out/bench
+
 bench-stalls: setup build ## Each node stopped and the clock set while the robot drives; figures in out/bench/liveness.json
 	@$(RUN) python -m mtr_benchmarks.liveness --out out/bench
 
@@ -209,9 +218,11 @@ bench-campaign: setup build ## Simulated campaigns: rate, workers, a killed one,
 		python operator_gui/tests/proofs/campaigns.py --runs $(CAMPAIGN_RUNS) --pairs $(CAMPAIGN_PAIRS) --stacks $(STACKS) \
 		--seed $(SEED) --out out/bench
 
-fuzz: setup build ## 10,000 mutated progress files and journals, 100,000 Statuses; figures in out/bench/fuzz.json
+# Borders and numbers: FUZZ="zeromq bags --cases 100000"; one case again: FUZZ="bags --case 5".
+FUZZ ?=
+fuzz: setup build ## Spoilt bytes at every border of the project; figures in out/bench/fuzz.json, FUZZ takes borders and options
 	@mkdir -p out/bench
-	@$(RUN) python operator_gui/tests/proofs/fuzz.py --seed $(SEED) --out out/bench 2>out/bench/fuzz.log
+	@$(RUN) python tests/fuzz/run.py --seed $(SEED) --out out/bench $(FUZZ) 2> >(grep -v 'libprotobuf ERROR' >&2)
 
 fuzz-commands: setup build ## 100,000 mutated Commands at the dispatcher's core; figures in out/bench/fuzz_commands.json
 	@$(RUN) python catkin_ws/src/mtr_dispatcher/tests/unit/command_fuzz.py --seed $(SEED) --out out/bench
