@@ -30,10 +30,7 @@ for kind in "${@:-address}"; do
   for package in "${packages[@]}"; do
     make -s -j2 -C "$space/build/$package" tests >"$space/$package.log" 2>&1 || { cat "$space/$package.log"; exit 1; }
     for test in "$space/devel/.private/$package/lib/$package"/*_test; do
-      status=0
-      "$test" --gtest_brief=1 || status=$?
-      echo "$kind: ${test##*/} ended with status $status"
-      ((status == 0)) || failed=1
+      "$test" --gtest_brief=1 || { echo "$kind: ${test##*/} ended with status $?"; failed=1; }
     done
   done
 done
