@@ -5,7 +5,7 @@ import copy
 import pytest
 
 from mtr_bringup.preflight.base import base_findings, start_findings
-from mtr_bringup.preflight.clocks import clock_finding, network_findings
+from mtr_bringup.preflight.clocks import clock_finding, masters_finding, network_findings
 from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.records import RobotRecord
 from mtr_description.base_controller import base_parameters_in
@@ -92,3 +92,13 @@ def test_robot_without_chrony_is_bad_and_a_simulation_is_not(output):
 def test_master_elsewhere_is_said_and_needs_a_name_of_this_computer(uri, environment, is_bad):
     found = network_findings(environment, uri)
     assert [finding.is_bad for finding in found] == [is_bad] and uri in found[0].text
+
+
+def test_second_master_on_the_robot_is_told_with_its_port_and_what_to_do():
+    uri = "http://127.0.0.1:11311"
+    assert not masters_finding(uri, [11311], False).is_bad
+    found = masters_finding(uri, [11311, 11321], False)
+    assert found.is_bad and found.text.startswith("2 run on this computer, allowed is 1: beside http://127.0.0.1:11311 "
+                                                  "one on port 11321, whose nodes")
+    assert found.text.endswith("with the same ROS_MASTER_URI, the base's first.")
+    assert not masters_finding(uri, [11311, 11321], True).is_bad

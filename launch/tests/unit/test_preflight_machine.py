@@ -34,6 +34,16 @@ def test_disk_needs_a_gigabyte_and_a_twentieth(tmp_path, total, free, is_bad):
     assert disk_finding(machine(tmp_path, total, free)).is_bad is is_bad
 
 
+def test_masters_are_told_by_the_command_lines_of_ros(tmp_path):
+    for number, words in ((10, "/usr/bin/python3 /usr/bin/rosmaster --core -p 11311 -w 3 __log:=/tmp/master.log"),
+                          (11, "/usr/bin/python3 -u /opt/ros/noetic/bin/rosmaster --core"),
+                          (12, "python3 /usr/bin/rosmaster --core --port 11312"),
+                          (13, "vim rosmaster"), (14, "roslaunch --core -p 1 rosmaster"), (15, "")):
+        write(tmp_path, f"proc/{number}/cmdline", words.replace(" ", "\0") + "\0")
+    (tmp_path / "proc" / "16").mkdir()
+    assert machine(tmp_path).ros_master_ports() == [11311, 11312]
+
+
 @pytest.mark.parametrize("zones, is_bad", [(("45000", "84900"), False), (("45000", "85100"), True), (("x",), False),
                                            ((), False)])
 def test_hottest_zone_counts(tmp_path, zones, is_bad):

@@ -1,11 +1,11 @@
-"""Is this computer's clock synchronised, and where is the ROS master?"""
+"""Is this computer's clock synchronised, where is the ROS master, and is there but one?"""
 # SPDX-License-Identifier: Apache-2.0
-from typing import List, Mapping, NamedTuple, Optional
+from typing import List, Mapping, NamedTuple, Optional, Sequence
 from urllib.parse import urlparse
 
 from .finding import Finding, bad, good
 
-CLOCK, MASTER = "clock.synchronised", "ros.network"
+CLOCK, MASTER, MASTERS = "clock.synchronised", "ros.network", "ros.masters"
 # The laptop reads the robot's times beside those of the Car's bus; it estimates the offset itself, but a clock that is
 # being set moves it. Chrony on one Wi-Fi hop keeps a few ms.
 MAX_OFFSET_S = 0.02
@@ -56,6 +56,21 @@ def clock_finding(output: Optional[str], is_simulated: bool) -> Finding:
                    "wait until chrony has set it, or run `chronyc makestep` while the robot stands.",
                    offset_ms, limit_ms, unit="ms")
     return good(CLOCK, "clock", f"It is {offset_ms:+.1f} ms off {tracking.source}.", offset_ms, limit_ms, unit="ms")
+
+
+def masters_finding(master_uri: str, ports: Sequence[int], is_simulated: bool) -> Finding:
+    """Of the ROS masters that run on this computer; those of other computers cannot be seen.
+
+    Args:
+        ports: of the masters.
+        is_simulated: several simulations may run beside each other.
+    """
+    if len(ports) < 2 or is_simulated:
+        return good(MASTERS, "ROS masters", f"{len(ports)} on this computer.", len(ports), 1)
+    others = ", ".join(str(port) for port in ports if port != urlparse(master_uri).port)
+    return bad(MASTERS, "ROS masters", f"{len(ports)} run on this computer, allowed is 1: beside {master_uri} one on "
+               f"port {others}, whose nodes neither see this robot's nor are seen; start the base's service and the "
+               "robot with the same ROS_MASTER_URI, the base's first.", len(ports), 1)
 
 
 def network_findings(environment: Mapping[str, str], master_uri: str) -> List[Finding]:

@@ -26,7 +26,7 @@ from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_base
 from mtr_dispatcher.preflight_report import PreflightItem, parameter_of, report_of
 
-from .clocks import clock_finding, network_findings
+from .clocks import clock_finding, masters_finding, network_findings
 from .expected import Setup
 from .finding import NEEDS_MORE, Finding, bad, exit_code
 from .frames import DESCRIPTION, lidar_mounts
@@ -100,8 +100,9 @@ def shown(findings: List[Finding]) -> List[Finding]:
 def computer_findings(uri: str, setup: Setup) -> List[Finding]:
     """Clock, network, disk and the like."""
     machine = Machine(pathlib.Path("/"), pathlib.Path.home())
-    return [*network_findings(os.environ, uri), clock_finding(chrony_output(), setup.is_simulated),
-            *machine_findings(machine)]
+    return [*network_findings(os.environ, uri),
+            masters_finding(uri, machine.ros_master_ports(), setup.is_simulated),
+            clock_finding(chrony_output(), setup.is_simulated), *machine_findings(machine)]
 
 
 def chrony_output() -> Optional[str]:

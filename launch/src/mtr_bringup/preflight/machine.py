@@ -19,6 +19,8 @@ MIN_MEMORY_BYTES = 3e8
 # 802.11 at its lowest rates receives down to about -82 dBm; 7 dB are for the robot's turning about.
 MIN_SIGNAL_DBM = -75.0
 GIGA = 1e9
+# As roslaunch and roscore start it, behind an interpreter and its options; the port where none is named.
+MASTER_PROGRAM, MASTER_OPTION, MASTER_WITHIN_WORDS, MASTER_PORT = "rosmaster", "--core", 3, 11311
 
 
 @dataclass(frozen=True)
@@ -56,11 +58,29 @@ class Machine:
         levels = [(name, float(level)) for name, level in rows if float(level) > -200.0]
         return max(levels, key=lambda each: each[1]) if levels else None
 
+    def ros_master_ports(self) -> List[int]:
+        """Ports of the ROS masters that run on this computer, whoever started them."""
+        found = set()
+        for path in self.root.glob("proc/[0-9]*/cmdline"):
+            # Processes end while they are looked at.
+            with contextlib.suppress(OSError):
+                found.update(master_ports_in(path.read_bytes().decode("utf-8", "replace").split("\0")))
+        return sorted(found)
+
     def _text(self, name: str) -> str:
         try:
             return (self.root / name).read_text(encoding="utf-8")
         except OSError:
             return ""
+
+
+def master_ports_in(command: List[str]) -> List[int]:
+    """The port of a ROS master by its command line; none when it is another program. An interpreter goes before it."""
+    names = [pathlib.PurePath(word).name for word in command[:MASTER_WITHIN_WORDS]]
+    if MASTER_PROGRAM not in names or MASTER_OPTION not in command:
+        return []
+    ports = [after for word, after in zip(command, command[1:]) if word in ("-p", "--port")]
+    return [int(ports[-1])] if ports and ports[-1].isdigit() else [MASTER_PORT]
 
 
 def machine_findings(machine: Machine) -> List[Finding]:
