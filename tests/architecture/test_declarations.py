@@ -38,6 +38,7 @@ SYSTEM_FOLDERS = {"sys", "bits", "netinet", "arpa", "linux"}
 # Declared for another reason than a line of code.
 WITHOUT_CODE = {
     "catkin": "builds every package",
+    "lms1xx": "jackal.launch starts a LiDAR's driver by its kind", "sick_tim": "the same", "urg_node": "the same",
     "message_generation": "makes the messages", "message_runtime": "runs them",
     "protobuf-dev": "protoc makes the module",
     "qtbase5-dev": "headers of Qt have no folder",

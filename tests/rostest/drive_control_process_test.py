@@ -127,6 +127,19 @@ class DriveControlProcess(unittest.TestCase):
                    "a sentence that names the node", STARTED_WITHIN_S)
         other.unregister()
 
+    def test_lidar_whose_frame_has_a_name_of_the_robots_own_is_taken_by_that_name_alone(self):
+        self.node.stop()
+        frame = f"{names.ROBOT_FRAMES}/{names.FRONT_LIDAR}"
+        rospy.set_param(frame, "front_laser")
+        self.node = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control")
+        try:
+            wait_until(lambda: "frame 'front_lidar'" in self.message, "a refusal of the other frame")
+            self.robot.front.message.header.frame_id = "front_laser"
+            self.cruise()
+        finally:
+            self.robot.front.message.header.frame_id = names.FRONT_LIDAR
+            rospy.delete_param(frame)
+
     def test_base_that_the_mast_does_not_survive_or_without_limits_ends_the_node_with_status_2(self):  # A2
         limit = f"/{CONTROLLER}/linear/x/max_acceleration"
         shipped = rospy.get_param(limit)

@@ -3,30 +3,41 @@
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
+import shlex
 import sys
 import unittest
+from types import SimpleNamespace
 
 import roslaunch
 import rospkg
 import rostest
+import sensor_msgs.msg
 from roslaunch.node_args import create_local_process_args, get_node_list
+from std_msgs.msg import Header
 
 from mtr_core import sensor_figures
 
 NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay.launch": ["bag:=/tmp/a.bag"],
-          "view.launch": []}
+          "view.launch": [], "jackal.launch": []}
 ROBOT = {"/robot_state_publisher", "/drive_control", "/localization", "/motion_planner", "/car_locator",
          "/state_machine", "/peripherals", "/dispatcher"}
 NODES = {"robot.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "/serial_bridge"},
          "sim.launch": ROBOT | {"/simulator"},
          "replay.launch": {"/robot_state_publisher", "/localization", "/car_locator", "/state_machine", "/play"},
-         "view.launch": {"/rviz"}}
+         "view.launch": {"/rviz"},
+         "jackal.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "/serial_bridge",
+                                   "/battery_of_voltage"}}
 
 
 def load(name, arguments):
     """A shipped launch file as roslaunch reads it."""
     path = os.path.join(rospkg.RosPack().get_path("mtr_bringup"), "launch", name)
     return roslaunch.config.load_config_default([(path, arguments)], None)
+
+
+def frames_of(config):
+    """Frames of front LiDAR, rear LiDAR and IMU."""
+    return [config.params[f"/robot_frames/{link}"].value for link in ("front_lidar", "rear_lidar", "imu")]
 
 
 class LaunchFiles(unittest.TestCase):
@@ -78,6 +89,47 @@ class LaunchFiles(unittest.TestCase):
                 self.assertIn(["/front/scan", "/scan"], node.remap_args)
                 self.assertIn(["/jackal_velocity_controller/cmd_vel", "/base/cmd_vel"], node.remap_args)
         self.assertIs(robot.params["/localization/publish_odom_tf"].value, False)
+
+    def test_frames_have_the_names_that_a_robot_gives_them(self):
+        self.assertEqual(frames_of(load("robot.launch", [])), ["front_lidar", "rear_lidar", "imu"])
+        self.assertEqual(frames_of(load("robot.launch", ["front_frame:=front_laser", "imu_frame:=imu_link"])),
+                         ["front_laser", "rear_lidar", "imu_link"])
+
+    def test_jackal_is_started_as_its_own_service_leaves_it(self):
+        jackal = load("jackal.launch", [])
+        self.assertIs(jackal.params["/localization/publish_odom_tf"].value, False)
+        self.assertEqual(frames_of(jackal), ["front_laser", "rear_laser", "imu_link"])
+        given = load("jackal.launch", ["bind_address:=10.42.0.1", "rear_lidar:=false", "base_guard:=true"])
+        self.assertEqual(given.params["/dispatcher/bind_address"].value, "10.42.0.1")
+        self.assertIs(given.params["/drive_control/rear_lidar"].value, False)
+        self.assertIn("/base_guard", get_node_list(given))
+
+    def test_drivers_of_a_jackals_lidars_speak_where_the_nodes_listen(self):
+        for kind, package, word in (("sick_lms111", "lms1xx", "host"), ("hokuyo_ust10lx", "urg_node", "ip_address"),
+                                    ("sick_tim5xx", "sick_tim", "hostname")):
+            with self.subTest(kind):
+                jackal = load("jackal.launch", [f"lidar:={kind}", "rear_host:=10.0.0.2"])
+                drivers = {node.name: node for node in jackal.nodes if node.name.endswith("_lidar_driver")}
+                self.assertEqual({node.package for node in drivers.values()}, {package})
+                self.assertEqual(drivers["front_lidar_driver"].remap_args[-1], ["scan", "/front/scan"])
+                self.assertEqual(drivers["rear_lidar_driver"].remap_args[-1], ["scan", "/rear/scan"])
+                self.assertEqual(jackal.params[f"/rear_lidar_driver/{word}"].value, "10.0.0.2")
+                self.assertEqual(jackal.params["/rear_lidar_driver/frame_id"].value, "rear_lidar")
+                self.assertEqual(frames_of(jackal), ["front_lidar", "rear_lidar", "imu_link"])
+        with self.assertRaises(roslaunch.RLException):
+            load("jackal.launch", ["front_driver:=no_such_driver"])
+        one = load("jackal.launch", ["lidar:=sick_lms111", "rear_lidar:=false"])
+        self.assertNotIn("/rear_lidar_driver", get_node_list(one))
+
+    def test_jackals_voltage_is_a_charge(self):
+        node = next(node for node in load("jackal.launch", []).nodes if node.name == "battery_of_voltage")
+        _, topic, kind, expression = shlex.split(node.args)[:4]
+        self.assertEqual((topic, kind), ("/battery", "sensor_msgs/BatteryState"))
+        for voltage, charge in ((30.0, 1.0), (29.4, 1.0), (24.0, 0.143), (20.0, 0.0)):
+            told = SimpleNamespace(header=Header(seq=7), measured_battery=voltage)
+            state = eval(expression, {"sensor_msgs": sensor_msgs, "m": told})  # As topic_tools does it.
+            self.assertAlmostEqual(state.percentage, charge, places=3)
+            self.assertEqual((state.header.seq, state.voltage), (7, voltage))
 
     def test_named_lidar_is_what_its_data_sheet_says(self):
         package = pathlib.Path(rospkg.RosPack().get_path("mtr_description"))

@@ -22,20 +22,21 @@ class LiveRobot:
     """Speaks 50 times a second from a thread of its own; everything that it knows may be read at any time.
 
     Attributes:
-        planner, dispatcher: speakers whose message a test may change.
+        planner, dispatcher, front: speakers whose message a test may change.
         speakers: who speaks; a test may add one.
         speed_mps: of the wheels; they follow the last command as the shipped base does, time-out included.
         commands: arrival by time.monotonic() and speed of each command to the wheels.
     """
 
     def __init__(self) -> None:
-        front, rear, self.odometry, imu, peripherals = open_ground()
+        self.front, rear, self.odometry, imu, peripherals = open_ground()
         self.planner = Speaker(names.PLANNER_VELOCITY, VelocityCommand(), schedule.MOTION_PLANNER)
         self.dispatcher = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
         state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
         self.speed_mps = 0.0
         self.commands: List[Tuple[float, float]] = []
-        self.speakers = [front, rear, self.odometry, imu, peripherals, self.planner, self.dispatcher, state_machine]
+        self.speakers = [self.front, rear, self.odometry, imu, peripherals, self.planner, self.dispatcher,
+                         state_machine]
         self._over = threading.Event()
         self._subscriber = rospy.Subscriber(names.WHEEL_COMMAND, Twist, self._take, queue_size=50, tcp_nodelay=True)
         self._thread = threading.Thread(target=self._run, daemon=True)

@@ -36,12 +36,25 @@ def test_lidar_on_the_others_topic_is_named():
 def test_frame_that_the_description_lacks_is_said_so():
     found = texts({**RIGHT, names.FRONT_SCAN: "front_laser"})
     assert found == ["It comes in the frame front_laser, allowed is front_lidar, and robot_description has no such "
-                     "link: set frame_id in its driver."]
+                     "link: set frame_id in its driver, or tell robot.launch its name (front_frame, rear_frame, "
+                     "imu_frame)."]
 
 
 def test_imu_in_the_frame_of_the_base_is_told():
     assert texts({**RIGHT, names.IMU_DATA: names.BASE}) == [
-        "It comes in the frame base_link, allowed is imu: set frame_id in its driver."]
+        "It comes in the frame base_link, allowed is imu: set frame_id in its driver, or tell robot.launch its name "
+        "(front_frame, rear_frame, imu_frame)."]
+
+
+JACKAL = Setup(frames={names.FRONT_LIDAR: "front_laser", names.REAR_LIDAR: "rear_laser", names.IMU: "imu_link"})
+
+
+def test_frames_of_a_stock_jackal_are_right_where_the_robot_was_started_with_them():
+    stock = {names.FRONT_SCAN: "front_laser", names.REAR_SCAN: "rear_laser", names.IMU_DATA: "imu_link"}
+    assert texts(stock, JACKAL) == []
+    swapped = texts({**stock, names.FRONT_SCAN: "rear_laser"}, JACKAL)
+    assert len(swapped) == 1 and "allowed is front_laser: the LiDAR of /rear/scan is on this topic" in swapped[0]
+    assert "allowed is front_laser" in texts({**stock, names.FRONT_SCAN: names.FRONT_LIDAR}, JACKAL)[0]
 
 
 def test_two_frames_on_one_topic_are_told():

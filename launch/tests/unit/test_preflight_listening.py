@@ -48,6 +48,8 @@ def test_setup_is_what_the_parameters_say(robot):
     assert setup_of_robot() == Setup(controller=False)
     robot["/use_sim_time"] = True
     assert setup_of_robot().is_simulated
+    robot[names.ROBOT_FRAMES] = {names.FRONT_LIDAR: "front_laser"}
+    assert setup_of_robot().frames == {names.FRONT_LIDAR: "front_laser"}
 
 
 def test_record_has_messages_publishers_types_parameters_and_failures(robot):

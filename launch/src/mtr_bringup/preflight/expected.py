@@ -1,7 +1,7 @@
 """Topics that the robot's nodes need, and how often they have to come."""
 # SPDX-License-Identifier: Apache-2.0
-from dataclasses import dataclass
-from typing import List, NamedTuple
+from dataclasses import dataclass, field
+from typing import List, Mapping, NamedTuple
 
 from mtr_core import names
 from mtr_core.schedule import CONTROLLER_INPUT, FIRMWARE, LIDAR, SENSORS, Slot
@@ -29,6 +29,7 @@ class Setup:
         base_guard: the node in front of a base without limits runs.
         base_controller: namespace of the base's parameters.
         is_simulated: time or robot are simulated.
+        frames: link of the description -> frame in which the sensor speaks, where that has another name.
         time_increment_s: from beam to beam, as the nodes take it where the scans do not say it; 0: they do not know.
     """
 
@@ -38,6 +39,7 @@ class Setup:
     base_controller: str = f"/{CONTROLLER}"
     is_simulated: bool = False
     time_increment_s: float = 0.0
+    frames: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def base_parameters(self) -> str:

@@ -1,6 +1,6 @@
 """Do scans and IMU come in the frames that the robot's description has for their topics?"""
 # SPDX-License-Identifier: Apache-2.0
-from typing import List, Optional
+from typing import List, Mapping, Optional
 
 from mtr_core import names
 from mtr_core.errors import ConfigurationError
@@ -17,13 +17,14 @@ SCAN_FRAMES = {names.FRONT_SCAN: names.FRONT_LIDAR, names.REAR_SCAN: names.REAR_
 
 def frame_findings(record: RobotRecord, setup: Setup, geometry: RobotGeometry) -> List[Finding]:
     """Mounts in the description, and the frame of each topic that came."""
-    frames = {**SCAN_FRAMES, names.IMU_DATA: names.IMU}
+    frames = {topic: setup.frames.get(link, link) for topic, link in {**SCAN_FRAMES, names.IMU_DATA: names.IMU}.items()}
     if not setup.rear_lidar:
         del frames[names.REAR_SCAN]
     found = [description_finding(geometry, setup)]
     for topic, frame in frames.items():
         if record.topic(topic).frames:
-            found.append(frame_finding(topic, frame, list(record.topic(topic).frames), geometry))
+            others = {each: of for each, of in frames.items() if each in SCAN_FRAMES and each != topic}
+            found.append(frame_finding(topic, frame, list(record.topic(topic).frames), geometry, others))
     return found
 
 
@@ -39,12 +40,13 @@ def description_finding(geometry: RobotGeometry, setup: Setup) -> Finding:
     return good(DESCRIPTION, names.ROBOT_DESCRIPTION, "It has LiDARs, IMU, footprint and key as the nodes need them.")
 
 
-def frame_finding(topic: str, frame: str, found: List[str], geometry: RobotGeometry) -> Finding:
-    """The frame of a topic's messages."""
+def frame_finding(topic: str, frame: str, found: List[str], geometry: RobotGeometry, others: Mapping[str, str]
+                  ) -> Finding:
+    """The frame of a topic's messages. others: of the other LiDARs' topics."""
     if found == [frame]:
         return good(FRAME, topic, f"It comes in the frame {frame}.")
     wrong = next(name for name in found if name != frame)
-    other = next((each for each, of in SCAN_FRAMES.items() if of == wrong and each != topic), None)
+    other = next((each for each, of in others.items() if of == wrong), None)
     if len(found) > 1:
         what = f"It comes in {len(found)} frames ({', '.join(sorted(found))})"
     else:
@@ -52,7 +54,8 @@ def frame_finding(topic: str, frame: str, found: List[str], geometry: RobotGeome
     if other and topic in SCAN_FRAMES:
         return bad(FRAME, topic, f"{what}, allowed is {frame}: the LiDAR of {other} is on this topic; exchange the "
                    "topics of the LiDARs' drivers.")
-    return bad(FRAME, topic, f"{what}, allowed is {frame}{unknown(wrong, geometry)}: set frame_id in its driver.")
+    return bad(FRAME, topic, f"{what}, allowed is {frame}{unknown(wrong, geometry)}: set frame_id in its driver, or "
+               "tell robot.launch its name (front_frame, rear_frame, imu_frame).")
 
 
 def unknown(frame: str, geometry: RobotGeometry) -> str:

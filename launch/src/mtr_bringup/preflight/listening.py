@@ -47,7 +47,8 @@ def setup_of_robot() -> Setup:
         bool(drive.get("base_guard", default.base_guard)),
         str(drive.get("base_controller", default.base_controller)),
         bool(rospy.get_param("/use_sim_time", False)) or names.SIM_TRUTH in publishers(),
-        float(rospy.get_param("/localization/time_increment_s", default.time_increment_s)))
+        float(rospy.get_param("/localization/time_increment_s", default.time_increment_s)),
+        {str(link): str(frame) for link, frame in rospy.get_param(names.ROBOT_FRAMES, {}).items()})
 
 
 def publishers() -> Dict[str, Tuple[str, ...]]:

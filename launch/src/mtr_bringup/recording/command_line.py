@@ -37,7 +37,7 @@ CANNOT = 2
 MIN_RATE, MAX_RATE = 0.05, 20.0
 READY_EVERY_S, READY_LIMIT_S = 0.1, 10.0
 # Of nodes that are started again in a replay.
-KEPT_PARAMETERS = (names.ROBOT_DESCRIPTION, "/localization", "/car_locator", "/state_machine")
+KEPT_PARAMETERS = (names.ROBOT_DESCRIPTION, names.ROBOT_FRAMES, "/localization", "/car_locator", "/state_machine")
 
 
 def record(arguments: Optional[List[str]] = None) -> int:

@@ -17,6 +17,8 @@ ROBOT_DESCRIPTION = "/robot_description"
 START_FAILURES = "/start_failures"
 # Of the robot: its topics of sensors and base, by the arguments of robot.launch
 ROBOT_TOPICS = "/robot_topics"
+# Of the robot: frames in which its sensors speak, by the links of the description that stand for them
+ROBOT_FRAMES = "/robot_frames"
 # Of the robot: what the last preflight of this run of the ROS master found, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
 

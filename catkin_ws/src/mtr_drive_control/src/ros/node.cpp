@@ -85,14 +85,14 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       odometry_(node, names::kWheelOdometry, mtr_core::kSensors, 0),
       imu_(node, names::kImuData, mtr_core::kSensors, 0),
       peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
-      front_(node, names::kFrontScan, names::kFrontLidar),
+      front_(node, names::kFrontScan, mtr_description::message_frame(names::kFrontLidar)),
       markers_(node),
       wheels_(node.advertise<geometry_msgs::Twist>(
           parameters.base_guard ? names::kGuardedWheelCommand : names::kWheelCommand, 10)),
       status_(node.advertise<mtr_msgs::DriveStatus>(names::kDriveStatus, 10)),
       publishers_(permitted_publishers(parameters.base_guard)) {
   if (parameters.rear_lidar) {
-    rear_.emplace(node, names::kRearScan, names::kRearLidar);
+    rear_.emplace(node, names::kRearScan, mtr_description::message_frame(names::kRearLidar));
   }
   check_balance(parameters.limits, mtr_description::described_robot());
   check_base(parameters.base_guard ? std::string(names::kBaseGuard) + kShippedController : parameters.base_controller,

@@ -81,7 +81,7 @@ std::unique_ptr<PoseSource> Node::own_source(const Parameters& parameters) {
 }
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
-    : frames_(mtr_description::described_robot(), parameters.rear_lidar),
+    : frames_(mtr_description::described_robot(), mtr_description::lidars_by_frame(parameters.rear_lidar)),
       listener_(transforms_),
       memory_(parameters.memory_folder, ros::param::param("/run_id", std::string())),
       outputs_(node, parameters.publish_odom_tf, memory_),

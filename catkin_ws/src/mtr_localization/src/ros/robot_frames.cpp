@@ -5,17 +5,15 @@
 
 #include <ros/console.h>
 
-#include "mtr_core/names.hpp"
 #include "mtr_core/parameter.hpp"
 
 namespace mtr_localization {
 
-namespace names = mtr_core::names;
-
-RobotFrames::RobotFrames(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar) : geometry_(geometry) {
-  lidars_[names::kFrontLidar] = level_mount(names::kFrontLidar);
-  if (has_rear_lidar) {
-    lidars_[names::kRearLidar] = level_mount(names::kRearLidar);
+RobotFrames::RobotFrames(const mtr_description::RobotGeometry& geometry,
+                         const std::map<std::string, std::string>& lidars)
+    : geometry_(geometry) {
+  for (const auto& [frame, link] : lidars) {
+    lidars_[frame] = level_mount(link);
   }
 }
 

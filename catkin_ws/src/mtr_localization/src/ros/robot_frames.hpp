@@ -16,8 +16,8 @@ namespace mtr_localization {
 class RobotFrames {
  public:
   /// Throws mtr_core::ConfigurationError unless the LiDARs sit upright and level on the robot.
-  /// @param has_rear_lidar false: the robot has none, and its description need not either
-  RobotFrames(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar);
+  /// @param lidars links of the LiDARs that the robot has, by the frames in which they speak
+  RobotFrames(const mtr_description::RobotGeometry& geometry, const std::map<std::string, std::string>& lidars);
 
   /// Mount of a LiDAR that is upright and level; null after a warning, once for each frame, when it is not.
   const Mount* lidar(const std::string& frame);
