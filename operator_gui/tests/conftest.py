@@ -7,3 +7,5 @@ import pytest
 def own_second_place(tmp_path_factory, monkeypatch):
     """The system's folder for data of programs, of this test alone."""
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path_factory.mktemp("data")))
+    # A person's store of results is none of a test's.
+    monkeypatch.delenv("MTR_RESULTS_STORE", raising=False)

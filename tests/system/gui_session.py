@@ -4,6 +4,7 @@ Usage: gui_session.py SUBSCRIBER_PORT PUBLISHER_PORT CAN_CHANNEL FOLDER
 """
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
+import os
 import pathlib
 import sys
 
@@ -18,7 +19,9 @@ MEASURING_LIMIT_S = 400.0
 
 
 def prepare(folder: pathlib.Path, language: str = "en") -> pathlib.Path:
-    """Settings that keep all files in the folder; their path."""
+    """Settings that keep all files in the folder; their path. What the system keeps for programs is there, too."""
+    os.environ["XDG_DATA_HOME"] = str(folder / "data")
+    os.environ.pop("MTR_RESULTS_STORE", None)
     path = folder / "settings.json"
     SettingsStore(path).change(dataclasses.replace(Settings(), language=language, theme="light",
                                                    result_folder=folder / "results",

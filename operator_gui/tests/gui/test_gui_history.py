@@ -1,21 +1,30 @@
 """The tests of before in the window: listed, searched, opened, continued, repeated, compared."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
+import sys
+import threading
+from importlib.metadata import EntryPoint
+from types import SimpleNamespace
 
 import pytest
 from PyQt5.QtCore import Qt
 
+from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.progress import JournalMark
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.evidence.bundle import write_bundle
 from mtr_operator.evidence.station_key import Station
 from mtr_operator.gui.header.stop_button import StopButton
+from mtr_operator.gui.history import history_screen
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
 from mtr_operator.gui.history.history_model import HistoryModel
 from mtr_operator.gui.history.replay_window import ReplayWindow
 from mtr_operator.gui.history.spread_window import SpreadWindow
 from mtr_operator.gui.i18n import Language
+from mtr_operator.gui.waited_thread import WaitedThread
+from mtr_operator.history import laboratory
+from mtr_operator.history.reading import read_entry
 from mtr_operator.replay import replay_file
 from mtr_operator.replay.replay import ReplayedTest
 from mtr_operator.storage.progress_file import open_progress, save_progress
@@ -62,13 +71,13 @@ def test_finished_test_opens_as_protocol_and_half_a_test_is_continued(lab):
     history.table.selectRow(0)
     assert history.open.text() == "Open"
     lab.click(history.open)
-    assert lab.window.screen is lab.window.protocol
+    lab.wait(lambda: lab.window.screen is lab.window.protocol)
     lab.click(lab.window.protocol.done)
     history = show(lab)
     history.table.selectRow(1)
     assert history.open.text() == "Continue"
     lab.click(history.open)
-    assert lab.window.screen is lab.window.measurement and lab.model.done == 2
+    lab.wait(lambda: lab.window.screen is lab.window.measurement and lab.model.done == 2)
 
 
 def test_test_is_repeated_with_its_parameters_and_its_car(lab):
@@ -77,7 +86,7 @@ def test_test_is_repeated_with_its_parameters_and_its_car(lab):
     history.table.selectRow(0)
     lab.click(history.repeat)
     screen = lab.window.settings["key_press"]
-    assert lab.window.screen is screen
+    lab.wait(lambda: lab.window.screen is screen)
     assert screen.form.fields["angle_between_radials_rad"].text == "90"
     assert screen.identity.fields["car_vin"].text == "OTHER"
 
@@ -89,7 +98,7 @@ def test_two_tests_are_compared_with_stop_in_sight(lab):
     history.search.setText("2020-01")
     history.table.selectAll()
     lab.click(history.compare)
-    [window] = lab.window.findChildren(ComparisonWindow)
+    window = opened(lab, ComparisonWindow)
     assert window.isVisible() and window.findChildren(StopButton) and not window.isModal()
     model = window.table.model()
     assert model.rowCount() == 2
@@ -202,7 +211,7 @@ def test_test_in_a_bundle_is_listed_repeated_and_not_opened(lab):
     history.table.selectRow(0)
     assert not history.open.isEnabled() and "signed bundle" in history.notice.text()
     lab.click(history.repeat)
-    assert lab.window.screen is lab.window.settings["key_press"]
+    lab.wait(lambda: lab.window.screen is lab.window.settings["key_press"])
 
 
 def test_test_of_a_scenario_that_this_version_does_not_know_is_shown_by_its_name(lab):
@@ -217,8 +226,8 @@ def test_file_that_changes_between_list_and_click_is_said(lab):
     history.table.selectRow(0)
     history.shown[0].file.write_bytes(b"{")
     lab.click(history.repeat)
-    assert "truncated or not a JSON file" in history.notice.text()
-    assert lab.window.screen is history
+    lab.wait(lambda: "truncated or not a JSON file" in history.notice.text())
+    assert history.repeat.isEnabled() and lab.window.screen is history
 
 
 def test_choice_stays_while_more_tests_are_found(lab):
@@ -289,3 +298,89 @@ def test_what_would_change_is_shown_in_a_window_that_leaves_the_stop_alive(lab, 
     for said in (f"1 of {len(recorded)} distances would change", "10.0 mm", "Of 2 lines nothing was recorded"):
         assert said in window.summary.text()
     window.close()
+
+
+class KeptElsewhere:
+    """A store with the tests of a folder."""
+
+    where = "/store/tests"
+
+    def __init__(self, paths):
+        self.paths = paths
+
+    def entries(self):
+        return [dataclasses.replace(read_entry(path), path=str(number), parameters="", store=self.where)
+                for number, path in enumerate(self.paths)]
+
+    def fetch(self, entry, path):
+        path.write_bytes(self.paths[int(entry.path)].read_bytes())
+
+
+@pytest.fixture
+def store(lab, monkeypatch):
+    """A store that has the lab's test of another car, and half a test, which are in no folder of the lab."""
+    folder = lab.application.flow.store.settings.progress_folder
+    elsewhere = folder.parent / "elsewhere"
+    elsewhere.mkdir()
+    kept = KeptElsewhere([(folder / f"{number}.json").rename(elsewhere / f"{number}.json") for number in (1, 2)])
+    point = EntryPoint("store", "kept_elsewhere:opened", laboratory.GROUP)
+    monkeypatch.setitem(sys.modules, "kept_elsewhere", SimpleNamespace(opened=lambda: kept))
+    monkeypatch.setattr(laboratory, "_installed", lambda: [point])
+    return kept
+
+
+def test_tests_of_the_store_are_listed_beside_those_of_the_folders_and_told(lab, store):
+    history = show(lab)
+    said = history.notice.text().replace("\u200b", "")
+    assert "3 tests, 3 of them shown. 2 of them are in the store /store/tests alone" in said
+    model = history.table.model()
+    assert model.data(model.index(2, 0), Qt.ToolTipRole) == "In the store /store/tests, as test 0"
+
+
+def test_half_a_test_of_the_store_is_copied_to_be_continued(lab, store):
+    history = show(lab)
+    folder = lab.application.flow.store.settings.progress_folder
+    before = set(folder.iterdir())
+    history.table.selectRow(1)
+    lab.click(history.open)
+    lab.wait(lambda: lab.window.screen is lab.window.measurement and lab.model.done == 2)
+    copy, = set(folder.iterdir()) - before
+    assert lab.model.current_test.path == copy and copy.name.startswith("key_press_2020-01-02_10-00-00")
+
+
+def test_test_of_the_store_is_repeated_and_compared(lab, store):
+    history = show(lab)
+    history.search.setText("2020-01")
+    history.table.selectAll()
+    lab.click(history.compare)
+    assert opened(lab, ComparisonWindow).table.model().rowCount() == 2
+    history.search.setText("other")
+    history.table.selectRow(0)
+    lab.click(history.repeat)
+    lab.wait(lambda: lab.window.screen is lab.window.settings["key_press"])
+    assert lab.window.settings["key_press"].identity.fields["car_vin"].text == "OTHER"
+
+
+def test_store_that_is_away_is_said_and_hides_no_test_of_the_folders(lab, monkeypatch):
+    def away():
+        raise ProgressFileError("The store /store/tests is away: no database server answers there.")
+    monkeypatch.setitem(sys.modules, "kept_elsewhere", SimpleNamespace(opened=away))
+    monkeypatch.setattr(laboratory, "_installed",
+                        lambda: [EntryPoint("store", "kept_elsewhere:opened", laboratory.GROUP)])
+    history = show(lab)
+    assert "is away" in history.notice.text() and history.table.model().rowCount() == 4
+
+
+def test_window_made_anew_while_a_test_is_read_hears_nothing_of_it(lab, monkeypatch):
+    history = show(lab)
+    go_on = threading.Event()
+    monkeypatch.setattr(history_screen, "side_of", lambda entry: go_on.wait(10.0))
+    history.table.selectRow(0)
+    lab.click(history.repeat)
+    lab.application.flow.use_language("cs")
+    try:
+        go_on.set()
+        WaitedThread.finish_all()
+        lab.wait(lambda: lab.window.history is not history)
+    finally:
+        lab.application.flow.use_language("en")

@@ -16,7 +16,7 @@ class TestEntry:
     """One test, or a file that holds none.
 
     Attributes:
-        path: of the progress file, or of the journal where that is all there is.
+        path: of the progress file, or of the journal where that is all there is; in a store the test's number there.
         problem: why it cannot be read; empty when it can. Without one the others mean something.
         test_id: the same in each copy of the test. entries: how far this copy reaches.
         started: as in the record. scenario: its name. parameters: the same for tests with the same ones.
@@ -24,6 +24,7 @@ class TestEntry:
         done, total, invalid: lines. is_complete: none is left to be measured.
         verdict: word of the test's verdict, empty without limits.
         words: all that a search looks at, in small letters.
+        store: in which the test is, empty for one in a file.
     """
 
     # The name would make pytest collect it.
@@ -46,11 +47,17 @@ class TestEntry:
     is_complete: bool = False
     verdict: str = ""
     words: str = ""
+    store: str = ""
 
     @property
     def file(self) -> pathlib.Path:
-        """See path."""
+        """See path; of a test in a store it is none."""
         return pathlib.Path(self.path)
+
+    @property
+    def name(self) -> str:
+        """By which a sentence tells a person which test it is about."""
+        return f"{self.scenario} {self.moment}" if self.store else self.file.name
 
     @functools.cached_property
     def moment(self) -> str:

@@ -37,9 +37,11 @@ def matching(entries: Sequence[TestEntry], text: str = "", *, car: str = "", key
 
 def repetitions(entries: Sequence[TestEntry], entry: TestEntry) -> list[TestEntry]:
     """Tests of an entry's car and key with its parameters that have measured something, itself among them, oldest
-    first; of very many the newest. What nobody said of car and key is the same as what nobody said."""
+    first; of very many the newest. What nobody said of car and key is the same as what nobody said. Which
+    parameters a test of the store has shows when it is read."""
     alike = [each for each in entries if not each.problem and each.done
-             and all(getattr(each, name) == getattr(entry, name) for name in ("scenario", "parameters", "car", "key"))]
+             and all(getattr(each, name) == getattr(entry, name) for name in ("scenario", "car", "key"))
+             and (each.parameters == entry.parameters or "" in (each.parameters, entry.parameters))]
     return sorted(alike, key=lambda each: (each.started, each.path))[-MAX_TESTS:]
 
 
@@ -61,5 +63,7 @@ def problems_of(entries: Sequence[TestEntry]) -> list[str]:
 
 def _reach(entry: TestEntry) -> tuple[int, int]:
     """A copy beside a report has the name of a file, and no journal to go on with, and one in a bundle stays as it is:
-    of equals the other one counts."""
+    of equals the other one counts. A test of the store has to be fetched first."""
+    if entry.store:
+        return entry.entries, -1
     return entry.entries, 0 if is_bundle(entry.file) else 1 if entry.file.name == FILE_NAME else 2

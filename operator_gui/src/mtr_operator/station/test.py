@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import itertools
-import os
 import pathlib
 from dataclasses import dataclass, field
 from typing import Iterator
@@ -20,9 +19,8 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given
 from mtr_operator.storage.identity_file import GivenIdentity
-from mtr_operator.storage.journal_file import journal_path
 from mtr_operator.storage.photos import copy_photos, discard_photos, keep_photos, photo_folder
-from mtr_operator.storage.progress_file import FILE_NAME, holds_no_other, open_progress
+from mtr_operator.storage.progress_file import FILE_NAME, free_path, holds_no_other, open_progress
 from mtr_operator.storage.recovery import progress_path
 from mtr_operator.storage.store import Store
 
@@ -135,7 +133,7 @@ def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: path
     """A test that has measured nothing yet; without anything given it has no limits and the design's calibration."""
     started = now()
     session = session_record(started, connection.robot.host, profile_name(connection.can))
-    path = _free(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
+    path = free_path(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
     progress = Progress(scenario.name, parameters.to_mapping(), session)
     (given or Given()).give(progress)
     progress.identity = None if who.identity.is_empty else who.identity
@@ -147,13 +145,6 @@ def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:
     others = (folder / f"{test.name}_{number}" for number in itertools.count(2))
     return next(place for place in itertools.chain([folder / test.name], others)
                 if holds_no_other(place / FILE_NAME, test.progress))
-
-
-def _free(path: pathlib.Path) -> pathlib.Path:
-    """The path, or one with a number where there is a test already: its name is as fine as a second."""
-    others = (path.with_stem(f"{path.stem}_{number}") for number in itertools.count(2))
-    return next(free for free in itertools.chain([path], others)
-                if not os.path.lexists(free) and not os.path.lexists(journal_path(free)))
 
 
 def profile_name(can: CanChoice | None) -> str:

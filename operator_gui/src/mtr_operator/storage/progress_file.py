@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import pathlib
@@ -13,7 +14,7 @@ from mtr_operator.domain.results.session_record import STARTED
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from .atomic import write_bytes
-from .journal_file import journal_of
+from .journal_file import journal_of, journal_path
 from .progress_document import mark_in, read_document
 from .recovery import Recovery, progress_path
 
@@ -77,6 +78,13 @@ def holds_no_other(path: pathlib.Path, progress: Progress) -> bool:
     session = document.get("session") if isinstance(document, dict) else None
     return (isinstance(session, dict) and document.get("scenario") == progress.scenario
             and session.get(STARTED) == progress.session.get(STARTED))
+
+
+def free_path(path: pathlib.Path) -> pathlib.Path:
+    """The path, or one with a number where there is a test already: its name is as fine as a second."""
+    others = (path.with_stem(f"{path.stem}_{number}") for number in itertools.count(2))
+    return next(free for free in itertools.chain([path], others)
+                if not os.path.lexists(free) and not os.path.lexists(journal_path(free)))
 
 
 def refuse_to_overwrite(path: pathlib.Path, report_names: Sequence[str] = ()) -> None:

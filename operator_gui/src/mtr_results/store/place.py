@@ -10,8 +10,8 @@ from typing import Collection
 
 import platformdirs
 
-from ..errors import StoreAway
-from .database import Database, engine_of
+from ..errors import StoreAway, StoreError
+from .database import Database, engine_of, version_of
 from .intake import Door
 from .kept_files import KeptFiles
 from .spool import Spool
@@ -54,6 +54,28 @@ class Place:
             with contextlib.suppress(OSError):
                 default_file().parent.mkdir(parents=True, exist_ok=True)
         database.make_ready()
+        return database
+
+    @property
+    def shown(self) -> str:
+        """The store as it may be shown, without its password; StoreError for what is no address."""
+        database = Database(engine_of(self.address))
+        return database.where if database.file is None else str(database.file)
+
+    def existing(self) -> Database:
+        """The store, never made by who looks at it; StoreError says why it cannot be read."""
+        database = Database(engine_of(self.address))
+        if database.file is not None and not database.file.is_file():
+            raise StoreAway(f"The store {self.shown} is away: there is no such file; connect its disk, or name another "
+                            "store.")
+        try:
+            with database.reading() as connection:
+                if version_of(connection) is None:
+                    raise StoreError(f"The database {self.shown} holds no store yet; mtr-results import makes one.")
+            database.make_ready()
+        except StoreError:
+            database.close()
+            raise
         return database
 
     def kept_files(self) -> KeptFiles | None:

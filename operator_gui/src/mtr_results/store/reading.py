@@ -46,9 +46,9 @@ class Search:
     offset: int = 0
 
 
-def find(connection: Connection, search: Search) -> list[Row]:
-    """Tests that fit, newest first."""
-    columns = [getattr(Test, name) for name in LISTED]
+def find(connection: Connection, search: Search, further: Sequence[str] = ()) -> list[Row]:
+    """Tests that fit, newest first. further: columns of the table of tests beside those that are listed."""
+    columns = [getattr(Test, name) for name in (*LISTED, *further)]
     found = select(*columns, _CAR, Car.software.label("car_software"), Key.serial.label("key"),
                    Campaign.name.label("campaign"))
     ordered = _fitting(found, search).order_by(Test.started_utc.desc(), Test.id.desc()).offset(search.offset)
@@ -116,6 +116,12 @@ def parts(connection: Connection, number: int) -> dict[str, list[Row]]:
     """Lines, measurements, trials, verdicts and files of a test, each in its order."""
     return {name: _rows(connection, table, number) for name, table in (
         ("lines", Line), ("measurements", Measurement), ("trials", Trial), ("verdicts", Verdict), ("files", File))}
+
+
+def files(connection: Connection, number: int) -> dict[str, str]:
+    """Check sum of each file of a test, by its name."""
+    found = connection.execute(select(File.name, File.sha256).where(File.test_id == number))
+    return {name: sha256 for name, sha256 in found}
 
 
 def _rows(connection: Connection, table: Any, number: int) -> list[Row]:

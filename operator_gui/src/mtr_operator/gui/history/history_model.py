@@ -40,7 +40,8 @@ class HistoryModel(TableModel):
         if role == Qt.ItemDataRole.DisplayRole:
             return self._texts(entry)[index.column()]
         if role == Qt.ItemDataRole.ToolTipRole:
-            return translated(entry.problem) or entry.path
+            return translated(entry.problem) or (self.tr("In the store {where}, as test {number}").format(
+                where=entry.store, number=entry.path) if entry.store else entry.path)
         if role == Qt.ItemDataRole.TextAlignmentRole and index.column() == _LINES:
             return int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         return None

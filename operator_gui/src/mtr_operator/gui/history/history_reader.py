@@ -1,4 +1,5 @@
-"""Reads the folders of tests in a thread: ten thousand files take longer than the window may be blocked."""
+"""Reads the folders of tests, and the store, in a thread: ten thousand files take longer than the window may be
+blocked."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,6 +8,8 @@ import logging
 from PyQt5.QtCore import QObject, pyqtSignal
 
 from mtr_operator.history.index import Index
+from mtr_operator.history.laboratory import kept_entries
+from mtr_operator.history.search import listed
 
 from ..waited_thread import WaitedThread
 
@@ -31,7 +34,10 @@ class HistoryReader(WaitedThread):
     def run(self) -> None:
         """See QThread."""
         try:
-            self.done.emit(self._index.refresh(self.told.emit, self.isInterruptionRequested))
+            found = self._index.refresh(self.told.emit, self.isInterruptionRequested)
+            # A store on a server that is away takes seconds to say so.
+            self.told.emit(found)
+            self.done.emit(found if self.isInterruptionRequested() else listed([*found, *kept_entries()]))
         # Qt ends the process when an exception leaves this function.
         except Exception:
             logging.exception("The history was not read because of a defect of the application.")

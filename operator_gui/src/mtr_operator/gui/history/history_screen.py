@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pathlib
-from typing import TYPE_CHECKING, Callable, Sequence
+from typing import TYPE_CHECKING, Any, Callable, Sequence
 
 from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import (
@@ -16,12 +16,10 @@ from PyQt5.QtWidgets import (
     QWidget,
 )
 
-from mtr_operator.domain.errors import OperatorError
 from mtr_operator.history.bundles import is_bundle
-from mtr_operator.history.comparison import compare
+from mtr_operator.history.chosen import brought, compared, replayed, side_of, spread_of_chosen
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.index import Index, cache_path
-from mtr_operator.history.line_pairs import open_side
 from mtr_operator.history.search import problems_of, repetitions
 
 from ..dialogs import ask_bundle
@@ -36,13 +34,11 @@ from ..theme.scale import L, M, S
 from .history_filters import HistoryFilters
 from .history_model import HistoryModel
 from .history_reader import HistoryReader
-from .replaying import Replaying
-from .spreading import Spreading
+from .task import Task, Work
 
 if TYPE_CHECKING:
     from mtr_operator.evidence.verification import Verification
     from mtr_operator.history.spread import TestSpread
-    from mtr_operator.replay.replay import ReplayedTest
 
 _TABLE_HEIGHT = 120
 _PROBLEMS_SHOWN = 2
@@ -54,7 +50,7 @@ class HistoryScreen(QWidget):
     open, repeat, compare, spread, file, verify, anew, back: buttons.
 
     Signals: open_wanted(path), repeat_wanted(side), compare_wanted(comparison), spread_wanted(TestSpread),
-        replayed(path, ReplayedTest), file_wanted, closed.
+        replayed(name, ReplayedTest), file_wanted, closed.
     """
 
     open_wanted = pyqtSignal(object)
@@ -72,8 +68,7 @@ class HistoryScreen(QWidget):
         self._folders: tuple[pathlib.Path, ...] = ()
         self._reader: HistoryReader | None = None
         self._check: BundleCheck | None = None
-        self._replaying: Replaying | None = None
-        self._spreading: Spreading | None = None
+        self._tasks: dict[Task, tuple[QPushButton, Callable[[Any], None]]] = {}
         self._entries: Sequence[TestEntry] = ()
         self._summary = ""
         self._model = HistoryModel(self)
@@ -186,24 +181,26 @@ class HistoryScreen(QWidget):
         self.verify.setEnabled(True)
         self.say(check_text(path, found))
 
-    def _replay(self) -> None:
-        self.anew.setEnabled(False)
-        self.say(self.tr("{name} is being computed anew.").format(name=self.chosen[0].file.name))
+    def _begin(self, button: QPushButton, sentence: str, work: Work, end: Callable[[Any], None]) -> None:
+        """Do something with the tests that are chosen; end: takes what came out."""
         # No child of the screen, and no lambda: it may outlive it when the window is made anew.
-        self._replaying = Replaying(self.chosen[0].file)
-        self._replaying.replayed.connect(self._show_replayed)
-        self._replaying.refused.connect(self._refuse_replay)
-        self._replaying.start()
+        task = Task(work)
+        self._tasks[task] = button, end
+        task.done.connect(self._finish)
+        task.refused.connect(self._refuse)
+        self._show_choice()
+        self.say(sentence)
+        task.start()
 
     # A thread that has told its result may not have ended yet; nobody waits for it.
 
-    def _show_replayed(self, path: pathlib.Path, found: ReplayedTest) -> None:
-        self._replaying = None
+    def _finish(self, task: Task, found: Any) -> None:
+        _, end = self._tasks.pop(task)
         self._show_choice()
-        self.replayed.emit(path, found)
+        end(found)
 
-    def _refuse_replay(self, text: str) -> None:
-        self._replaying = None
+    def _refuse(self, task: Task, text: str) -> None:
+        self._tasks.pop(task)
         self._show_choice()
         self.say(translated(text))
 
@@ -217,6 +214,11 @@ class HistoryScreen(QWidget):
         problems = problems_of(entries)
         counted = self.tr("{count} tests, {shown} of them shown.").format(count=len(entries) - len(problems),
                                                                         shown=len(self.shown))
+        stored = {entry.store for entry in entries if entry.store}
+        if stored:
+            counted += " " + self.tr("{count} of them are in the store {where} alone; what is opened is copied from "
+                                     "there.").format(count=sum(1 for entry in entries if entry.store),
+                                                      where=", ".join(stored))
         more = len(problems) - _PROBLEMS_SHOWN
         tail = [self.tr("{count} more files cannot be read.").format(count=more)] if more > 0 else []
         self._summary = "\n".join([counted, *map(translated, problems[:_PROBLEMS_SHOWN]), *tail])
@@ -236,10 +238,12 @@ class HistoryScreen(QWidget):
         is_good = not any(entry.problem for entry in chosen)
         is_bundle_alone = len(chosen) == 1 and is_bundle(chosen[0].file)
         self.open.setEnabled(is_good and len(chosen) == 1 and not is_bundle_alone)
-        self.anew.setEnabled(self.open.isEnabled() and self._replaying is None)
+        self.anew.setEnabled(self.open.isEnabled())
         self.repeat.setEnabled(is_good and len(chosen) == 1)
         self.compare.setEnabled(is_good and len(chosen) == 2)
-        self.spread.setEnabled(is_good and bool(chosen) and self._spreading is None)
+        self.spread.setEnabled(is_good and bool(chosen))
+        for button, _ in self._tasks.values():
+            button.setEnabled(False)
         is_unfinished = len(chosen) == 1 and is_good and not chosen[0].is_complete
         self.open.setText(self.tr("Continue") if is_unfinished else self.tr("Open"))
         if not is_good and len(chosen) == 1:
@@ -253,44 +257,40 @@ class HistoryScreen(QWidget):
     def _open(self) -> None:
         # A row is opened by two clicks, too.
         if self.open.isEnabled():
-            self.open_wanted.emit(self.chosen[0].file)
+            entry, folder = self.chosen[0], self._folders[0]
+            self._begin(self.open, self._is_read(1), lambda _: brought(entry, folder), self.open_wanted.emit)
 
     def _repeat(self) -> None:
-        try:
-            self.repeat_wanted.emit(open_side(self.chosen[0].file))
-        except OperatorError as error:
-            self.say(translated(str(error)))
+        entry = self.chosen[0]
+        self._begin(self.repeat, self._is_read(1), lambda _: side_of(entry), self.repeat_wanted.emit)
 
     def _compare(self) -> None:
         first, second = self.chosen
-        try:
-            self.compare_wanted.emit(compare(open_side(first.file), open_side(second.file)))
-        except OperatorError as error:
-            self.say(translated(str(error)))
+        self._begin(self.compare, self._is_read(2), lambda _: compared(first, second), self.compare_wanted.emit)
+
+    def _replay(self) -> None:
+        entry = self.chosen[0]
+        self._begin(self.anew, self.tr("{name} is being computed anew.").format(name=entry.name),
+                    lambda _: replayed(entry), lambda found: self.replayed.emit(entry.name, found))
 
     def _compute_spread(self) -> None:
         chosen = self.chosen
-        tests = chosen if len(chosen) > 1 else repetitions(self._entries, chosen[0])
+        alike = chosen[0] if len(chosen) == 1 else None
+        tests = chosen if alike is None else repetitions(self._entries, alike)
         if len(tests) < 2:
+            self._show_spread(None)
+        else:
+            self._begin(self.spread, self._is_read(len(tests)),
+                        lambda is_cancelled: spread_of_chosen(tests, alike, is_cancelled), self._show_spread)
+
+    def _show_spread(self, found: TestSpread | None) -> None:
+        if found is None:
             self.say(self.tr("No other test has the parameters, the car and the key of this one."))
-            return
-        self.spread.setEnabled(False)
-        self.say(self.tr("{count} tests are being read.").format(count=len(tests)))
-        # No child of the screen, and no lambda: it may outlive it when the window is made anew.
-        self._spreading = Spreading([entry.file for entry in tests])
-        self._spreading.computed.connect(self._show_spread)
-        self._spreading.refused.connect(self._refuse_spread)
-        self._spreading.start()
+        else:
+            self.spread_wanted.emit(found)
 
-    def _show_spread(self, found: TestSpread) -> None:
-        self._spreading = None
-        self._show_choice()
-        self.spread_wanted.emit(found)
-
-    def _refuse_spread(self, text: str) -> None:
-        self._spreading = None
-        self._show_choice()
-        self.say(translated(text))
+    def _is_read(self, count: int) -> str:
+        return self.tr("{count} tests are being read.").format(count=count)
 
 
 def _mark(entry: TestEntry) -> str:

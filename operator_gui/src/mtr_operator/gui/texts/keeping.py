@@ -76,4 +76,32 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The files are as they were signed, but the zip around them is not as it was "
                                   "written, from byte {} on: it was packed anew, or a byte between the files is "
                                   "changed."),
+    # Of the store of results.
+    QT_TRANSLATE_NOOP("Sentence", "The store {} is gone."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} is away: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} is away: there is no such file; connect its disk, or name another "
+                                  "store."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} is away: there is no folder {}; connect its disk, or make it."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} cannot be used: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} failed: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The database {} holds no store yet; mtr-results import makes one."),
+    QT_TRANSLATE_NOOP("Sentence", "The database holds tables of another program; give the store one of its own."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} has version {}, and this program version {}; keep a copy, then bring "
+                                  "it up to date with mtr-results upgrade."),
+    QT_TRANSLATE_NOOP("Sentence", "The store {} has version {}, which is newer than version {} of this program; "
+                                  "install the newer program."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is no address of a store; give the path of a file, or "
+                                  "postgresql://USER:PASSWORD@HOST/DATABASE."),
+    QT_TRANSLATE_NOOP("Sentence", "There is no test {} in the store; mtr-results list shows their numbers."),
+    QT_TRANSLATE_NOOP("Sentence", "another program has been writing to it for too long; try again when that has ended"),
+    QT_TRANSLATE_NOOP("Sentence", "its disk is full; make room"),
+    QT_TRANSLATE_NOOP("Sentence", "its file cannot be opened; look for the folder and its rights"),
+    QT_TRANSLATE_NOOP("Sentence", "its file may not be written; look for its rights"),
+    QT_TRANSLATE_NOOP("Sentence", "its disk is full, or has errors; make room, and look at the disk"),
+    QT_TRANSLATE_NOOP("Sentence", "no database server answers there; look whether it runs, and at the address"),
+    QT_TRANSLATE_NOOP("Sentence", "the connection to the database server broke"),
+    QT_TRANSLATE_NOOP("Sentence", "the file is none of a store"),
+    QT_TRANSLATE_NOOP("Sentence", "its file is damaged; take the last copy of it"),
+    QT_TRANSLATE_NOOP("Sentence", "the database server refuses this user or password"),
+    QT_TRANSLATE_NOOP("Sentence", "there is no such database or user on the server"),
 )

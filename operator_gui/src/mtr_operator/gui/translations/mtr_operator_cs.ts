@@ -1696,172 +1696,182 @@
 <context>
     <name>HistoryModel</name>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Begun</source>
         <translation>Začátek</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Scenario</source>
         <translation>Scénář</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Lines</source>
         <translation>Přímky</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Verdict</source>
         <translation>Verdikt</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Operator</source>
         <translation>Operátor</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="49"/>
+        <location filename="../history/history_model.py" line="50"/>
         <source>Place</source>
         <translation>Místo</translation>
     </message>
     <message>
-        <location filename="../history/history_model.py" line="54"/>
+        <location filename="../history/history_model.py" line="55"/>
         <source>cannot be read</source>
         <translation>nelze přečíst</translation>
+    </message>
+    <message>
+        <location filename="../history/history_model.py" line="43"/>
+        <source>In the store {where}, as test {number}</source>
+        <translation>V úložišti {where} jako test {number}</translation>
     </message>
 </context>
 <context>
     <name>HistoryScreen</name>
     <message>
-        <location filename="../history/history_screen.py" line="246"/>
+        <location filename="../history/history_screen.py" line="248"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="86"/>
+        <location filename="../history/history_screen.py" line="82"/>
         <source>Repeat</source>
         <translation>Opakovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="87"/>
+        <location filename="../history/history_screen.py" line="83"/>
         <source>A new test with the same parameters, car and key</source>
         <translation>Nový test se stejnými parametry, autem a klíčem</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="88"/>
+        <location filename="../history/history_screen.py" line="84"/>
         <source>Compare two</source>
         <translation>Porovnat dva</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="92"/>
+        <location filename="../history/history_screen.py" line="88"/>
         <source>Open a file</source>
         <translation>Otevřít soubor</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="98"/>
+        <location filename="../history/history_screen.py" line="94"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="103"/>
+        <location filename="../history/history_screen.py" line="99"/>
         <source>Tests; choose one to open it, or two to compare them</source>
         <translation>Testy; vyberte jeden k otevření, nebo dva k porovnání</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="120"/>
+        <location filename="../history/history_screen.py" line="116"/>
         <source>Tests so far</source>
         <translation>Dosavadní testy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="149"/>
+        <location filename="../history/history_screen.py" line="145"/>
         <source>The folders are being read.</source>
         <translation>Složky se čtou.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="218"/>
+        <location filename="../history/history_screen.py" line="215"/>
         <source>{count} tests, {shown} of them shown.</source>
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="221"/>
+        <location filename="../history/history_screen.py" line="223"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="246"/>
+        <location filename="../history/history_screen.py" line="248"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="250"/>
+        <location filename="../history/history_screen.py" line="252"/>
         <source>This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into a folder of its own to open it.</source>
         <translation>Tento test je v podepsaném balíčku: lze jej opakovat a porovnat. Pro otevření balíček rozbalte do vlastní složky.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="93"/>
+        <location filename="../history/history_screen.py" line="89"/>
         <source>Verify a bundle</source>
         <translation>Ověřit balíček</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="94"/>
+        <location filename="../history/history_screen.py" line="90"/>
         <source>Whether a bundle of evidence is as it was signed, by whom and when</source>
         <translation>Zda je balíček důkazů tak, jak byl podepsán, kým a kdy</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="172"/>
+        <location filename="../history/history_screen.py" line="167"/>
         <source>Bundle of evidence</source>
         <translation>Balíček důkazů</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="179"/>
+        <location filename="../history/history_screen.py" line="174"/>
         <source>{name} is being verified.</source>
         <translation>{name} se ověřuje.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="95"/>
+        <location filename="../history/history_screen.py" line="91"/>
         <source>Compute anew</source>
         <translation>Přepočítat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="96"/>
+        <location filename="../history/history_screen.py" line="92"/>
         <source>What would change in this test with the car profile as it is now, from its recorded log and poses</source>
         <translation>Co by se v tomto testu změnilo s nynějším profilem auta, podle zaznamenaného logu a poloh</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="191"/>
+        <location filename="../history/history_screen.py" line="273"/>
         <source>{name} is being computed anew.</source>
         <translation>{name} se přepočítává.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="89"/>
+        <location filename="../history/history_screen.py" line="85"/>
         <source>Spread</source>
         <translation>Rozptyl</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="90"/>
+        <location filename="../history/history_screen.py" line="86"/>
         <source>Mean and standard deviation of each distance: of the tests chosen, or of all tests of the car and key of one test with its parameters</source>
         <translation>Průměr a směrodatná odchylka každé vzdálenosti: z vybraných testů, nebo ze všech testů auta a klíče jednoho testu s jeho parametry</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="277"/>
+        <location filename="../history/history_screen.py" line="288"/>
         <source>No other test has the parameters, the car and the key of this one.</source>
         <translation>Žádný jiný test nemá parametry, auto a klíč tohoto testu.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="280"/>
+        <location filename="../history/history_screen.py" line="293"/>
         <source>{count} tests are being read.</source>
         <translation>Čte se {count} testů.</translation>
+    </message>
+    <message>
+        <location filename="../history/history_screen.py" line="219"/>
+        <source>{count} of them are in the store {where} alone; what is opened is copied from there.</source>
+        <translation>{count} z nich je jen v úložišti {where}; co se otevře, zkopíruje se odtud.</translation>
     </message>
 </context>
 <context>
@@ -6640,6 +6650,121 @@
         <location filename="../texts/identity.py" line="19"/>
         <source>No test fits.</source>
         <translation>Žádný test nevyhovuje.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} is gone.</source>
+        <translation>Úložiště {} už není.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} is away: {}.</source>
+        <translation>Úložiště {} není dostupné: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} is away: there is no such file; connect its disk, or name another store.</source>
+        <translation>Úložiště {} není dostupné: takový soubor není; připojte jeho disk, nebo uveďte jiné úložiště.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} is away: there is no folder {}; connect its disk, or make it.</source>
+        <translation>Úložiště {} není dostupné: složka {} není; připojte její disk, nebo ji vytvořte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} cannot be used: {}.</source>
+        <translation>Úložiště {} nelze použít: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} failed: {}</source>
+        <translation>Úložiště {} selhalo: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The database {} holds no store yet; mtr-results import makes one.</source>
+        <translation>V databázi {} ještě žádné úložiště není; vytvoří je mtr-results import.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The database holds tables of another program; give the store one of its own.</source>
+        <translation>V databázi jsou tabulky jiného programu; dejte úložišti vlastní.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} has version {}, and this program version {}; keep a copy, then bring it up to date with mtr-results upgrade.</source>
+        <translation>Úložiště {} má verzi {} a tento program verzi {}; uložte si kopii a pak je aktualizujte příkazem mtr-results upgrade.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store {} has version {}, which is newer than version {} of this program; install the newer program.</source>
+        <translation>Úložiště {} má verzi {}, která je novější než verze {} tohoto programu; nainstalujte novější program.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is no address of a store; give the path of a file, or postgresql://USER:PASSWORD@HOST/DATABASE.</source>
+        <translation>{} není adresa úložiště; uveďte cestu k souboru, nebo postgresql://USER:PASSWORD@HOST/DATABASE.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>There is no test {} in the store; mtr-results list shows their numbers.</source>
+        <translation>Test {} v úložišti není; čísla testů ukáže mtr-results list.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>another program has been writing to it for too long; try again when that has ended</source>
+        <translation>příliš dlouho do něj zapisuje jiný program; zkuste to znovu, až skončí</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>its disk is full; make room</source>
+        <translation>jeho disk je plný; uvolněte místo</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>its file cannot be opened; look for the folder and its rights</source>
+        <translation>jeho soubor nelze otevřít; zkontrolujte složku a její práva</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>its file may not be written; look for its rights</source>
+        <translation>do jeho souboru se nesmí zapisovat; zkontrolujte jeho práva</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>its disk is full, or has errors; make room, and look at the disk</source>
+        <translation>jeho disk je plný, nebo má chyby; uvolněte místo a zkontrolujte disk</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>no database server answers there; look whether it runs, and at the address</source>
+        <translation>databázový server tam neodpovídá; zkontrolujte, zda běží, a adresu</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>the connection to the database server broke</source>
+        <translation>spojení s databázovým serverem se přerušilo</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>the file is none of a store</source>
+        <translation>soubor nepatří úložišti</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>its file is damaged; take the last copy of it</source>
+        <translation>jeho soubor je poškozený; použijte jeho poslední kopii</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>the database server refuses this user or password</source>
+        <translation>databázový server tohoto uživatele nebo heslo odmítá</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>there is no such database or user on the server</source>
+        <translation>taková databáze nebo uživatel na serveru není</translation>
     </message>
 </context>
 <context>

@@ -216,8 +216,8 @@ class MainWindow(QMainWindow):
     def _show_spread(self, found: TestSpread) -> None:
         _show_beside(SpreadWindow(found, self._appearance, self))
 
-    def _show_replayed(self, path: pathlib.Path, found: ReplayedTest) -> None:
-        _show_beside(ReplayWindow(path.name, found, self))
+    def _show_replayed(self, name: str, found: ReplayedTest) -> None:
+        _show_beside(ReplayWindow(name, found, self))
 
     def _open(self) -> None:
         path = ask_progress_file(self, self.tr("Open a test"), self._flow.store.settings.progress_folder)

@@ -1,0 +1,65 @@
+"""What is done with tests that were chosen from the history, wherever they lie."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+from typing import TYPE_CHECKING, Callable, Sequence
+
+from mtr_operator.storage.atomic import output_folder
+from mtr_operator.storage.progress_file import free_path
+
+from .comparison import Comparison, compare
+from .entry import TestEntry
+from .laboratory import fetch, file_of
+from .line_pairs import Side, open_side
+
+if TYPE_CHECKING:
+    from mtr_operator.replay.replay import ReplayedTest
+
+    from .spread import TestSpread
+
+_SECOND = len("2026-11-22T15:36:05")
+IsCancelled = Callable[[], bool]
+
+
+def side_of(entry: TestEntry) -> Side:
+    """The test; OperatorError says why it cannot be read."""
+    with file_of(entry) as path:
+        return open_side(path)
+
+
+def compared(first: TestEntry, second: TestEntry) -> Comparison:
+    """Both tests; OperatorError when they cannot be read or compared."""
+    return compare(side_of(first), side_of(second))
+
+
+def spread_of_chosen(entries: Sequence[TestEntry], alike: TestEntry | None,
+                     is_cancelled: IsCancelled) -> TestSpread | None:
+    """Of these tests, oldest first; None when there is but one. alike: leave out those with other parameters than this
+    one has."""
+    # Its solvers are needed for nothing else of a window.
+    from .spread import spread_of
+    sides = [side_of(entry) for entry in entries if not is_cancelled()]
+    if alike is not None:
+        wanted = side_of(alike).parameters
+        sides = [side for side in sides if side.parameters == wanted]
+    return spread_of(sides) if len(sides) > 1 else None
+
+
+def replayed(entry: TestEntry) -> ReplayedTest:
+    """The test computed anew."""
+    # Reads logs and databases of buses, which nothing else of a window needs.
+    from mtr_operator.replay.replay_file import replay_file
+    with file_of(entry) as path:
+        return replay_file(path)[1]
+
+
+def brought(entry: TestEntry, folder: pathlib.Path) -> pathlib.Path:
+    """File of a test that can be gone on with on this computer; one of the store is copied into the folder."""
+    if not entry.store:
+        return entry.file
+    moment = entry.started[:_SECOND].replace("T", "_").replace(":", "-")
+    with output_folder(folder):
+        path = free_path(folder / f"{entry.scenario}_{moment}.json")
+        fetch(entry, path)
+    return path
