@@ -17,11 +17,12 @@ from mtr_operator.station.settings import Settings
 
 
 class OpenedBus:
-    """What python-can's Bus was asked for; a PCAN driver that says how it listens."""
+    """What python-can's Bus was asked for; a PCAN driver that says how it listens, a Vector driver its rights."""
 
-    def __init__(self, listens=(PCAN_ERROR_OK, PCAN_PARAMETER_ON), **options):
+    def __init__(self, listens=(PCAN_ERROR_OK, PCAN_PARAMETER_ON), permission_mask=0b10, **options):
         self.options, self.is_shut_down = options, False
         self.m_objPCANBasic, self.m_PcanHandle, self._listens = self, 0x51, listens
+        self.mask, self.permission_mask = 0b10, permission_mask
 
     def GetValue(self, handle, parameter):
         return self._listens
@@ -33,10 +34,10 @@ class OpenedBus:
 @pytest.fixture(name="opened")
 def opened_fixture(monkeypatch):
     """Options of the bus opened last; listens: what a PCAN driver says then."""
-    opened = {"listens": (PCAN_ERROR_OK, PCAN_PARAMETER_ON)}
+    opened = {"listens": (PCAN_ERROR_OK, PCAN_PARAMETER_ON), "permission_mask": 0b10}
 
     def bus(**options):
-        opened["bus"] = OpenedBus(opened["listens"], **options)
+        opened["bus"] = OpenedBus(opened["listens"], opened["permission_mask"], **options)
         return opened["bus"]
     monkeypatch.setattr(adapter_module.can, "Bus", bus)
     return opened
@@ -53,7 +54,7 @@ def test_adapter_is_opened_so_that_it_sends_nothing(opened, interface, option, v
     assert option not in opened["bus"].options
 
 
-@pytest.mark.parametrize("interface", ["ixxat", "gs_usb", "socketcand", "usb2can", "neovi"])
+@pytest.mark.parametrize("interface", ["gs_usb", "socketcand", "usb2can", "neovi"])
 def test_driver_that_cannot_only_listen_is_not_opened_before_a_person_says_so(opened, interface):
     words = f"driver {interface} cannot .* only listens; use one of .*pcan.*--can-normal"
     with pytest.raises(ConnectionFailed, match=words):
@@ -71,22 +72,45 @@ def test_pcan_adapter_that_does_not_obey_is_closed_at_once(opened, answer):
     assert opened["bus"].is_shut_down
 
 
+def test_vector_channel_that_another_program_has_set_up_is_closed_at_once(opened):
+    opened["permission_mask"] = 0b00
+    with pytest.raises(ConnectionFailed, match="end other programs"):
+        open_adapter(AdapterSettings("vector", "0"))
+    assert opened["bus"].is_shut_down
+    open_adapter(AdapterSettings("vector", "0", is_listening=False))
+
+
+@pytest.mark.parametrize(("wanted_bps", "taken_bps"), [(500_000, 500_000), (83_333, 83_000), (33_333, 33_000)])
+def test_pcan_takes_a_rate_by_its_own_name(opened, wanted_bps, taken_bps):
+    open_adapter(AdapterSettings("pcan", "PCAN_USBBUS1", wanted_bps))
+    assert opened["bus"].options["bitrate"] == taken_bps
+
+
+@pytest.mark.parametrize("is_listening", [True, False])
+def test_rate_that_pcan_would_take_for_500_kbit_is_refused(opened, is_listening):
+    with pytest.raises(ConnectionFailed, match="pcan has no bit rate of 62500 bit/s; use one of .*50000, 83000"):
+        open_adapter(AdapterSettings("pcan", "PCAN_USBBUS1", 62_500, is_listening=is_listening))
+    assert "bus" not in opened
+
+
 def test_options_of_a_person_go_before_those_of_the_table(opened):
     open_adapter(AdapterSettings("vector", "0", options={"listen_only": False, "app_name": "lab"}))
     assert opened["bus"].options["listen_only"] is False and opened["bus"].options["app_name"] == "lab"
 
 
 @pytest.mark.parametrize(("interface", "wanted"), [
-    ("kvaser", {"fd": True, "data_bitrate": 2_000_000}), ("vector", {"fd": True, "data_bitrate": 2_000_000}),
     ("nixnet", {"fd": True, "fd_bitrate": 2_000_000}), ("virtual", {"protocol": can.CanProtocol.CAN_FD})])
 def test_can_fd_is_asked_for_in_the_words_of_the_driver(opened, interface, wanted):
     open_adapter(AdapterSettings(interface, "0", data_bitrate_bps=2_000_000))
     assert wanted.items() <= opened["bus"].options.items()
 
 
-def test_pcan_takes_can_fd_as_bit_timing():
-    timing = fd_options("pcan", 500_000, 2_000_000)["timing"]
-    assert (timing.nom_bitrate, timing.data_bitrate) == (500_000, 2_000_000)
+@pytest.mark.parametrize("interface", ["pcan", "kvaser", "vector"])
+@pytest.mark.parametrize("data_bps", [1_000_000, 2_000_000, 4_000_000, 5_000_000])
+def test_can_fd_is_given_as_bit_timing_with_the_sample_points_of_cars(interface, data_bps):
+    timing = fd_options(interface, 500_000, data_bps)["timing"]
+    assert (timing.nom_bitrate, timing.data_bitrate) == (500_000, data_bps)
+    assert timing.nom_sample_point == 80.0 and timing.data_sample_point == pytest.approx(80.0, abs=5.1)
 
 
 def test_driver_without_can_fd_says_so(opened):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import errno
 import logging
 import os
@@ -15,8 +16,9 @@ import can
 
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter
 
+from .drivers import ixxat
 from .drivers.kernel_link import check_link
-from .drivers.options import SLCAN, SOCKETCAN, Unsupported, fd_options, listening_options, takes_part
+from .drivers.options import IXXAT, SLCAN, SOCKETCAN, Unsupported, fd_options, listening_options, rate_of, takes_part
 from .drivers.slcan import StampedSlcanBus
 
 _MIN_BITRATE = 10_000
@@ -82,8 +84,7 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
     try:
         options = {**_driver_options(settings), **settings.options}
         if settings.interface != SLCAN:
-            return _listening(can.Bus(interface=settings.interface, channel=settings.channel,
-                                      bitrate=settings.bitrate_bps, **options), settings)
+            return _listening(_open(settings, options), settings)
         bus = StampedSlcanBus(settings.channel, bitrate=settings.bitrate_bps, **options)
     except Unsupported as error:
         raise ConnectionFailed(str(error)) from None
@@ -103,8 +104,19 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
     return bus
 
 
+def _open(settings: AdapterSettings, options: dict[str, Any]) -> can.BusABC:
+    rate_bps = settings.bitrate_bps
+    if settings.data_bitrate_bps is None:
+        rate_bps = rate_of(settings.interface, rate_bps)
+    is_ordered = settings.interface == IXXAT and settings.is_listening
+    with ixxat.ordered_to_listen() if is_ordered else contextlib.nullcontext():
+        return can.Bus(interface=settings.interface, channel=settings.channel, bitrate=rate_bps, **options)
+
+
 def _driver_options(settings: AdapterSettings) -> dict[str, Any]:
     options = listening_options(settings.interface) if settings.is_listening else {}
+    if settings.interface == IXXAT:
+        options.update(ixxat.ROOM)
     if settings.data_bitrate_bps is not None:
         options.update(fd_options(settings.interface, settings.bitrate_bps, settings.data_bitrate_bps))
     return options
@@ -112,10 +124,12 @@ def _driver_options(settings: AdapterSettings) -> dict[str, Any]:
 
 def _listening(bus: can.BusABC, settings: AdapterSettings) -> can.BusABC:
     """The adapter, unless it takes part in the bus against its order."""
-    if settings.is_listening and takes_part(settings.interface, bus):
+    is_ixxat = settings.interface == IXXAT
+    if settings.is_listening and (ixxat.takes_part(bus) if is_ixxat else takes_part(settings.interface, bus)):
         shut_down(bus)
-        raise ConnectionFailed(f"The PCAN adapter {settings.channel} does not take the order to listen only; use "
-                               "another adapter, or choose normal mode (--can-normal) for a bench of one node.")
+        raise ConnectionFailed(f"The {settings} does not take the order to listen only; end other programs that use "
+                               "it, take another adapter, or choose normal mode (--can-normal) for a bench of one "
+                               "node.")
     return bus
 
 

@@ -1,7 +1,7 @@
 """Options with which python-can's drivers open an adapter that only listens, and one for CAN FD.
 
 An adapter that listens sends nothing: no frame, no acknowledge and no error flag. From the drivers' sources in
-python-can 4.6; tried with slcan and the virtual bus alone.
+python-can 4.6; tried with slcan and the virtual bus alone, and with stand-ins for the libraries of PCAN and IXXAT.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -10,12 +10,14 @@ from typing import Any, Callable, Mapping
 
 import can
 
-SLCAN, PCAN, SOCKETCAN = "slcan", "pcan", "socketcan"
+SLCAN, PCAN, SOCKETCAN, VECTOR, IXXAT = "slcan", "pcan", "socketcan", "vector", "ixxat"
 _LISTENING: Mapping[str, Mapping[str, Any]] = {
     SLCAN: {"listen_only": True},
     PCAN: {"state": can.BusState.PASSIVE},
     "kvaser": {"driver_mode": False},  # its name for silent, DRIVER_MODE_SILENT
-    "vector": {"listen_only": True},
+    VECTOR: {"listen_only": True},
+    # Its controller is ordered to: drivers/ixxat.py.
+    IXXAT: {},
     "systec": {"state": can.BusState.PASSIVE},
     "nixnet": {"listen_only": True},
     "cantact": {"monitor": True},
@@ -25,9 +27,11 @@ _LISTENING: Mapping[str, Mapping[str, Any]] = {
     # There is no wire, and nobody acknowledges.
     "virtual": {},
     "udp_multicast": {}}
-_PCAN_CLOCK_HZ = 80_000_000
+_FD_CLOCK_HZ = 80_000_000
 # CiA 601-3 has both sample points at 80 % for such clocks.
 _SAMPLE_POINT_PERCENT = 80.0
+# PCAN calls 83.333, 47.619, 33.333 and 95.238 kbit/s 83, 47, 33 and 95; its other names are exact.
+_SAME_RATE = 0.015
 
 
 class Unsupported(Exception):
@@ -43,14 +47,35 @@ def listening_options(interface: str) -> dict[str, Any]:
     return dict(_LISTENING[interface])
 
 
-def takes_part(interface: str, bus: Any) -> bool:
-    """True when an adapter was told to only listen, and its driver says that it does not."""
+def rate_of(interface: str, bitrate_bps: int) -> int:
+    """A bit rate in the driver's words; Unsupported where it has none, and would take another one without a word."""
     if interface != PCAN:
-        return False
-    # python-can does not look whether the driver has obeyed.
+        return bitrate_bps
+    from can.interfaces.pcan.basic import PCAN_BITRATES
+    nearest = min(PCAN_BITRATES, key=lambda each: abs(each - bitrate_bps))
+    if abs(nearest - bitrate_bps) > _SAME_RATE * bitrate_bps:
+        raise Unsupported(f"python-can's driver {PCAN} has no bit rate of {bitrate_bps} bit/s; use one of "
+                          f"{', '.join(map(str, sorted(PCAN_BITRATES)))}.")
+    return int(nearest)
+
+
+def takes_part(interface: str, bus: Any) -> bool:
+    """True when an adapter was told to only listen, and its driver says that it does not; python-can does not look."""
+    return interface in _TAKES_PART and _TAKES_PART[interface](bus)
+
+
+def _pcan_takes_part(bus: Any) -> bool:
     from can.interfaces.pcan.basic import PCAN_ERROR_OK, PCAN_LISTEN_ONLY, PCAN_PARAMETER_ON
     result, mode = bus.m_objPCANBasic.GetValue(bus.m_PcanHandle, PCAN_LISTEN_ONLY)
     return bool(result != PCAN_ERROR_OK or mode != PCAN_PARAMETER_ON)
+
+
+def _vector_takes_part(bus: Any) -> bool:
+    """Where another program has the right to set the channel up, the driver leaves it as that program wants it."""
+    return bool(bus.permission_mask & bus.mask != bus.mask)
+
+
+_TAKES_PART: Mapping[str, Callable[[Any], bool]] = {PCAN: _pcan_takes_part, VECTOR: _vector_takes_part}
 
 
 def fd_options(interface: str, bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
@@ -61,16 +86,18 @@ def fd_options(interface: str, bitrate_bps: int, data_bitrate_bps: int) -> dict[
     return _FD[interface](bitrate_bps, data_bitrate_bps)
 
 
-def _pcan(bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
-    return {"timing": can.BitTimingFd.from_sample_point(_PCAN_CLOCK_HZ, bitrate_bps, _SAMPLE_POINT_PERCENT,
+def _by_timing(bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
+    """The driver's own names of rates leave out 5 Mbit/s, or have sample points at 70 %."""
+    return {"timing": can.BitTimingFd.from_sample_point(_FD_CLOCK_HZ, bitrate_bps, _SAMPLE_POINT_PERCENT,
                                                         data_bitrate_bps, _SAMPLE_POINT_PERCENT)}
 
 
 _FD: Mapping[str, Callable[[int, int], dict[str, Any]]] = {
     SLCAN: lambda _, data_bps: {"data_bitrate": data_bps},
-    PCAN: _pcan,
-    "kvaser": lambda _, data_bps: {"fd": True, "data_bitrate": data_bps},
-    "vector": lambda _, data_bps: {"fd": True, "data_bitrate": data_bps},
+    PCAN: _by_timing,
+    "kvaser": _by_timing,
+    VECTOR: _by_timing,
+    IXXAT: lambda _, data_bps: {"fd": True, "data_bitrate": data_bps},
     "nixnet": lambda _, data_bps: {"fd": True, "fd_bitrate": data_bps},
     SOCKETCAN: lambda *_: {"fd": True},
     "virtual": lambda *_: {"protocol": can.CanProtocol.CAN_FD},
