@@ -28,7 +28,7 @@ KEYS = {
 }
 # First folder or whole name of a header -> rosdep key, where they differ.
 HEADER_KEYS = {
-    "Eigen": "eigen", "gazebo": "gazebo_dev", "gtest": "gtest", "ignition": "gazebo_dev",
+    "ceres": "libceres-dev", "Eigen": "eigen", "gazebo": "gazebo_dev", "gtest": "gtest", "ignition": "gazebo_dev",
     "nlohmann": "nlohmann-json-dev", "pybind11": "pybind11-dev", "ros": "roscpp", "rosbag": "rosbag_storage",
     "sdf": "gazebo_dev", "urdf_model": "urdf", "urdf_parser": "urdf", "XmlRpcValue.h": "xmlrpcpp",
 }
