@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,12 +24,16 @@ from mtr_benchmarks.localization.drives.selection import (
     CAMPAIGN,
     CARS,
     KIDNAP,
+    LIDAR_KINDS,
+    LIDAR_SCENES,
     OPPOSED,
+    PITCHED,
     PLAIN,
     RANGE_BIAS,
     SCENES,
     TILT,
     all_drives,
+    options,
 )
 from mtr_benchmarks.localization.drives.truth import read_truth
 from mtr_core import names
@@ -177,12 +182,25 @@ def test_drives_have_names_of_their_own():
     assert len(set(listed)) == len(listed)
 
 
+@pytest.mark.parametrize("variant", LIDAR_KINDS)
+def test_lidars_of_another_kind_are_in_each_of_their_scenes_and_nothing_else_differs(variant):
+    drives = [each for each in all_drives() if each.variant == variant]
+    assert [each.options.scene for each in drives] == list(LIDAR_SCENES)
+    for each in drives:
+        kind, twin = LIDAR_KINDS[variant], options(each.options.scene, each.options.seed)
+        assert each.options == replace(twin, beams=kind.beams, field_deg=kind.field_deg, rear=kind.rear,
+                                       sweeps_apart=kind.sweeps_apart)
+        assert each.options != twin
+
+
 def test_variants_differ_from_a_plain_drive_in_one_error_only():
     every = all_drives()
     plain = {(each.options.scene, each.options.seed): each.options for each in every if each.variant == PLAIN}
     for each in every:
+        if each.variant in LIDAR_KINDS:
+            continue
         twin = plain[each.options.scene, each.options.seed]
         differing = {name for name in vars(twin) if getattr(twin, name) != getattr(each.options, name)}
         assert differing == {PLAIN: set(), RANGE_BIAS: {"range_bias_m"}, OPPOSED: {"opposed_bias_m"},
-                             TILT: {"tilt_deg"}, KIDNAP: {"kidnap"},
+                             TILT: {"tilt_deg"}, PITCHED: {"mount_tilt_deg"}, KIDNAP: {"kidnap"},
                              CAMPAIGN: {"duration_s", "sweeps_apart"}}[each.variant]

@@ -14,14 +14,18 @@ from mtr_benchmarks.localization.drives.selection import (
     ANY_CAR,
     CAMPAIGN,
     KIDNAP,
+    LIDAR_KINDS,
+    LIDAR_SCENES,
     OPPOSED,
+    PITCHED,
+    PITCHED_SCENES,
     PLAIN,
     RANGE_BIAS,
     SCENES,
     TILT,
     BenchmarkDrive,
 )
-from mtr_benchmarks.localization.judging import abduction, any_car, campaign, kidnapping, position_rows
+from mtr_benchmarks.localization.judging import abduction, any_car, campaign, consistency, kidnapping, position_rows
 from mtr_benchmarks.localization.judging.any_car import CarVerdict
 from mtr_benchmarks.localization.judging.figures import joined, scene_figures
 from mtr_benchmarks.localization.methods.errors import PoseErrors
@@ -44,10 +48,10 @@ CAR = CarErrors(
 FOUND_AGAIN = abduction.Fate(3.0, 90.0, True, 0.8, 6.0, abduction.RIGHT, 0.0, None, None)
 
 
-def errors(key_m, standing=True, on_axis=False, beyond_m=2.0):
+def errors(key_m, standing=True, on_axis=False, beyond_m=2.0, nees=3.0):
     """A hundred rows of the same."""
     one = np.ones(100)
-    return PoseErrors(0.02 * np.arange(100), key_m * one, 0.1 * one, 3.0 * one, np.full(100, standing),
+    return PoseErrors(0.02 * np.arange(100), key_m * one, 0.1 * one, nees * one, np.full(100, standing),
                   np.full(100, on_axis), beyond_m * one)
 
 
@@ -70,11 +74,13 @@ def drive(scene, variant, seed):
     return BenchmarkDrive(selection.options(scene, seed), variant)
 
 
-def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005, opposed_m=0.0025):
+def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005, opposed_m=0.0025, pitched_m=0.014):
     """Two seeds of everything that the table asks for."""
     found = [result(scene, variant, seed, each_m) for scene in SCENES for seed in (1, 2)
              for variant, each_m in ((PLAIN, key_m), (RANGE_BIAS, biased_m), (TILT, tilted_m),
                                     (OPPOSED, opposed_m))]
+    found += [result(scene, PITCHED, seed, pitched_m) for scene in PITCHED_SCENES for seed in (1, 2)]
+    found += [result(scene, variant, 1, key_m) for variant in LIDAR_KINDS for scene in LIDAR_SCENES]
     lifted = kidnapped_errors({(4.0, 4.5): 2.0, (4.5, 9.0): float("nan")})
     return [*found, result("lot", CAMPAIGN, 1, key_m),
             DriveResult(drive("lot", KIDNAP, 1), {THIS_SYSTEM: MethodOutcome(lifted, 0.5, CAR)}, {}, SEGMENTS),
@@ -97,6 +103,41 @@ def test_table_has_every_row_of_the_goals_and_meets_them():
     assert found[position_rows.TILTED.name]["value"] == pytest.approx(1.25)
     assert all(row["met"] for name, row in found.items() if name != position_rows.SIZE_BODY.name)
     assert found[position_rows.SIZE_BODY.name]["met"] is False
+
+
+def sure(scene, variant, seed, nees):
+    """A drive whose normalised error squared is that."""
+    return DriveResult(drive(scene, variant, seed),
+                       {THIS_SYSTEM: MethodOutcome(errors(0.004, nees=nees), 0.5, CAR)}, {}, [])
+
+
+@pytest.mark.parametrize(("variant", "nees", "surest", "most_cautious"), [
+    (PLAIN, 3.0 * 1.79, True, True), (TILT, 3.0 * 1.81, False, True), (RANGE_BIAS, 3.0 * 0.51, True, True),
+    (PLAIN, 3.0 * 0.49, True, False), (PITCHED, 3.0 * 9.0, True, True)])
+def test_the_drive_that_is_worst_on_either_side_is_judged_and_named(variant, nees, surest, most_cautious):
+    found = rows([*all_results(), sure("cones", variant, 7, nees)])
+    assert found[consistency.SUREST.name]["met"] is surest
+    assert found[consistency.MOST_CAUTIOUS.name]["met"] is most_cautious
+    table = report.report([*all_results(), sure("cones", variant, 7, nees)], None).rows
+    named = [row.remark for row in table if row.requirement in (consistency.SUREST, consistency.MOST_CAUTIOUS)]
+    assert (f"cones_{variant}_7" in named) is (variant != PITCHED)
+
+
+def test_drives_without_a_pose_are_no_honest_ones():
+    found = rows([failed("lot", PLAIN, THIS_SYSTEM)])
+    assert not found[consistency.SUREST.name]["met"] and not found[consistency.MOST_CAUTIOUS.name]["met"]
+
+
+def test_a_pitched_lidar_is_judged_by_the_worse_scene():
+    found = rows([*all_results(), result("cones", PITCHED, 3, 0.03), result("cones", PITCHED, 4, 0.03)])
+    assert found[position_rows.PITCH.name]["value"] == pytest.approx(0.03)
+    assert found[position_rows.PITCH.name]["met"] is False
+
+
+def test_each_kind_of_lidar_has_a_row_by_its_data():
+    found = rows(all_results())
+    assert "open, standing, one LiDAR of 4000 beams over 360 deg at 5 Hz" in found
+    assert "lot, standing, two LiDARs of 360 beams over 90 deg at 25 Hz" in found
 
 
 @pytest.mark.parametrize(("key_m", "met", "goal_met"), [(0.0049, True, True), (0.0051, True, False),

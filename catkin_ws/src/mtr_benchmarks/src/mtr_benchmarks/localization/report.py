@@ -6,7 +6,7 @@ from typing import Any, Dict, List, Optional, Sequence
 from ..harness.report import BenchmarkReport
 from ..harness.rows import Row
 from .drives.selection import ABDUCT, ANY_CAR, CAMPAIGN, KIDNAP, PLAIN, SCENES
-from .judging import abduction, any_car, campaign, kidnapping, position_rows
+from .judging import abduction, any_car, campaign, consistency, kidnapping, lidar_kinds, position_rows
 from .judging.figures import scene_figures
 from .methods.outcome import METHODS, THIS_SYSTEM, MethodOutcome
 from .one_drive import DriveResult
@@ -45,7 +45,7 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
                                     for each in results if each.drive.variant == KIDNAP
                                     and THIS_SYSTEM in each.outcomes])
     found, failed = outcomes_of(results), failures(results)
-    rows = position_rows.rows(found, failed)
+    rows = position_rows.rows(found, failed) + consistency.rows(found, failed) + lidar_kinds.rows(found, failed)
     rows += [row for each in campaigns for row in campaign.rows(each)]
     rows += kidnapping.rows(kidnapped, sum(position_rows.failed(failed, scene, KIDNAP) for scene in SCENES))
     rows += abduction_rows(results) + any_car_rows(results)
@@ -55,6 +55,7 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
         "scenes": {scene: {method: asdict(scene_figures(plain_outcomes(results, scene, method)))
                            for method in METHODS} for scene in SCENES},
         "variants": position_rows.variants(found),
+        "consistency": consistency.figures(found),
         "campaign": [asdict(each) for each in campaigns],
         "kidnapped": asdict(kidnapped),
         "abducted": abducted_figures(results),

@@ -36,6 +36,7 @@ class DriveOptions(ParameterSet):
         opposed_bias_m: constant error of the front LiDAR's ranges, and less it of the rear one's.
         tilt_deg: root mean square of the ground's slope.
         mount_tilt_deg: pitch of the LiDARs' mounting, which nobody knows of.
+        beams, field_deg: of one sweep of each LiDAR; the field is centred on its x axis.
         gyro_scale_error: relative.
         friction: of the tyres.
         echo_share: of the beams that hit a drop of rain.
@@ -59,6 +60,8 @@ class DriveOptions(ParameterSet):
     tilt_deg: float = number(0.0, 0.0, 5.0, "deg")
     mount_tilt_deg: float = number(0.0, -5.0, 5.0, "deg")
     dropout_share: float = number(*figures.SIMULATED_DROPOUT_SHARE._replace(value=0.005))
+    beams: int = number(720, 2, 4000, "beams")
+    field_deg: float = number(270.0, 10.0, 360.0, "deg")
     gyro_scale_error: float = number(*figures.COMPARED_GYRO_SCALE_ERROR)
     friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
     echo_share: float = number(*figures.SIMULATED_ECHO_SHARE)
@@ -103,7 +106,8 @@ class DriveOptions(ParameterSet):
         errors = ScanErrors(range_bias_m=self.range_bias_m, opposed_bias_m=self.opposed_bias_m,
                             echo_share=self.echo_share,
                             mixed_pixel_share=self.mixed_pixel_share, dropout_share=self.dropout_share)
-        lidar = LidarParameters(height_m=self.lidar_height_m, noise_m=self.range_noise_m,
+        lidar = LidarParameters(height_m=self.lidar_height_m, noise_m=self.range_noise_m, beams=self.beams,
+                                field_of_view_rad=math.radians(self.field_deg),
                                 pitch_rad=math.radians(self.mount_tilt_deg), errors=errors)
         imu = ImuParameters(gyro_scale_error=self.gyro_scale_error)
         return Sim(self.seed, self.scenario(), SimParameters(rear_lidar=self.rear, lidar=lidar, imu=imu))

@@ -8,8 +8,8 @@ from .random_car import random_car
 
 SCENES = ("lot", "far", "cones", "open")
 CARS = ("hatchback", "sedan", "van")
-PLAIN, RANGE_BIAS, OPPOSED, TILT, KIDNAP, CAMPAIGN, ABDUCT, ANY_CAR = (
-    "plain", "range_bias", "opposed_bias", "tilt", "kidnap", "campaign", "abduct", "any_car")
+PLAIN, RANGE_BIAS, OPPOSED, TILT, PITCHED, KIDNAP, CAMPAIGN, ABDUCT, ANY_CAR = (
+    "plain", "range_bias", "opposed_bias", "tilt", "pitched", "kidnap", "campaign", "abduct", "any_car")
 SEEDS, VARIANT_SEEDS, OPPOSED_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 3, 2
 # Robots that are carried away while they drive, in each scene.
 ABDUCTIONS, QUICK_ABDUCTIONS = 50, 2
@@ -17,10 +17,27 @@ ABDUCTIONS, QUICK_ABDUCTIONS = 50, 2
 ANY_CARS, QUICK_ANY_CARS = 200, 8
 # A drive that proves nothing is repeated with its seed and a multiple of this, which no other drive has.
 NEXT_SEED = 100_000
-RANGE_BIAS_M, OPPOSED_BIAS_M, TILT_DEG = 0.02, 0.01, 1.0
-KIDNAP_SCENES = ("lot", "open")
+RANGE_BIAS_M, OPPOSED_BIAS_M, TILT_DEG, PITCH_DEG = 0.02, 0.01, 1.0, 0.7
+KIDNAP_SCENES, PITCHED_SCENES, LIDAR_SCENES = ("lot", "open"), ("open", "cones"), ("lot", "open")
 # A working day. Its sweeps are recorded four times as seldom, so that the recording has 2 GB and not 8.
 CAMPAIGN_S, QUICK_CAMPAIGN_S, CAMPAIGN_SWEEPS_APART = 8.0 * 3600.0, 900.0, 4
+
+
+class LidarKind(NamedTuple):
+    """LiDARs other than those of all other drives, which have 720 beams over 270 deg 25 times a second, two of them."""
+
+    name: str
+    beams: int
+    field_deg: float
+    sweeps_apart: int
+    rear: bool
+
+
+# From few beams to many, from narrow to all round, from 25 to 5 Hz. Name of the variant, as it is in a drive's.
+LIDAR_KINDS = {f"lidar-{kind.name}": kind for kind in (
+    LidarKind("few-beams", 180, 180.0, 2, True), LidarKind("one", 720, 270.0, 1, False),
+    LidarKind("narrow", 360, 90.0, 1, True), LidarKind("slow", 360, 360.0, 5, False),
+    LidarKind("many-beams", 4000, 360.0, 5, False))}
 
 
 class BenchmarkDrive(NamedTuple):
@@ -51,6 +68,10 @@ def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
             drives.append(BenchmarkDrive(replace(plain, tilt_deg=TILT_DEG), TILT))
     drives += [BenchmarkDrive(replace(options(scene, seed), opposed_bias_m=OPPOSED_BIAS_M), OPPOSED) for scene in SCENES
                for seed in range(1, opposed_seeds + 1)]
+    drives += [BenchmarkDrive(replace(options(scene, seed), mount_tilt_deg=PITCH_DEG), PITCHED)
+               for scene in PITCHED_SCENES for seed in range(1, opposed_seeds + 1)]
+    drives += [BenchmarkDrive(with_lidars(options(scene, 1), kind), variant) for variant, kind in LIDAR_KINDS.items()
+               for scene in LIDAR_SCENES]
     drives += [BenchmarkDrive(replace(options(scene, seed), kidnap=True), KIDNAP) for scene in KIDNAP_SCENES
                for seed in range(1, kidnap_seeds + 1)]
     return drives
@@ -72,6 +93,11 @@ def any_car(scene: str, seed: int) -> DriveOptions:
     """The way round the Car that the seed draws, with a robot that it draws, too."""
     drawn = random_car(seed)
     return DriveOptions(scene=scene, seed=seed, car=RANDOM, lidar_height_m=drawn.lidar_height_m, rear=drawn.rear_lidar)
+
+
+def with_lidars(plain: DriveOptions, kind: LidarKind) -> DriveOptions:
+    """The same drive with LiDARs of another kind."""
+    return replace(plain, beams=kind.beams, field_deg=kind.field_deg, sweeps_apart=kind.sweeps_apart, rear=kind.rear)
 
 
 def repeated(drive: BenchmarkDrive) -> BenchmarkDrive:

@@ -102,6 +102,11 @@ def ratio(nees: FloatArray) -> Optional[float]:
     return float(np.mean(known)) / DIMENSIONS if len(known) else None
 
 
+def mean(values: Sequence[float]) -> Optional[float]:
+    """None of no values."""
+    return float(np.mean(values)) if values else None
+
+
 def share_below(values: FloatArray, limit: float) -> Optional[float]:
     """Share of the known values that are below a limit."""
     known = values[np.isfinite(values)]
