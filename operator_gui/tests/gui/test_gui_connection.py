@@ -88,6 +88,11 @@ def test_enter_connects(newcomer):
     newcomer.wait(lambda: isinstance(newcomer.window, MainWindow))
 
 
+def test_window_opens_with_the_focus_where_enter_connects(newcomer):
+    newcomer.bot.keyClick(newcomer.window.focusWidget(), Qt.Key_Return)
+    newcomer.wait(lambda: isinstance(newcomer.window, MainWindow))
+
+
 def test_window_lives_while_connecting_takes_long(newcomer, opener):
     opener.connecting.clear()
     window, turns = newcomer.window, []

@@ -61,6 +61,8 @@ class ConnectionWindow(QWidget):
         self.can.show_choice(proposed.can)
         self.pairing.unencrypted.setChecked(proposed.robot.is_unencrypted)
         self._say(flow.store.problem, "")
+        # The first in the order of Tab would be the language, which knows no Enter.
+        self.robot.host.edit.setFocus()
         open_within(self, self.sizeHint().expandedTo(QSize(_WIDTH, 0)))
 
     def _lay_out(self) -> None:
