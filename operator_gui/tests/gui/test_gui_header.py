@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 from PyQt5.QtCore import QAbstractAnimation
+from PyQt5.QtWidgets import QApplication, QStyle, QStyleOptionButton
 
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Mode, Notification, PreflightItem, PreflightReport
 from mtr_operator.gui.header.symbols import BatterySymbol, LinkSymbol, LocksSymbol
 from mtr_operator.gui.header.warning_symbol import PULSE_MS, PULSE_SCALE, WarningSymbol
 from mtr_operator.gui.theme.appearance import Appearance
+from mtr_operator.station.readiness import Readiness, ReadinessWord
 
 LOW = Notification("peripherals", 2, "The lift is slow.")
 LOST = Notification("peripherals_silent", 3, "The node of lift and buttons is silent.")
@@ -61,6 +63,19 @@ def test_status_word_says_each_reason_with_an_advice(operator, opener):
     assert status.popup.texts() == ["Not ready"]
     assert "\N{MULTIPLICATION X} Battery Nearly empty: 5 %. Charge it before the test." in texts
     assert "\N{MULTIPLICATION X} Robot The robot is still starting. Wait a moment." in texts
+
+
+@pytest.mark.parametrize("state", [QStyle.State_None, QStyle.State_HasFocus, QStyle.State_MouseOver])
+@pytest.mark.parametrize("word", ReadinessWord)
+def test_status_word_is_not_cut_by_its_frame(operator, word, state):
+    status = operator.window.header.status
+    status.show_readiness(Readiness(word, ()))
+    QApplication.processEvents()
+    option = QStyleOptionButton()
+    status.initStyleOption(option)
+    option.state = option.state & ~QStyle.State_HasFocus | state
+    inside = status.style().subElementRect(QStyle.SE_PushButtonContents, option, status)
+    assert inside.width() >= status.fontMetrics().horizontalAdvance(status.text())
 
 
 def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):

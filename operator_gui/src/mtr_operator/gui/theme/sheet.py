@@ -65,7 +65,8 @@ QPushButton[word="blocked"] { background: $danger; border-color: $danger; }
 QPushButton[word="measuring"], QPushButton[word="driving"], QPushButton[word="mapping"],
 QPushButton[word="checking"] { background: $accent; border-color: $accent; color: $on_accent; }
 QPushButton[word="paused"] { background: $warning; border-color: $warning; }
-QPushButton[word]:hover, QPushButton[word]:focus { border-color: $ink; }
+QPushButton[word]:hover { border-color: $ink; padding: 3px 9px; }
+QPushButton[word]:focus { border-color: $ink; padding: 2px 8px; }
 QLineEdit, QComboBox { background: $surface; border: 1px solid $border; border-radius: 6px; padding: 6px 10px;
     min-height: ${field_height}px; selection-background-color: $accent; selection-color: $on_accent; }
 QPlainTextEdit { background: $surface; border: 1px solid $border; border-radius: 6px; padding: 4px 8px;
