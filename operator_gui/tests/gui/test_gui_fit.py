@@ -131,6 +131,15 @@ def test_protocol_fits(application, main, monkeypatch, tmp_path):
     assert_fits(main, monkeypatch, WANTED)
 
 
+def test_protocol_on_a_small_laptop_needs_no_scrolling(application, main, tmp_path):
+    take_up(application, tmp_path, Phase.FINISHED)
+    application.flow.show(Step.PROTOCOL)
+    main.resize(QSize(1350, 696))
+    QApplication.processEvents()
+    for widget in (main.protocol.title, main.protocol.done):
+        assert widget.visibleRegion().boundingRect() == widget.rect(), widget.text()
+
+
 @pytest.mark.parametrize(("scenario", "columns"), [("key_press", 4), ("autolock", 4)])
 def test_protocol_with_results_fits(operator, opener, monkeypatch, scenario, columns):
     opener.passive = scenario == "autolock"

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from fit_checks import CAR, assert_fits, faults, visible
 from PyQt5.QtCore import QSize
-from PyQt5.QtWidgets import QLabel, QLineEdit, QWidget
+from PyQt5.QtWidgets import QApplication, QLabel, QLineEdit, QWidget
 
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.line_result import LineStatus
@@ -57,6 +57,14 @@ def test_calibration_fits_and_has_its_stop_in_sight__B6(application, main, show,
     window = show(lambda: CalibrationWindow(application.flow, main))
     assert visible(window, StopButton)
     assert_fits(window, monkeypatch, window.wanted_size())
+
+
+def test_calibration_on_a_small_laptop_has_all_its_buttons_in_sight(application, main, show):
+    window = show(lambda: CalibrationWindow(application.flow, main))
+    window.resize(window.wanted_size().boundedTo(QSize(1356, 696)))
+    QApplication.processEvents()
+    for button in (window.car.check, window.car.map, window.send):
+        assert button.visibleRegion().boundingRect() == button.rect(), button.text()
 
 
 def test_settings_fit_and_have_their_stop_in_sight__B6(application, main, show, monkeypatch):

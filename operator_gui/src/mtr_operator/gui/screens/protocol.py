@@ -112,12 +112,6 @@ class ProtocolScreen(QWidget):
         return button
 
     def _lay_out(self) -> None:
-        first, second = QHBoxLayout(), QHBoxLayout()
-        for row, buttons in ((first, (self.save, self.save_pdf, self.save_svg)),
-                             (second, (self.show_folder, self.done))):
-            row.setSpacing(S)
-            for button in buttons:
-                row.addWidget(button, 1)
         side = QVBoxLayout()
         side.setContentsMargins(0, 0, 0, 0)
         side.setSpacing(M)
@@ -126,10 +120,14 @@ class ProtocolScreen(QWidget):
         side.addWidget(self.table, 3)
         side.addWidget(self.budget, 2)
         side.addWidget(self.again)
-        side.addWidget(self.annotate)
-        side.addWidget(self.bundle)
-        side.addLayout(first)
-        side.addLayout(second)
+        # In few rows: on a small laptop the results need the height.
+        for buttons in ((self.annotate, self.show_folder), (self.save, self.save_pdf, self.save_svg),
+                        (self.bundle, self.done)):
+            row = QHBoxLayout()
+            row.setSpacing(S)
+            for button in buttons:
+                row.addWidget(button, 1)
+            side.addLayout(row)
         holder = Scroller(side)
         holder.setMaximumWidth(_SIDE_WIDTH)
         columns = QHBoxLayout()

@@ -44,7 +44,7 @@
     <message>
         <location filename="../screens/annotation_dialog.py" line="32"/>
         <source>Notes and photos</source>
-        <translation>Poznámky a fotografie</translation>
+        <translation>Poznámky a fotky</translation>
     </message>
     <message>
         <location filename="../screens/annotation_dialog.py" line="40"/>
@@ -278,92 +278,92 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="49"/>
+        <location filename="../windows/calibration_window.py" line="58"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="57"/>
+        <location filename="../windows/calibration_window.py" line="66"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="57"/>
+        <location filename="../windows/calibration_window.py" line="66"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="65"/>
+        <location filename="../windows/calibration_window.py" line="74"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="106"/>
+        <location filename="../windows/calibration_window.py" line="115"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="109"/>
+        <location filename="../windows/calibration_window.py" line="118"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="121"/>
+        <location filename="../windows/calibration_window.py" line="130"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="121"/>
+        <location filename="../windows/calibration_window.py" line="130"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="82"/>
+        <location filename="../windows/calibration_window.py" line="91"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="158"/>
+        <location filename="../windows/calibration_window.py" line="168"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="175"/>
+        <location filename="../windows/calibration_window.py" line="185"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="193"/>
+        <location filename="../windows/calibration_window.py" line="203"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="120"/>
+        <location filename="../windows/calibration_window.py" line="129"/>
         <source>Reported by robot and Car</source>
         <translation>Hlásí robot a auto</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="122"/>
+        <location filename="../windows/calibration_window.py" line="131"/>
         <source>The Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="176"/>
+        <location filename="../windows/calibration_window.py" line="186"/>
         <source>The Car has answered: {locks}.</source>
         <translation>Auto odpovědělo: {locks}.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="177"/>
+        <location filename="../windows/calibration_window.py" line="187"/>
         <source>The Car has not answered.</source>
         <translation>Auto neodpovědělo.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="62"/>
+        <location filename="../windows/calibration_window.py" line="71"/>
         <source>Guided calibration</source>
         <translation>Kalibrace krok za krokem</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="63"/>
+        <location filename="../windows/calibration_window.py" line="72"/>
         <source>Press strength, key height and key&apos;s lever, kept with their date.</source>
         <translation>Síla stisku, výška klíče a rameno klíče; uchovají se s datem.</translation>
     </message>
@@ -452,27 +452,27 @@
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="58"/>
+        <location filename="../windows/car_card.py" line="57"/>
         <source>The robot maps the Car.</source>
         <translation>Robot mapuje auto.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="60"/>
+        <location filename="../windows/car_card.py" line="59"/>
         <source>The robot checks where the Car stands.</source>
         <translation>Robot ověřuje, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="65"/>
+        <location filename="../windows/car_card.py" line="64"/>
         <source>The Car is not measured yet.</source>
         <translation>Auto ještě není změřeno.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="66"/>
+        <location filename="../windows/car_card.py" line="65"/>
         <source>The Car measures {length} m by {width} m.</source>
         <translation>Auto měří {length} m × {width} m.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="56"/>
+        <location filename="../windows/car_card.py" line="55"/>
         <source>The robot was stopped on its way around the Car.</source>
         <translation>Robot byl zastaven na cestě kolem auta.</translation>
     </message>
@@ -482,7 +482,7 @@
         <translation>Podržením zkontrolovat polohu</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="51"/>
+        <location filename="../windows/car_card.py" line="50"/>
         <source>Hold to map it again</source>
         <translation>Podržením znovu zmapovat</translation>
     </message>
@@ -492,7 +492,7 @@
         <translation>Robot při obojím objíždí auto: tlačítko podržte, až bude cesta volná.</translation>
     </message>
     <message>
-        <location filename="../windows/car_card.py" line="51"/>
+        <location filename="../windows/car_card.py" line="50"/>
         <source>Hold to map it</source>
         <translation>Podržením zmapovat</translation>
     </message>
@@ -1120,42 +1120,42 @@
         <translation>Připojení k robotu</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="67"/>
+        <location filename="../windows/connection_window.py" line="69"/>
         <source>Connect</source>
         <translation>Připojit</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="71"/>
+        <location filename="../windows/connection_window.py" line="73"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="71"/>
+        <location filename="../windows/connection_window.py" line="73"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="139"/>
+        <location filename="../windows/connection_window.py" line="141"/>
         <source>The IP address or port provided is invalid.</source>
         <translation>Zadaná IP adresa nebo port je neplatný.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="130"/>
+        <location filename="../windows/connection_window.py" line="132"/>
         <source>Connecting to {host} ...</source>
         <translation>Připojuji se k {host} ...</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="140"/>
+        <location filename="../windows/connection_window.py" line="142"/>
         <source>Connection failed, check the parameters.</source>
         <translation>Připojení selhalo, zkontrolujte parametry.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="142"/>
+        <location filename="../windows/connection_window.py" line="144"/>
         <source>The CAN adapter cannot be used.</source>
         <translation>Adaptér CAN nelze použít.</translation>
     </message>
     <message>
-        <location filename="../windows/connection_window.py" line="141"/>
+        <location filename="../windows/connection_window.py" line="143"/>
         <source>The CAN adapter of the bus {bus} cannot be used.</source>
         <translation>Adaptér CAN sběrnice {bus} nelze použít.</translation>
     </message>
@@ -3472,27 +3472,27 @@
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="158"/>
+        <location filename="../screens/protocol.py" line="156"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="259"/>
+        <location filename="../screens/protocol.py" line="257"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="277"/>
+        <location filename="../screens/protocol.py" line="275"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="285"/>
+        <location filename="../screens/protocol.py" line="283"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="192"/>
+        <location filename="../screens/protocol.py" line="190"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
@@ -3502,7 +3502,7 @@
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="293"/>
+        <location filename="../screens/protocol.py" line="291"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
@@ -3517,24 +3517,24 @@
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="166"/>
+        <location filename="../screens/protocol.py" line="164"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="200"/>
+        <location filename="../screens/protocol.py" line="198"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="201"/>
+        <location filename="../screens/protocol.py" line="199"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
     </message>
     <message>
         <location filename="../screens/protocol.py" line="89"/>
         <source>Notes and photos</source>
-        <translation>Poznámky a fotografie</translation>
+        <translation>Poznámky a fotky</translation>
     </message>
     <message>
         <location filename="../screens/protocol.py" line="90"/>
@@ -3547,17 +3547,17 @@
         <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="264"/>
+        <location filename="../screens/protocol.py" line="262"/>
         <source>The bundle is written: {percent} %.</source>
         <translation>Balíček se zapisuje: {percent} %.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="267"/>
+        <location filename="../screens/protocol.py" line="265"/>
         <source>It is bundle {number} of {station}.</source>
         <translation>Je to balíček {number} stanice {station}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="270"/>
+        <location filename="../screens/protocol.py" line="268"/>
         <source>Left out is {name}: {reason}</source>
         <translation>Chybí {name}: {reason}</translation>
     </message>

@@ -6,7 +6,16 @@ import math
 from typing import Sequence
 
 from PyQt5.QtCore import QSize, pyqtSignal
-from PyQt5.QtWidgets import QCheckBox, QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import (
+    QCheckBox,
+    QDialog,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from mtr_operator.domain.parameters import Declaration
 from mtr_operator.domain.ports import LockState
@@ -87,18 +96,18 @@ class CalibrationWindow(QDialog):
         row.setSpacing(M)
         row.addWidget(close)
         row.addWidget(self.send)
-        cards = QHBoxLayout()
+        cards, right = QHBoxLayout(), QVBoxLayout()
+        # Below each other, so that no button is out of sight on a small laptop.
+        right.setSpacing(M)
+        right.addWidget(self._reported_card(), 1)
+        right.addWidget(self.car)
         cards.setSpacing(M)
         cards.addWidget(self._wanted_card(), 1)
-        cards.addWidget(self._reported_card(), 1)
+        cards.addLayout(right, 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
-        content = QVBoxLayout()
-        content.setSpacing(M)
-        content.addLayout(cards, 1)
-        content.addWidget(self.car)
-        layout.addWidget(Scroller(content), 1)
+        layout.addWidget(Scroller(cards), 1)
         layout.addLayout(row)
         self.send.setDefault(True)
 
@@ -120,16 +129,17 @@ class CalibrationWindow(QDialog):
         card = Card(self.tr("Reported by robot and Car"))
         titles = {"height": self.tr("Key height"), "buttons": self.tr("Buttons pressed"),
                   "locks": self.tr("The Car's locks")}
-        for name, label in self.reported.items():
+        rows = QGridLayout()
+        rows.setSpacing(S)
+        rows.setColumnStretch(1, 1)
+        for row, (name, label) in enumerate(self.reported.items()):
             label.setProperty("role", "heading")
             label.setAccessibleName(titles[name])
             heading = QLabel(titles[name])
             heading.setProperty("role", "soft")
-            group = QVBoxLayout()
-            group.setSpacing(S)
-            group.addWidget(heading)
-            group.addWidget(label)
-            card.column.addLayout(group)
+            rows.addWidget(heading, row, 0)
+            rows.addWidget(label, row, 1)
+        card.column.addLayout(rows)
         card.column.addWidget(self.notice)
         card.column.addStretch(1)
         return card

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtWidgets import QHBoxLayout, QLabel, QWidget
+from PyQt5.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from mtr_operator.domain.robot_status import CheckState, Mode, RobotStatus
 from mtr_operator.station.links.idle_loop import CarRequest
@@ -30,13 +30,12 @@ class CarCard(Card):
         hint = QLabel(self.tr("The robot drives around the Car for both: hold the button when its way is clear."))
         hint.setWordWrap(True)
         hint.setProperty("role", "hint")
-        row = QHBoxLayout()
-        row.setSpacing(S)
+        buttons = QVBoxLayout()
+        buttons.setSpacing(S)
         for button in (self.check, self.map):
-            row.addWidget(button)
-        row.addStretch(1)
+            buttons.addWidget(button)
         self.column.addWidget(self.notice)
-        self.column.addLayout(row)
+        self.column.addLayout(buttons)
         self.column.addWidget(hint)
 
     def _button(self, text: str, request: CarRequest) -> HoldButton:
