@@ -17,7 +17,7 @@ from ..lock_watch import LockWatch
 from ..profile import CarProfile, load_profile
 from .read_log import LoggedFrame, ReadLog
 
-# For so long a gap or a jump of the log's time is told: longer than a Status takes to be looked at.
+# For so long a jump of the log's time is told, and the end of a gap: longer than a Status takes to be looked at.
 _TOLD_S = 1.0
 _NOT_CONNECTED = "The CAN log is not open."
 
@@ -38,7 +38,7 @@ class LogCarLink(CarLink):
         self._bus_of: Callable[[int], str] = str
         self._next: LoggedFrame | None = None
         self._begin_s = self._stamp_s = math.nan
-        self._noted, self._noted_s = "", -math.inf
+        self._noted, self._noted_until_s = "", -math.inf
 
     def connect(self) -> None:
         """See CarLink; ConnectionFailed when the log holds no frame."""
@@ -49,7 +49,7 @@ class LogCarLink(CarLink):
         self._frames = iter(self._log)
         self._next = next(self._frames, None)
         self._begin_s = math.nan
-        self._noted, self._noted_s = self._log.newest, -math.inf
+        self._noted, self._noted_until_s = self._log.newest, -math.inf
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
@@ -73,7 +73,9 @@ class LogCarLink(CarLink):
     def _look_at_log(self) -> None:
         """A gap or jump is a trouble where it is, not before and not at the end of the log."""
         if self._log is not None and self._log.newest != self._noted:
-            self._noted, self._noted_s = self._log.newest, self._stamp_s
+            # The frame behind a gap comes when the gap is over.
+            next_s = -math.inf if self._next is None else self._begin_s + self._next.time_s
+            self._noted, self._noted_until_s = self._log.newest, max(self._stamp_s, next_s) + _TOLD_S
 
     @property
     def lock_state(self) -> LockState:
@@ -102,7 +104,7 @@ class LogCarLink(CarLink):
             return _NOT_CONNECTED
         if self._next is None and self._watch.problem:
             return self._log.ending or f"The CAN log {self._path} has come to its end."
-        if self._next is not None and self._stamp_s - self._noted_s < _TOLD_S:
+        if self._next is not None and self._stamp_s < self._noted_until_s:
             return self._noted
         return self._watch.problem
 
