@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import shutil
+import zipfile
 
 import can
 import pytest
@@ -72,6 +73,38 @@ def test_replay_of_a_test_gives_the_same_distances(autolock, capsys):
 def test_replay_says_in_words_that_nothing_changes(autolock, capsys):
     assert main(["replay", str(autolock / "progress.json")]) == 0
     assert "are as in the record; the largest difference is 0.000 mm" in capsys.readouterr().out
+
+
+def test_bundle_is_replayed_by_the_profile_that_it_keeps(autolock, capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    bundle = tmp_path / "test.mtr.zip"
+    assert main(["bundle", str(autolock), "--out", str(bundle)]) == 0
+    (autolock / "mended.yaml").rename(tmp_path / "elsewhere.yaml")
+    try:
+        code, document = replayed(bundle, capsys)
+        assert code == 0 and document["is_unchanged"] and document["worst_m"] <= 1e-6
+        zipfile.ZipFile(bundle).extractall(tmp_path / "unpacked")
+        assert replayed(tmp_path / "unpacked", capsys)[0] == 0
+    finally:
+        (tmp_path / "elsewhere.yaml").rename(autolock / "mended.yaml")
+
+
+def test_bundle_that_is_changed_is_not_replayed(autolock, capsys, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
+    bundle = tmp_path / "test.mtr.zip"
+    assert main(["bundle", str(autolock), "--out", str(bundle)]) == 0
+    content = bytearray(bundle.read_bytes())
+    content[content.index(b"scenario")] ^= 1
+    bundle.write_bytes(content)
+    capsys.readouterr()
+    assert main(["replay", str(bundle)]) == 2
+    told = capsys.readouterr()
+    assert "not as it was signed, and nothing is computed from it" in told.err and not told.out
+
+
+def test_replay_of_nothing_says_so(capsys, tmp_path):
+    assert main(["replay", str(tmp_path / "nothing")]) == 2
+    assert capsys.readouterr().err.strip() == f"There is no test in {tmp_path / 'nothing'}."
 
 
 def test_profile_with_another_cycle_moves_the_distances(autolock, capsys, tmp_path):

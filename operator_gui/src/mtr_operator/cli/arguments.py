@@ -182,7 +182,7 @@ def _add_replay(parser: argparse.ArgumentParser) -> None:
     parser.description = ("Computes all distances of a test anew, from the log of the Car's bus, the poses and the "
                           "profile, and says what would change. Exit code 0: nothing, to 0.1 mm; 3: something.")
     parser.add_argument("results", type=pathlib.Path, metavar="RESULTS",
-                        help="progress.json, or the folder with it; the recording is beside it")
+                        help="progress.json, or the folder with it; the recording is beside it. Or a bundle")
     parser.add_argument("--car-profile", metavar="NAME_OR_PATH", help="a mended profile; default: that of the test")
     parser.add_argument("--can-log", type=pathlib.Path, metavar="FILE",
                         help="another log of the same bus and time, instead of the recorded one")

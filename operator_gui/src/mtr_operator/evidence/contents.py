@@ -14,6 +14,7 @@ from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.report.files import FILE_NAMES
 from mtr_operator.storage.journal_file import journal_path
 from mtr_operator.storage.photos import photo_folder
+from mtr_operator.storage.recorded.kept_car import FOLDER as CAR_FOLDER
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs, recording_folder
 from mtr_operator.storage.recorded.scan_file import read_scans
 
@@ -30,7 +31,6 @@ RECORD = "record.json"
 RESULTS_TABLE, POSES_TABLE = "results.parquet", "poses.parquet"
 # Only where something is left out: why, by the name of what is missing.
 LEFT_OUT = "left_out.json"
-_CAR = "car"
 
 
 class Tested(NamedTuple):
@@ -105,13 +105,13 @@ def _add_profile(found: Contents, profile: str) -> None:
     try:
         files = () if profile in ("", SUBSTITUTE) else profile_files(profile)
     except OperatorError as error:
-        found.left_out[f"{_CAR}/{pathlib.Path(profile).name}"] = str(error)
+        found.left_out[f"{CAR_FOLDER}/{pathlib.Path(profile).name}"] = str(error)
         return
     for file in files:
         if file.is_file():
-            found.sources[f"{_CAR}/{file.name}"] = file
+            found.sources[f"{CAR_FOLDER}/{file.name}"] = file
         else:
-            found.left_out[f"{_CAR}/{file.name}"] = f"The file {file} is not there any more."
+            found.left_out[f"{CAR_FOLDER}/{file.name}"] = f"The file {file} is not there any more."
 
 
 def _add_course(found: Contents, run: RecordedRun) -> None:

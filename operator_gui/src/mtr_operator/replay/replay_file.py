@@ -9,6 +9,7 @@ from mtr_operator.domain.results.session_record import CAR_PROFILE, SUBSTITUTE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.recorded.kept_car import kept_profile
 from mtr_operator.storage.recorded.recording import recording_folder
 
 from .cannot import CannotReplay
@@ -19,9 +20,11 @@ def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.P
                 log: pathlib.Path | None = None) -> tuple[AnyScenario, ReplayedTest]:
     """The test's scenario, and what was found; OperatorError says what is missing.
 
-    profile_name: empty for the one that the test had, as it is now. folder: of the recording, None for that beside the
-    file. log: see replay.
+    profile_name: empty for the one that the test had: as a bundle has kept it, else as it is now. folder: of the
+    recording, None for that beside the file. log: see replay.
     """
+    if not path.exists():
+        raise CannotReplay(f"There is no test in {path}.")
     scenario, parameters, progress = open_progress(path, SCENARIOS)
     name = profile_name or progress.session.get(CAR_PROFILE)
     if name == SUBSTITUTE:
@@ -30,4 +33,5 @@ def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.P
     if not name:
         raise CannotReplay(f"The test in {path} does not say which car profile it had; name one (--car-profile).")
     recording = folder or recording_folder(path)
+    name = profile_name or kept_profile(path, name)
     return scenario, replay(scenario, parameters, progress, recording, load_profile(name), log=log)

@@ -6,6 +6,7 @@ import argparse
 import json
 import sys
 
+from mtr_operator.evidence.unpacked import unpacked
 from mtr_operator.replay.replay_text import is_unchanged, replay_document, replay_lines
 from mtr_operator.storage.progress_file import FILE_NAME
 
@@ -14,10 +15,11 @@ from ..exit_codes import EXIT_CHANGED, EXIT_PASS
 
 def replay_test(options: argparse.Namespace) -> int:
     """Print what would change; the exit code."""
-    path = options.results / FILE_NAME if options.results.is_dir() else options.results
     # Reads the database of a bus: not needed where nothing is replayed.
     from mtr_operator.replay.replay_file import replay_file
-    scenario, found = replay_file(path, options.car_profile or "", folder=options.recording, log=options.can_log)
+    with unpacked(options.results) as results:
+        path = results / FILE_NAME if results.is_dir() else results
+        scenario, found = replay_file(path, options.car_profile or "", folder=options.recording, log=options.can_log)
     for notice in found.notices:
         print(notice, file=sys.stderr)
     if options.json:

@@ -1,0 +1,34 @@
+"""The files of a bundle in a folder, for as long as they are looked at."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import pathlib
+import tempfile
+import zipfile
+from typing import Iterator
+
+from mtr_operator.domain.errors import OperatorError
+
+from .container import SUFFIX
+from .verification import verify_bundle
+
+
+class NotIntact(OperatorError):
+    """A bundle is not as it was signed; the text names what is changed."""
+
+
+@contextlib.contextmanager
+def unpacked(path: pathlib.Path) -> Iterator[pathlib.Path]:
+    """Folder of an intact bundle's files; whatever is no bundle is handed on as it is."""
+    if not path.name.endswith(SUFFIX) or not path.is_file():
+        yield path
+        return
+    problems = verify_bundle(path).problems
+    if problems:
+        raise NotIntact(f"{path} is not as it was signed, and nothing is computed from it: {problems[0]}")
+    with tempfile.TemporaryDirectory() as folder:
+        # Its names are those of the manifest; zipfile keeps them within the folder.
+        with zipfile.ZipFile(path) as container:
+            container.extractall(folder)
+        yield pathlib.Path(folder)
