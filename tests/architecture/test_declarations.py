@@ -17,6 +17,7 @@ KEYS = {
     "can": "python3-can", "cantools": "python3-cantools-pip", "catkin_pkg": "catkin", "evdev": "python3-evdev",
     "google": "python3-protobuf", "hypothesis": "python3-hypothesis",
     "matplotlib": "python3-matplotlib", "mtr_drive_control_core": "mtr_drive_control",
+    "mtr_localization_core": "mtr_localization",
     "mujoco": "python3-mujoco-pip", "numpy": "python3-numpy", "pytest": "python3-pytest", "rospkg": "python3-rospkg",
     # The laptop's application, which CI tests with the robot, and the firmware's emulator.
     "mtr_campaign": None, "mtr_operator": None, "mtr_results": None, "PyQt5": None, "mtr_emulator": None,

@@ -1,10 +1,16 @@
 /// @file
-/// The core of drive control as the Python module mtr_drive_control_core, for benchmarks and tests.
+/// The core of drive control as the Python module mtr_drive_control_core, for benchmarks, tests and simulations in one
+/// process.
 // SPDX-License-Identifier: Apache-2.0
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <tuple>
+
+#include "mtr_core/python_problem.hpp"
 #include "mtr_drive_control/drive_control.hpp"
+#include "mtr_drive_control/interventions.hpp"
 #include "mtr_drive_control/tip_over.hpp"
 
 namespace mtr_drive_control {
@@ -42,10 +48,11 @@ std::shared_ptr<const Sweep> sweep_of(const py::object& scan) {
     return nullptr;
   }
   const auto number = [&](const char* name) { return scan.attr(name).cast<double>(); };
-  return std::make_shared<const Sweep>(
-      Sweep{scan.attr("stamp_ns").cast<std::int64_t>(), number("angle_min_rad"), number("angle_increment_rad"),
-            number("time_increment_s"), number("range_min_m"), number("range_max_m"),
-            scan.attr("ranges_m").attr("tolist")().cast<std::vector<float>>(), "", ""});
+  const auto ranges = scan.attr("ranges_m").cast<py::array_t<float, py::array::c_style | py::array::forcecast>>();
+  return std::make_shared<const Sweep>(Sweep{scan.attr("stamp_ns").cast<std::int64_t>(), number("angle_min_rad"),
+                                             number("angle_increment_rad"), number("time_increment_s"),
+                                             number("range_min_m"), number("range_max_m"),
+                                             std::vector<float>(ranges.data(), ranges.data() + ranges.size()), "", ""});
 }
 
 std::optional<Motion> motion_of(std::int64_t stamp_ns, const py::object& odometry) {
@@ -92,6 +99,90 @@ Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<s
   return control.step(tick_ns, inputs);
 }
 
+/// The newest sweep of a LiDAR, the same until another is taken.
+class SweepHolder {
+ public:
+  void take(const py::object& scan) { sweep_ = sweep_of(scan); }
+  const std::shared_ptr<const Sweep>& sweep() const { return sweep_; }
+
+ private:
+  std::shared_ptr<const Sweep> sweep_;
+};
+
+/// Stamp in ns, m/s, rad/s, and whether the source wants anything.
+using CommandTuple = std::tuple<std::int64_t, double, double, bool>;
+
+std::optional<SourceCommand> source_command_of(const std::optional<CommandTuple>& command) {
+  if (!command) {
+    return std::nullopt;
+  }
+  const auto& [stamp_ns, linear_mps, angular_radps, active] = *command;
+  return SourceCommand{stamp_ns, {linear_mps, angular_radps}, active};
+}
+
+/// Drive control of a whole robot: with the locks and counters that its node keeps beside it.
+class RobotDrive {
+ public:
+  RobotDrive(const std::string& urdf, bool has_rear_lidar, const std::vector<std::string>& lock_owners, double period_s)
+      : control_(Parameters{}, CollisionParameters{}, shape_of(mtr_description::RobotGeometry(urdf), has_rear_lidar),
+                 period_s),
+        locks_(lock_owners, Parameters{}.lock_timeout_s, in_lockstep()) {
+    check_balance(Parameters{}, mtr_description::RobotGeometry(urdf));
+  }
+
+  void take_scan(bool is_rear, const py::object& scan) { (is_rear ? rear_ : front_).take(scan); }
+
+  void take_lock(const std::string& owner, std::int64_t stamp_ns, bool engaged,
+                 const std::vector<mtr_core::ProblemTuple>& problems, const std::string& reason) {
+    locks_.take(owner, {stamp_ns, engaged, mtr_core::problem_in(problems, reason)});
+  }
+
+  /// @param key stamp in ns and height in m, where it is known
+  Decision step(std::int64_t tick_ns, const py::object& odometry, const py::object& imu,
+                const std::optional<std::pair<std::int64_t, double>>& key, const std::optional<CommandTuple>& planner) {
+    Inputs inputs;
+    inputs.sensors = {front_.sweep(), rear_.sweep(), motion_of(tick_ns, odometry)};
+    inputs.imu = imu_of(tick_ns, imu);
+    inputs.key = key ? std::optional<KeyHeight>({key->first, key->second}) : std::nullopt;
+    inputs.locks = locks_.engaged_at(tick_ns);
+    inputs.locks_age_s = locks_.age_s();
+    inputs.planner = source_command_of(planner);
+    Decision decision = control_.step(tick_ns, inputs);
+    counted_ = counter_.count(decision);
+    return decision;
+  }
+
+  /// Manual drives, blockages and lock stops so far.
+  std::tuple<std::uint32_t, std::uint32_t, std::uint32_t> interventions() const {
+    return {counted_.manual_drives, counted_.blockages, counted_.lock_stops};
+  }
+
+ private:
+  /// Whoever is to speak has spoken: nobody is waited for.
+  static mtr_core::Waiting in_lockstep() {
+    return {[](double) { return false; }, [] { return 0.0; }, 0.0};
+  }
+
+  DriveControl control_;
+  MotionLocks locks_;
+  SweepHolder front_;
+  SweepHolder rear_;
+  InterventionCounter counter_;
+  Interventions counted_;
+};
+
+void bind_robot(py::module& module) {
+  py::class_<RobotDrive>(module, "RobotDrive")
+      .def(py::init<const std::string&, bool, const std::vector<std::string>&, double>(), py::arg("urdf"),
+           py::arg("rear_lidar"), py::arg("lock_owners"), py::arg("period_s"))
+      .def("take_scan", &RobotDrive::take_scan, py::arg("is_rear"), py::arg("scan"))
+      .def("take_lock", &RobotDrive::take_lock, py::arg("owner"), py::arg("stamp_ns"), py::arg("engaged"),
+           py::arg("problems") = std::vector<mtr_core::ProblemTuple>(), py::arg("reason") = "")
+      .def("step", &RobotDrive::step, py::arg("tick_ns"), py::kw_only(), py::arg("odometry"), py::arg("imu"),
+           py::arg("key"), py::arg("planner"), "Velocity of this tick in lock-step, with what its node keeps.")
+      .def_property_readonly("interventions", &RobotDrive::interventions);
+}
+
 }  // namespace
 
 PYBIND11_MODULE(mtr_drive_control_core, module) {
@@ -121,7 +212,9 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
       .def_property_readonly("linear_mps", [](const Decision& decision) { return decision.velocity.linear_mps; })
       .def_property_readonly("angular_radps", [](const Decision& decision) { return decision.velocity.angular_radps; })
       .def_readonly("source", &Decision::source)
+      .def_readonly("engaged_locks", &Decision::engaged_locks)
       .def_property_readonly("message", [](const Decision& decision) { return decision.message.text; })
+      .def_property_readonly("problems", [](const Decision& decision) { return mtr_core::tuples_of(decision.message); })
       .def_property_readonly("zone", [](const Decision& decision) { return static_cast<int>(decision.zone); })
       .def_property_readonly(
           "obstacle_m", [](const Decision& decision) { return decision.hindrance.value_or(Hindrance{}).distance_m; })
@@ -144,6 +237,7 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
            py::arg("rear") = py::none(), py::arg("odometry") = py::none(), py::arg("key_height_m") = 0.35,
            py::arg("imu") = py::none(),
            "Velocity of this tick; front and rear are the newest sweeps, the same again until there is a new one.");
+  bind_robot(module);
 }
 
 }  // namespace mtr_drive_control
