@@ -11,7 +11,6 @@ from sensor_msgs.msg import LaserScan
 from mtr_core import names, schedule
 from mtr_core.lockstep import StampedQueue
 from mtr_core.lockstep.clock import is_lockstep
-from mtr_core.schedule import MILLISECOND_NS
 from mtr_description.mounts import LidarMounts
 from mtr_msgs.msg import LocalizedPose
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
@@ -19,14 +18,10 @@ from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
 from .conversions import robot_pose_from, scan_from, scan_mounts, surface_map_from
 from .poses import RobotPose
 from .scan import Scan
+from .steps import SCAN_LAG_NS, ScanWindow, is_map_due
 from .survey.surface_map import SurfaceMap
 
-# A scan bears its first beam's time and is there when the sweep has ended; the pose of its last beam is there too then.
-SCAN_LAG_NS = 100 * MILLISECOND_NS
-# Scans that come while the connections are being made are not used: how many there are depends on the machine.
-CONNECTING_NS = 200 * MILLISECOND_NS
-# A map counts from this long after its stamp on; one that a pose speaks of is waited for so long (wall time).
-MAP_LAG_NS = 100 * MILLISECOND_NS
+# A map that a pose speaks of is waited for so long (wall time).
 MAP_WAIT_WALL_S = 2.0
 
 
@@ -56,22 +51,20 @@ class ScanSource:
         """time_increment_s: from beam to beam, where the scans do not say it."""
         self._mounts, self._time_increment_s = scan_mounts(lidars), time_increment_s
         self._queues: List[StampedQueue] = []
-        self._usable_from_ns = 0
+        self._window = ScanWindow()
 
     def take(self, tick_ns: int, wanted: bool) -> List[Scan]:
         """Scans that have come since the last tick."""
+        self._window.follow(tick_ns, wanted)
         if not wanted:
             self._close()
             return []
         if not self._queues:
-            self._usable_from_ns = tick_ns + CONNECTING_NS
             self._queues = [StampedQueue(topic, numpy_msg(LaserScan), schedule.LIDAR, SCAN_LAG_NS)
                             for topic in self._mounts]
-        # A clock that was set back must not leave the scans unused until it has come to that time again.
-        self._usable_from_ns = min(self._usable_from_ns, tick_ns + CONNECTING_NS)
         return [scan_from(message, mount, topic == names.REAR_SCAN, self._time_increment_s)
                 for queue, (topic, mount) in zip(self._queues, self._mounts.items())
-                for message in queue.take(tick_ns) if message.header.stamp.to_nsec() >= self._usable_from_ns]
+                for message in queue.take(tick_ns) if self._window.counts(message.header.stamp.to_nsec())]
 
     def _close(self) -> None:
         for queue in self._queues:
@@ -97,7 +90,7 @@ class MapSource:
             message = self._message
             if message is None:
                 return None
-            is_due = message.header.stamp.to_nsec() + MAP_LAG_NS <= tick_ns
+            is_due = is_map_due(message.header.stamp.to_nsec(), tick_ns)
             return self._map if is_due or message.revision == pose_revision else None
 
     def _revision(self) -> int:

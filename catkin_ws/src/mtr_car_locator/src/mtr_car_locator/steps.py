@@ -1,8 +1,10 @@
-"""The locator's steps beside the node's ticks: a fit that takes longer than a tick silences nobody."""
+"""The locator's steps beside the node's ticks: a long fit silences nobody; which scans and maps count at one."""
 # SPDX-License-Identifier: Apache-2.0
 import concurrent.futures
 from dataclasses import replace
 from typing import List, Optional, Sequence
+
+from mtr_core.schedule import MILLISECOND_NS
 
 from .estimate import Estimate, Inputs
 from .locator import CarLocator
@@ -11,6 +13,12 @@ from .scan import Scan
 
 # A tick waits so long for its step before it repeats what was known: most steps are done within it.
 PATIENCE_S = 0.04
+# A scan bears its first beam's time and is there when the sweep has ended; the pose of its last beam is there too then.
+SCAN_LAG_NS = 100 * MILLISECOND_NS
+# Scans that come while the connections are being made are not used: how many there are depends on the machine.
+CONNECTING_NS = 200 * MILLISECOND_NS
+# A map counts from this long after its stamp on.
+MAP_LAG_NS = 100 * MILLISECOND_NS
 
 
 class LocatorSteps:
@@ -53,3 +61,28 @@ class LocatorSteps:
         for pose in self._poses:
             self._locator.add_pose(pose)
         self._poses.clear()
+
+
+class ScanWindow:
+    """From when on scans count while they are wanted."""
+
+    def __init__(self) -> None:
+        self._usable_from_ns: Optional[int] = None
+
+    def follow(self, tick_ns: int, wanted: bool) -> None:
+        """Whether they are wanted at a tick."""
+        if not wanted:
+            self._usable_from_ns = None
+            return
+        latest_ns = tick_ns + CONNECTING_NS
+        # A clock that was set back must not leave the scans unused until it has come to that time again.
+        self._usable_from_ns = latest_ns if self._usable_from_ns is None else min(self._usable_from_ns, latest_ns)
+
+    def counts(self, stamp_ns: int) -> bool:
+        """True for a scan that counts."""
+        return self._usable_from_ns is not None and stamp_ns >= self._usable_from_ns
+
+
+def is_map_due(stamp_ns: int, tick_ns: int) -> bool:
+    """True when a map counts at a tick, whatever the poses speak of."""
+    return stamp_ns + MAP_LAG_NS <= tick_ns

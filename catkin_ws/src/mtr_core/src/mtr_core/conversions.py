@@ -2,12 +2,19 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
+from genpy import Time
+
 from mtr_msgs import msg
 
 from .problems import problem_of
 from .requests import DesiredState, Goal, GoalId, GoalReport, Press, Waypoint
 from .se2 import Pose2
 from .states import Result
+
+
+def stamp_of(time_ns: int) -> Time:
+    """Nanoseconds as the stamp of a message."""
+    return Time(time_ns // 1_000_000_000, time_ns % 1_000_000_000)
 
 
 def waypoint_from(message: msg.Waypoint) -> Waypoint:

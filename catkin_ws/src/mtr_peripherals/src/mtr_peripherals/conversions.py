@@ -3,12 +3,11 @@
 import math
 from typing import Optional, Union
 
-import rospy
+from genpy import Time
 from sensor_msgs.msg import JointState
 
-from mtr_core.conversions import desired_state_from
+from mtr_core.conversions import desired_state_from, stamp_of
 from mtr_core.crc import seal
-from mtr_core.lockstep import clock
 from mtr_core.problems import NO_PROBLEM, messages_of, problem_of
 from mtr_core.requests import PressReport
 from mtr_msgs.msg import (
@@ -78,7 +77,7 @@ def emergency_word(message: MotionLock, steady_stamp_ns: int) -> EmergencyWord:
     return EmergencyWord(message.owner, reason if message.engaged else NO_PROBLEM, steady_stamp_ns, message.emergency)
 
 
-def state_message(outcome: Outcome, battery: float, stamp: rospy.Time, clock_of_robot: RobotClock,
+def state_message(outcome: Outcome, battery: float, stamp: Time, clock_of_robot: RobotClock,
                   firmware_resets: int) -> PeripheralsState:
     """State in the terms of the domain."""
     message = PeripheralsState(
@@ -90,7 +89,7 @@ def state_message(outcome: Outcome, battery: float, stamp: rospy.Time, clock_of_
     return message
 
 
-def joint_message(outcome: Outcome, stamp: rospy.Time) -> JointState:
+def joint_message(outcome: Outcome, stamp: Time) -> JointState:
     """Joints for robot_state_publisher; the wheels' angles do not matter to anyone."""
     message = JointState(name=list(JOINTS), position=[outcome.lift_now_m] + [0.0] * (len(JOINTS) - 1))
     message.header.stamp = stamp
@@ -103,6 +102,6 @@ def battery_charge(percentage: Optional[float]) -> float:
 
 
 def _report_message(report: PressReport, clock_of_robot: RobotClock) -> PressReportMessage:
-    start, end = (clock.stamp_of(clock_of_robot.robot_ns(at_ns)) for at_ns in (report.start_ns, report.end_ns))
+    start, end = (stamp_of(clock_of_robot.robot_ns(at_ns)) for at_ns in (report.start_ns, report.end_ns))
     return PressReportMessage(report.session_id, report.id, start, end, report.error.text,
                               messages_of(report.error, Problem))

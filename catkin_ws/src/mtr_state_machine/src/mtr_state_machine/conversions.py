@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Dict, Optional
 
-import rospy
+from genpy import Time
 
 from mtr_core.conversions import desired_state_from, goal_report_from, waypoint_from, waypoint_message
 from mtr_core.problems import NO_PROBLEM, Problem, messages_of, problem_of
@@ -53,7 +53,7 @@ def drive(message: DriveStatus) -> Drive:
     return Drive(message.source == MANUAL, message.manual_drives, message.blockages)
 
 
-def mode_message(decision: Decision, stamp: rospy.Time) -> RobotMode:
+def mode_message(decision: Decision, stamp: Time) -> RobotMode:
     """Mode and goal, for the other nodes."""
     goal = decision.goal
     message = RobotMode(
@@ -67,7 +67,7 @@ def mode_message(decision: Decision, stamp: rospy.Time) -> RobotMode:
     return message
 
 
-def lock_message(decision: Decision, stamp: rospy.Time) -> MotionLock:
+def lock_message(decision: Decision, stamp: Time) -> MotionLock:
     """Reason to stand still, for drive control."""
     message = MotionLock(owner=OWNER, engaged=bool(decision.lock_reason), reason=decision.lock_reason.text,
                          problems=messages_of(decision.lock_reason, ProblemMessage))
