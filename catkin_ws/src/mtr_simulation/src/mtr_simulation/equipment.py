@@ -6,6 +6,7 @@ from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
 from mtr_fault_injection import parts
 from mtr_fault_injection.parts import Kind
 
+from .car.can_port import CanPort
 from .car.choice import Car, chosen_car
 from .car.ecu import Command
 from .car.slcan_port import Fault, SlcanPort
@@ -24,7 +25,9 @@ class Equipment:
         time_ns: of the last tick.
     """
 
-    def __init__(self, parameters: EquipmentParameters, firmware: Optional[Any] = None):
+    def __init__(self, parameters: EquipmentParameters, firmware: Optional[Any] = None,
+                 port: Optional[CanPort] = None):
+        """port: takes the frames of the Car's bus in place of an adapter."""
         # The firmware's clock is the simulated one; that of a real board starts anywhere.
         self.firmware = firmware or SimulatedFirmware(clock_start_us=SIMULATION_START_NS // 1000)
         self.time_ns = SIMULATION_START_NS
@@ -33,8 +36,9 @@ class Equipment:
         self._port: Optional[SlcanPort] = None
         self._car: Optional[Car] = None
         if parameters.car_port_link:
-            self._port = SlcanPort(parameters.car_port_link)
-            self._car = chosen_car(parameters.car).car(parameters.seed, self._port, self._truth_log)
+            port = self._port = SlcanPort(parameters.car_port_link)
+        if port:
+            self._car = chosen_car(parameters.car).car(parameters.seed, port, self._truth_log)
 
     def begin_step(self) -> None:
         """Let an emulated firmware run beside what the caller does until it calls step."""

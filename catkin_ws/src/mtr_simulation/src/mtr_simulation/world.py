@@ -4,6 +4,7 @@ from typing import Any, Optional, Set
 
 from mtr_core.se2 import Pose2
 
+from .car.can_port import CanPort
 from .equipment import Equipment
 from .parameters import SimulatorParameters
 from .physics.robot import RobotModel
@@ -25,12 +26,14 @@ class World:
     """
 
     def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None,
-                 robot: Optional[RobotModel] = None, base: Optional[BaseParameters] = None):
+                 robot: Optional[RobotModel] = None, base: Optional[BaseParameters] = None,
+                 port: Optional[CanPort] = None):
+        """port: takes the frames of the Car's bus in place of an adapter."""
         scenario = chosen_scenario(parameters.scenario)
         self._world_from_car = scenario.world_from_car
         self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar,
                                                                  base=base or BaseParameters()), robot)
-        self.equipment = Equipment(parameters, firmware)
+        self.equipment = Equipment(parameters, firmware, port)
         self.truth: TrueState = self.sim.truth()
         self.contacts: Set[str] = set()
 
