@@ -65,14 +65,15 @@ class CanCarLink(CarLink, FrameSink):
         frames_received: data frames of any message since the start.
     """
 
+    READER = CanReader
+
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
                  options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic,
                  is_listening: bool = True, data_bitrate: int | None = None,
                  further: Mapping[str, AdapterSettings] | None = None, databases: pathlib.Path | None = None):
         self._settings = AdapterSettings(interface, str(channel), bitrate, dict(options or {}), is_listening,
                                          data_bitrate)
-        self._profile_name, self._databases = str(profile), databases
-        self._clock = clock
+        self._profile_name, self._databases, self._clock = str(profile), databases, clock
         self._watch: LockWatch | None = None
         self._reader: CanReader | None = None
         self._changed = threading.Condition()
@@ -100,7 +101,7 @@ class CanCarLink(CarLink, FrameSink):
         self._cycles = CycleCheck(profile)
         self._table = MessageTable(self.profile.message_names)
         self._phone = feed_of(profile.phone)
-        reader = CanReader(lambda: open_adapter(self._settings), self, self._settings.interface, self._clock)
+        reader = self.READER(lambda: open_adapter(self._settings), self, self._settings.interface, self._clock)
         reader.start()
         try:
             self._further.start(profile, self)

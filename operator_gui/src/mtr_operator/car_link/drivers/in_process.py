@@ -1,0 +1,54 @@
+"""Link to a Car that is simulated in this process: its frames without an adapter."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import threading
+from typing import Callable
+
+import can
+
+from ..bus import CanCarLink
+from ..can_frame import CanFrame
+from ..reader import CanReader
+
+# As an adapter's stamps, which start again each minute.
+_STAMP_MODULO_MS = 60_000
+_MAX_STANDARD_ID = 0x7FF
+_NS_PER_MS = 1_000_000
+
+
+class _Direct(CanReader):
+    """Frames come without a thread that reads them, and go to the Car at once."""
+
+    def start(self) -> None:
+        """See CanReader."""
+
+    def stop(self) -> None:
+        """See CanReader."""
+
+    def send(self, message: can.Message) -> threading.Event:
+        """See CanReader."""
+        assert isinstance(self._sink, InProcessCarLink)
+        self._sink.to_car(message.arbitration_id, bytes(message.data))
+        left = threading.Event()
+        left.set()
+        return left
+
+
+class InProcessCarLink(CanCarLink):
+    """The same watch of the locks as behind an adapter that stamps its frames.
+
+    profile: of the Car. clock: simulated time in s, in place of the laptop's. to_car: takes identifier and data of what
+    goes to the Car.
+    """
+
+    READER = _Direct
+
+    def __init__(self, profile: str, clock: Callable[[], float], to_car: Callable[[int, bytes], None]):
+        super().__init__("virtual", "simulation", profile=profile, clock=clock, is_listening=False)
+        self.to_car = to_car
+
+    def received(self, can_id: int, data: bytes, time_ns: int) -> None:
+        """A frame of the Car, which was on the bus at that time."""
+        stamp_ms = time_ns // _NS_PER_MS % _STAMP_MODULO_MS
+        self.frame(CanFrame(can_id, can_id > _MAX_STANDARD_ID, data, self._clock(), stamp_ms))
