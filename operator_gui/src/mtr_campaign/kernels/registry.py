@@ -19,7 +19,12 @@ def _stack() -> Kernel:
     return StackKernel()
 
 
-_KERNELS: dict[str, Callable[[], Kernel]] = {"radio": _radio, "stack": _stack}
+def _cores() -> Kernel:
+    from .cores.kernel import CoresKernel
+    return CoresKernel()
+
+
+_KERNELS: dict[str, Callable[[], Kernel]] = {"radio": _radio, "cores": _cores, "stack": _stack}
 
 
 def kernel_of(name: str) -> Kernel:

@@ -116,10 +116,11 @@ def test_setting_that_is_not_known_or_not_possible_is_a_sentence_before_anything
 
 
 @pytest.mark.parametrize("changes, sentence", [
-    ({"kernel": "magic"}, "The kernel is 'magic'; allowed is radio, stack."),
+    ({"kernel": "magic"}, "The kernel is 'magic'; allowed is radio, cores, stack."),
     ({"set": {"car": "gentle"}, "vary": {"seed": [1]}}, "The Car gentle has no radio that could be followed alone"),
     ({"set": {"car": "unreal"}, "vary": {"seed": [1]}}, "Parameter car is 'unreal'"),
-    ({"kernel": "stack", "vary": {"errors.clock_s": [0.0]}}, "The setting errors.clock_s is of the kernel radio")])
+    ({"kernel": "stack", "vary": {"errors.clock_s": [0.0]}}, "The setting errors.clock_s is of the kernel radio"),
+    ({"kernel": "cores", "vary": {"errors.clock_s": [0.0]}}, "The setting errors.clock_s is of the kernel radio")])
 def test_kernel_says_what_it_cannot_run(changes, sentence):
     with pytest.raises(CampaignError) as caught:
         check_plan(plan(**changes))
