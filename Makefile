@@ -209,14 +209,15 @@ browser-test: setup build ## The store's pages in Chromium: filter, compare, dow
 	@setup/install.sh setup/debian-browser-packages.txt
 	@$(RUN) python -m pytest -q operator_gui/tests/browser/pages_in_chromium.py
 
-# Whole stacks take minutes each: bench-campaign measures them for STACKS=2 and more.
+# Whole stacks take minutes each: bench-campaign measures them for STACKS=2 and more, and compares the cores with them.
 CAMPAIGN_RUNS ?= 200
 CAMPAIGN_PAIRS ?= 100
+CORES ?= 3
 STACKS ?= 0
-bench-campaign: setup build ## Simulated campaigns: rate, workers, a killed one, the demo with itself; CAMPAIGN_PAIRS=100 STACKS=0
+bench-campaign: setup build ## Simulated campaigns: rates of the kernels, workers, a killed one, the demo with itself; CORES=3 STACKS=0
 	@$(RUN) PYTHONPATH=$$PYTHONPATH:$(CURDIR)/operator_gui/tests/proofs OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
-		python operator_gui/tests/proofs/campaigns.py --runs $(CAMPAIGN_RUNS) --pairs $(CAMPAIGN_PAIRS) --stacks $(STACKS) \
-		--seed $(SEED) --out out/bench
+		python operator_gui/tests/proofs/campaigns.py --runs $(CAMPAIGN_RUNS) --pairs $(CAMPAIGN_PAIRS) \
+		--cores $(CORES) --stacks $(STACKS) --seed $(SEED) --out out/bench
 
 # Borders and numbers: FUZZ="zeromq bags --cases 100000"; one case again: FUZZ="bags --case 5".
 FUZZ ?=

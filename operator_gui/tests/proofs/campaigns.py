@@ -1,6 +1,6 @@
 """Campaigns: how many tests a minute, how well workers share them, and what a killed worker costs.
 
-Usage: campaigns.py [--runs N] [--pairs N] [--stacks N] [--seed N] [--short] [--out FOLDER]
+Usage: campaigns.py [--runs N] [--pairs N] [--cores N] [--stacks N] [--seed N] [--short] [--out FOLDER]
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 
+import cores
 import demo_again
 import table
 from sqlalchemy import func, select
@@ -41,6 +42,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=200, help="of one pass for each number of workers (%(default)s)")
     parser.add_argument("--pairs", type=int, default=100, help="of the demo with itself, 0 for none (%(default)s)")
+    parser.add_argument("--cores", type=int, default=3, help="tests of each kind on the cores (%(default)s)")
     parser.add_argument("--stacks", type=int, default=0, help="whole stacks, alone and with two workers (%(default)s)")
     parser.add_argument("--seed", type=int, default=1, help="default %(default)s")
     parser.add_argument("--short", action="store_true", help="no share must be met")
@@ -52,8 +54,14 @@ def main():
         rows += rates(folder, options)
         rows += efficiencies(folder, options)
         counts.update(killed(folder, options))
+        if options.cores:
+            rows += cores.speed(options.cores, options.seed)
+            rows += on_cores(folder, options)
         if options.stacks:
             rows += stacks(folder, options)
+            found_rows, off = cores.equality(options.seed, options.short)
+            rows += found_rows
+            counts.update(off)
     figures = {"runs": options.runs, "pairs": options.pairs, "processors": os.cpu_count()}
     if options.pairs:
         found = demo_again.measure(options.pairs, options.seed, options.out / "campaign")
@@ -138,6 +146,18 @@ def killed(folder, options):
     return {"killed worker: runs lost": runs - len(course.runs), "killed worker: runs told twice": len(times) - len(
         set(times)), "killed worker: folders lost or twice": abs(len(kept) - runs),
             "killed worker: tests in the store lost or twice": abs(stored - runs)}
+
+
+def on_cores(folder, options):
+    """Whole robots without ROS an hour, one at a time and two at a time."""
+    found, runs = [], max(2 * options.cores, 4)
+    for workers in (1, 2):
+        wanted = plan(f"cores_{workers}", runs, options.seed)
+        with crew_of(workers) as crew:
+            took_s, _ = run(dataclasses.replace(wanted, kernel="cores"), folder, crew)
+        found.append((f"cores: autolock, 12 axes, {workers} at a time", "tests/h",
+                      round(SECONDS_AN_HOUR * runs / took_s, 1), None))
+    return found
 
 
 def stacks(folder, options):
