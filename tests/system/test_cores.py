@@ -11,10 +11,10 @@ TESTS = {
     # Eight axes, one from each side and corner.
     "autolock": {"car": "honest", "seed": 3, "parameters.passes": 1, "parameters.measuring_speed_mps": 0.3,
                  "parameters.measurements_distance_m": 10.0},
-    # Four radials.
+    # Eight radials.
     "key_press": {"car": "honest_button", "seed": 3, "parameters.minimum_distance_m": 3.0,
-                  "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 8,
-                  "parameters.angle_between_radials_deg": 90.0}}
+                  "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 4,
+                  "parameters.angle_between_radials_deg": 45.0}}
 
 
 def distances(kernel, scenario, folder):

@@ -17,8 +17,8 @@ MS_PER_S, MM_PER_M = 1e3, 1e3
 SHORT = {"car": "honest", "parameters.passes": 1, "parameters.measuring_speed_mps": 0.3,
          "parameters.measurements_distance_m": 10.0}
 SHORT_PRESS = {"car": "honest_button", "parameters.minimum_distance_m": 3.0, "parameters.maximum_distance_m": 7.0,
-               "parameters.interval_m": 0.5, "parameters.attempts_limit": 8,
-               "parameters.angle_between_radials_deg": 90.0}
+               "parameters.interval_m": 0.5, "parameters.attempts_limit": 4,
+               "parameters.angle_between_radials_deg": 45.0}
 
 
 def outcome(kernel, scenario, settings):
@@ -34,7 +34,7 @@ def speed(seeds, first_seed):
     """Rows: processor time for a second of the robot, by the median of some tests after one that loads all modules."""
     rows = []
     for name, scenario, settings in (("autolock, 8 axes, one pass", "autolock", SHORT),
-                                     ("key press, 4 radials", "key_press", SHORT_PRESS)):
+                                     ("key press, 8 radials", "key_press", SHORT_PRESS)):
         outcome("cores", scenario, {**settings, "seed": first_seed})
         each_ms = []
         for seed in range(first_seed + 1, first_seed + 1 + seeds):
@@ -48,7 +48,7 @@ def speed(seeds, first_seed):
 
 def equality(seed, is_short):
     """Rows, and counts that must be zero: distances of the two kernels under the same seed."""
-    wanted = [("autolock, 8 axes", "autolock", SHORT), ("key press, 4 radials", "key_press", SHORT_PRESS)]
+    wanted = [("autolock, 8 axes", "autolock", SHORT), ("key press, 8 radials", "key_press", SHORT_PRESS)]
     if not is_short:
         wanted = [("autolock of the demo, 16 axes", "autolock", demo_again.AUTOLOCK),
                   ("key press, 8 radials", "key_press", {**demo_again.KEY_PRESS, "car": "honest_button"})]
