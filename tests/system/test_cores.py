@@ -13,7 +13,7 @@ TESTS = {
                  "parameters.measurements_distance_m": 10.0},
     # Eight radials.
     "key_press": {"car": "honest_button", "seed": 3, "parameters.minimum_distance_m": 3.0,
-                  "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 4,
+                  "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 6,
                   "parameters.angle_between_radials_deg": 45.0}}
 
 

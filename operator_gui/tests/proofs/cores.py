@@ -17,7 +17,7 @@ MS_PER_S, MM_PER_M = 1e3, 1e3
 SHORT = {"car": "honest", "parameters.passes": 1, "parameters.measuring_speed_mps": 0.3,
          "parameters.measurements_distance_m": 10.0}
 SHORT_PRESS = {"car": "honest_button", "parameters.minimum_distance_m": 3.0, "parameters.maximum_distance_m": 7.0,
-               "parameters.interval_m": 0.5, "parameters.attempts_limit": 4,
+               "parameters.interval_m": 0.5, "parameters.attempts_limit": 6,
                "parameters.angle_between_radials_deg": 45.0}
 
 
