@@ -14,8 +14,8 @@ from mtr_core.lockstep.start import CANNOT_START
 from mtr_description.shipped import shipped_urdf
 
 NODES = {"car_locator": "mtr_car_locator", "dispatcher": "mtr_dispatcher", "drive_control": "mtr_drive_control",
-         "motion_planner": "mtr_motion_planner", "peripherals": "mtr_peripherals"}
-READS_LIDARS = {"car_locator", "drive_control"}
+         "localization": "mtr_localization", "motion_planner": "mtr_motion_planner", "peripherals": "mtr_peripherals"}
+READS_LIDARS = {"car_locator", "drive_control", "localization"}
 READS_KEY = {"dispatcher", "drive_control", "motion_planner", "peripherals"}
 
 
@@ -55,6 +55,12 @@ class RobotDescription(unittest.TestCase):
                         shipped_urdf().replace('"0 0 3.141592653589793"', '"3.141592653589793 0 3.141592653589793"'))
         self.check(READS_LIDARS, "The roll of rear_lidar in robot_description is 3.14159 rad; allowed is -0.0349066 to "
                                  "0.0349066 rad.")
+
+    def test_two_lidars_are_said_to_speak_in_one_frame(self):
+        rospy.set_param(names.ROBOT_DESCRIPTION, shipped_urdf())
+        rospy.set_param(names.ROBOT_FRAMES, {names.FRONT_LIDAR: "laser", names.REAR_LIDAR: "laser"})
+        self.addCleanup(rospy.delete_param, names.ROBOT_FRAMES)
+        self.check({"localization"}, "Both LiDARs are said to speak in the frame laser; give each its own")
 
     def test_key_is_missing(self):
         rospy.set_param(names.ROBOT_DESCRIPTION, shipped_urdf().replace('"key"', '"remote"'))
