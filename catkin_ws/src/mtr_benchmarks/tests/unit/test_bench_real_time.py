@@ -108,7 +108,7 @@ def made_of(made, folder):
     """Whole tests on an idle machine, the robot replaced by what came of each."""
     made = list(made)
     seeds = range(1, len(made) + 1)
-    return whole_tests(folder, [Machine.IDLE], seeds, lambda simulator, options: made[options.seed - 1])
+    return whole_tests(folder, [Machine.IDLE], seeds, run_one=lambda simulator, options: made[options.seed - 1])
 
 
 def test_tests_that_end_whole_meet_their_rows(tmp_path):
@@ -140,6 +140,18 @@ def test_each_test_gets_a_folder_and_the_parameters_of_eight_axes(tmp_path):
         return a_run()
 
     with_work_folder = tmp_path / "tests"
-    whole_tests(with_work_folder, [Machine.IDLE], (1, 2), noted)
+    made = whole_tests(with_work_folder, [Machine.IDLE], (1, 2), run_one=noted)
+    assert all(each.load > 0.0 for each in made) and figures_of_tests(made)[0]["load"] == made[0].load
     assert given == [("mujoco", f"idle_{seed}", seed, with_work_folder / "autolock.yaml") for seed in (1, 2)]
     assert yaml.safe_load((with_work_folder / "autolock.yaml").read_text(encoding="utf-8")) == PARAMETERS
+
+
+def test_whole_tests_are_run_in_the_other_simulator_when_that_is_asked_for(tmp_path):
+    given = []
+
+    def noted(simulator, options):
+        given.append((simulator, options.folder.name))
+        return a_run()
+
+    whole_tests(tmp_path, [Machine.BUSY], (3,), "gazebo", run_one=noted)
+    assert given == [("gazebo", "busy_3")]

@@ -14,6 +14,7 @@ import sys
 from dataclasses import asdict
 from typing import Any, ContextManager, Dict, Iterator, List, Optional, Tuple
 
+from ..gazebo.run import GAZEBO, MUJOCO
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Row
 from ..liveness.alarms import AlarmWatch
@@ -57,6 +58,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--tests", type=int, default=None,
                         help=f"whole Autolock tests of each machine, some minutes each; default {TESTS}, short none")
     parser.add_argument("--seed", type=int, default=1, help="of the first test; the next one has the next")
+    parser.add_argument("--simulator", choices=[MUJOCO, GAZEBO], default=MUJOCO, help="of the whole tests")
     parser.add_argument("--tests-only", action="store_true", help="neither drives nor restarts")
     options = parser.parse_args(arguments)
     machines = [Machine(name) for name in options.machines]
@@ -66,7 +68,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     if not options.tests_only:
         rows, figures, remarks = _nodes(options, machines)
     count = options.tests if options.tests is not None else 0 if options.short else TESTS
-    made = whole_tests(options.out / "real_time" / "tests", machines, range(options.seed, options.seed + count))
+    made = whole_tests(options.out / "real_time" / "tests", machines, range(options.seed, options.seed + count),
+                       options.simulator)
     figures["tests"] = figures_of_tests(made)
     return finish(BenchmarkReport(rows + rows_of_tests(made), figures, remarks), options.out / "real_time.json")
 

@@ -1,6 +1,7 @@
 """Whole Autolock tests on the wall clock, each on a robot that is started for it: which of them come to their end."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
+import os
 import pathlib
 import time
 from typing import Any, Callable, ContextManager, Dict, List, NamedTuple, Sequence
@@ -25,12 +26,18 @@ DISTANCES = 16
 
 
 class WholeTest(NamedTuple):
-    """One test. took_s: of the wall clock, with the robot's start and end."""
+    """One test.
+
+    Attributes:
+        took_s: of the wall clock, with the robot's start and end.
+        load: programs that wanted a processor in its last five minutes, its own among them, by the system.
+    """
 
     machine: Machine
     seed: int
     took_s: float
     made: Run
+    load: float = 0.0
 
     @property
     def is_whole(self) -> bool:
@@ -44,7 +51,7 @@ class WholeTest(NamedTuple):
         return [abs(each.error_m) for each in good(self.made.lines[SCENARIO])]
 
 
-def whole_tests(folder: pathlib.Path, machines: Sequence[Machine], seeds: Sequence[int],
+def whole_tests(folder: pathlib.Path, machines: Sequence[Machine], seeds: Sequence[int], simulator: str = MUJOCO, *,
                 run_one: Callable[[str, RunOptions], Run] = run) -> List[WholeTest]:
     """Run a test for each seed on each machine; what is left of an earlier run with the same one is deleted."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -56,8 +63,8 @@ def whole_tests(folder: pathlib.Path, machines: Sequence[Machine], seeds: Sequen
             for seed in seeds:
                 started_s = time.monotonic()
                 options = RunOptions(folder / f"{machine.value}_{seed}", seed, scenarios=(SCENARIO,), parameters=folder)
-                found.append(WholeTest(machine, seed, 0.0, run_one(MUJOCO, options))._replace(
-                    took_s=time.monotonic() - started_s))
+                made = run_one(simulator, options)
+                found.append(WholeTest(machine, seed, time.monotonic() - started_s, made, os.getloadavg()[1]))
                 print(line_of(found[-1]), flush=True)
     return found
 
@@ -90,13 +97,13 @@ def line_of(test: WholeTest) -> str:
     pace = f"{factor:.2f}" if factor is not None else "no"
     return (f"{test.machine.value} {test.seed}: {said}, {len(good(lines))} of {len(lines)} distances, at most "
             f"{max(test.errors_m, default=float('nan')):.3f} m wrong, {test.made.notes.blockages} stops for "
-            f"something in the way, {pace} x real time, {test.took_s:.0f} s")
+            f"something in the way, {pace} x real time, {test.took_s:.0f} s, load {test.load:.0f}")
 
 
 def figures_of_tests(made: Sequence[WholeTest]) -> List[Dict[str, Any]]:
     """Everything about each."""
-    return [{"machine": each.machine.value, "seed": each.seed, "took_s": each.took_s, **figures_of(each.made)}
-            for each in made]
+    return [{"machine": each.machine.value, "seed": each.seed, "took_s": each.took_s, "load": each.load,
+             **figures_of(each.made)} for each in made]
 
 
 def _work_beside(machine: Machine, folder: pathlib.Path) -> ContextManager[None]:
