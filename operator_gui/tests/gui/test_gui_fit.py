@@ -13,10 +13,12 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import Notification
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.flow import Step
+from mtr_operator.gui.screens import measurement_facts
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.station.events import ActionBegun, LinesPlanned
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.test import Test
+from mtr_operator.station.view_model import ViewModel
 
 HELD = "The robot is held by an obstacle; it stands until the Operator looks at the cause and has it go on."
 
@@ -123,6 +125,21 @@ def test_measurement_fits_with_all_its_banners__B5(application, main, monkeypatc
     assert main.measurement.go_on.isVisible()
     assert main.header.blocked.isVisible() is (phase is Phase.MEASURING)
     assert_fits(main, monkeypatch, WANTED)
+
+
+def test_last_result_is_in_sight_on_a_small_laptop_while_the_robot_is_silent__B5(application, main, tmp_path,
+                                                                                  monkeypatch):
+    take_up(application, tmp_path, Phase.MEASURING)
+    application.flow.show(Step.MEASUREMENT)
+    tell(application, LinesPlanned(2, 28, CAR), ActionBegun("axis 3 (front left): go to the start"))
+    monkeypatch.setattr(ViewModel, "is_stale", True)
+    monkeypatch.setattr(measurement_facts, "newest_text", lambda _: "2 (front left): unlock 1.220 m, lock 2.250 m")
+    main.resize(QSize(1350, 696))
+    main.measurement.show_model()
+    QApplication.processEvents()
+    newest = main.measurement.facts.values["newest"]
+    assert newest.height() > 1.5 * newest.fontMetrics().height(), "one row only"
+    assert newest.visibleRegion().boundingRect() == newest.rect()
 
 
 def test_protocol_fits(application, main, monkeypatch, tmp_path):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from PyQt5.QtWidgets import QFormLayout, QFrame, QLabel, QProgressBar, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QFormLayout, QFrame, QHBoxLayout, QLabel, QProgressBar, QVBoxLayout, QWidget
 
 from mtr_operator.domain.verdict.judgement import TestJudgement
 from mtr_operator.report.figures import figures_of
@@ -37,7 +37,7 @@ class MeasurementFacts(QFrame):
     def __init__(self, parent: QWidget | None = None):
         super().__init__(parent)
         self.setObjectName("card")
-        self.title, self.percent, self.count = Prose(), Prose(), Prose()
+        self.title, self.percent, self.count = Prose(), QLabel(), Prose()
         self.left, self.action, self.age = Prose(), Prose(), Prose()
         self.bar = QProgressBar()
         self.bar.setAccessibleName(self.tr("Progress of the test"))
@@ -60,7 +60,13 @@ class MeasurementFacts(QFrame):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(M, M, M, M)
         layout.setSpacing(S)
-        for widget in (self.title, self.percent, self.bar, self.count, self.left, self.action, self.age):
+        # In one row: on a small laptop the last result would be below the edge.
+        head = QHBoxLayout()
+        head.setSpacing(M)
+        head.addWidget(self.title, 1)
+        head.addWidget(self.percent)
+        layout.addLayout(head)
+        for widget in (self.bar, self.count, self.left, self.action, self.age):
             layout.addWidget(widget)
         layout.addSpacing(M)
         layout.addLayout(rows)

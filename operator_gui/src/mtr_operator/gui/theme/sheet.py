@@ -34,7 +34,7 @@ QLabel[role="banner"] { background: $surface; color: $danger; border: 2px solid 
     padding: 10px 14px; font-weight: 600; }
 QLabel[role="notice"] { background: $tint; color: $on_tint; border-radius: ${radius}px; padding: 10px 14px; }
 QPushButton { background: $raised; border: 1px solid $border; border-radius: ${radius}px; padding: 8px 18px;
-    min-height: ${button_height}px; font-weight: 600; }
+    min-height: ${button_height}px; font-weight: 600; outline: none; }
 QPushButton:hover { border: 2px solid $accent; padding: 7px 17px; }
 QPushButton:focus { border: 3px solid $accent; padding: 6px 16px; }
 QPushButton:pressed, QPushButton:checked { background: $tint; color: $on_tint; }
