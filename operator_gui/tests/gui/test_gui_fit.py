@@ -28,6 +28,12 @@ def test_main_window_fits_with_stop_in_sight__A2(main, monkeypatch):
     assert_fits(main, monkeypatch, WANTED)
 
 
+def test_main_window_of_a_robot_that_obeys_another_application_fits(application, main, monkeypatch):
+    tell(application, controlled_by_other=True)
+    assert main.header.foreign.isVisible()
+    assert_fits(main, monkeypatch, WANTED)
+
+
 @pytest.mark.parametrize("name", ["type", *SCENARIOS])
 def test_choices_and_parameters_fit__B5(application, main, monkeypatch, name):
     application.flow.show(Step.TYPE)

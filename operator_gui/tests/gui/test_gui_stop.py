@@ -256,3 +256,18 @@ def test_header_says_what_the_robot_does_while_a_test_runs__B9(operator, opener,
     assert header.blocked.text() == sentence
     assert header.blocked.isVisible() is bool(sentence)
     operator.click(header.stop)
+
+
+def test_window_of_a_robot_that_obeys_another_application_does_not_promise_to_stop_it(operator, opener):
+    header = operator.window.header
+    opener.spoil_with(motion_source=MotionSource.PLANNER, speed_mps=0.5)
+    operator.wait(lambda: header.stop.property("moving"))
+    assert not header.foreign.isVisible()
+    opener.spoil_with(motion_source=MotionSource.PLANNER, speed_mps=0.5, controlled_by_other=True)
+    operator.wait(header.foreign.isVisible)
+    assert "does not reach it" in header.foreign.text() and header.status.text().endswith("Driving")
+    assert not header.stop.property("moving") and header.stop.isEnabled()
+    press(Qt.Key_Escape)
+    assert not is_stopped(opener)
+    operator.bot.mousePress(header.stop, Qt.LeftButton)
+    assert is_stopped(opener)

@@ -130,8 +130,13 @@ class ViewModel:
 
     @property
     def may_move(self) -> bool:
-        """True while the robot may move: a test runs, or something was ordered, or it does move."""
-        return self.phase in RUNNING or self.motion.is_possible(self._clock())
+        """True while the robot may move by this application: a test runs, or something was ordered, or it does move."""
+        return self.phase in RUNNING or (not self.is_controlled_elsewhere and self.motion.is_possible(self._clock()))
+
+    @property
+    def is_controlled_elsewhere(self) -> bool:
+        """True while the robot obeys another application, whose stop alone reaches it."""
+        return self.robot is not None and not self.is_stale and self.robot.status.controlled_by_other
 
     @property
     def notifications(self) -> tuple[Notification, ...]:

@@ -24,7 +24,7 @@ _WIDE_PX = 960
 
 class HeaderBar(QWidget):
     """Attributes: stop: on the left, where no window that hangs over the screen's edge hides it. blocked: why the robot
-    does not go on; hidden while it does.
+    does not go on; hidden while it does. foreign: that another application controls it; hidden while none does.
 
     Signals: settings_wanted, bus_wanted.
     """
@@ -51,10 +51,13 @@ class HeaderBar(QWidget):
         self.blocked.setWordWrap(True)
         self.blocked.setProperty("role", "banner")
         self.blocked.hide()
+        self.foreign = QLabel(self.tr("Another application controls the robot: Stop in this window does not reach it. "
+                                      "Stop it there, or by the emergency stop."))
         self.exposed = QLabel(self.tr("The link is not encrypted: whoever is in its network can move the robot."))
-        self.exposed.setWordWrap(True)
-        self.exposed.setProperty("role", "banner")
-        self.exposed.hide()
+        for banner in (self.foreign, self.exposed):
+            banner.setWordWrap(True)
+            banner.setProperty("role", "banner")
+            banner.hide()
         self._lay_out()
 
     def _lay_out(self) -> None:
@@ -69,6 +72,7 @@ class HeaderBar(QWidget):
         layout.setSpacing(S)
         layout.addLayout(row)
         layout.addWidget(self.blocked)
+        layout.addWidget(self.foreign)
         layout.addWidget(self.exposed)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
@@ -86,6 +90,7 @@ class HeaderBar(QWidget):
         blocked = blocked_text(readiness)
         self.blocked.setText(blocked)
         self.blocked.setVisible(bool(blocked))
+        self.foreign.setVisible(model.is_controlled_elsewhere)
         if model.robot is not None:
             self.battery.show_percent(model.robot.status.battery_percent, age_s)
             self.locks.show_locks(model.robot.lock_state, model.is_stale)

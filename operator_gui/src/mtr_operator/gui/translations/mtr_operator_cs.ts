@@ -1660,9 +1660,14 @@
         <translation>Protokol</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="54"/>
+        <location filename="../header/header_bar.py" line="56"/>
         <source>The link is not encrypted: whoever is in its network can move the robot.</source>
         <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
+    </message>
+    <message>
+        <location filename="../header/header_bar.py" line="54"/>
+        <source>Another application controls the robot: Stop in this window does not reach it. Stop it there, or by the emergency stop.</source>
+        <translation>Robota řídí jiná aplikace: zastavení z tohoto okna k němu nedojde. Zastavte ho v ní, nebo nouzovým zastavením.</translation>
     </message>
 </context>
 <context>
@@ -2214,27 +2219,27 @@
         <translation>Poslední výsledek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="75"/>
+        <location filename="../screens/measurement_facts.py" line="81"/>
         <source>{done} of {total} lines measured</source>
         <translation>změřeno {done} z {total} přímek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="108"/>
+        <location filename="../screens/measurement_facts.py" line="114"/>
         <source>not known</source>
         <translation>není známa</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="115"/>
+        <location filename="../screens/measurement_facts.py" line="121"/>
         <source>about {time} left</source>
         <translation>zbývá asi {time}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="121"/>
+        <location filename="../screens/measurement_facts.py" line="127"/>
         <source>The robot is being stopped.</source>
         <translation>Robot se zastavuje.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="123"/>
+        <location filename="../screens/measurement_facts.py" line="129"/>
         <source>Paused. The line at hand is measured anew after Resume.</source>
         <translation>Pozastaveno. Rozpracovaná přímka se po pokračování změří znovu.</translation>
     </message>
@@ -2244,12 +2249,12 @@
         <translation>Zatím verdikt</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="91"/>
+        <location filename="../screens/measurement_facts.py" line="97"/>
         <source>The values below are {age} s old.</source>
         <translation>Údaje níže jsou {age} s staré.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement_facts.py" line="125"/>
+        <location filename="../screens/measurement_facts.py" line="131"/>
         <source>Waits until the robot is heard again.</source>
         <translation>Čeká se, až bude robot zase slyšet.</translation>
     </message>
