@@ -1,6 +1,7 @@
 """The Car inside the application: plausible areas, the same again for the same seed. Numbers are of defects."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
+import dataclasses
 import itertools
 
 import pytest
@@ -81,6 +82,19 @@ def press_at(car, number, distance_m):
 def test_press_works_near_the_car_and_not_far_away(car, distance_m, works):
     answers = [bool(press_at(car, number, distance_m)) for number in range(1, 200)]
     assert sum(answers) == pytest.approx(197 if works else 0, abs=3)
+
+
+def test_car_reacts_to_a_robot_whose_clock_began_anew(car):
+    near = 0.7 * PRESS_M
+    for number in range(5000, 5050):
+        press_at(car, number, near)
+    drive(car, approach_and_retreat(), 5100)
+    again = [car.observe(dataclasses.replace(status(number, near, presses=(PressReport(
+        number, 0.1 * number, 0.1 * number + 0.05),)), robot_session_id=2)) for number in range(1, 50)]
+    assert sum(map(bool, again)) == pytest.approx(48, abs=3)
+    events = [event for number, gap in enumerate(approach_and_retreat(), 50) for event in car.observe(
+        dataclasses.replace(status(number, 2.25 + gap, session_id=7), robot_session_id=3))]
+    assert len(events) == 2
 
 
 def test_passive_entry_rests_once_a_button_was_pressed(car):

@@ -103,6 +103,10 @@ class SleepingKey:
         self._rest: tuple[float, float] | None = None
         self._moved_s = -math.inf
 
+    def forget(self) -> None:
+        """Another clock begins."""
+        self._rest, self._moved_s = None, -math.inf
+
     def see(self, time_s: float, place: tuple[float, float]) -> None:
         """Where it is now, in m."""
         if self._rest is None or math.dist(self._rest, place) >= _WAKE_MOVE_M:
@@ -137,7 +141,7 @@ class SimulatedCarLink(CarLink):
         self._is_active = False
         self._state = LockState.LOCKED
         self._is_passive = True
-        self._session_id = 0
+        self._session_id = self._robot_session_id = 0
         self._poll_s = self._answered_s = -math.inf
         self._agreed = 0
         self._robot: tuple[float, tuple[float, float]] | None = None
@@ -153,6 +157,8 @@ class SimulatedCarLink(CarLink):
             return []
         if status.session_id != self._session_id and not status.controlled_by_other:
             self._session_id, self._is_passive = status.session_id, True
+        if status.robot_session_id != self._robot_session_id:
+            self._forget_times(status.robot_session_id)
         car, before = status.car or _NOBODY, self._robot
         self._robot = (status.stamp_s, status.key_place) if status.pose_valid else None
         if self._robot is not None:
@@ -161,6 +167,13 @@ class SimulatedCarLink(CarLink):
         if self._is_passive and status.car is not None and before is not None and self._robot is not None:
             events += self._polls(before, self._robot, car)
         return events
+
+    def _forget_times(self, robot_session_id: int) -> None:
+        """The robot has started anew, and its clock with it: all that comes would be older than what came before."""
+        self._robot_session_id = robot_session_id
+        self._poll_s = self._answered_s = -math.inf
+        self._agreed, self._robot = 0, None
+        self._key.forget()
 
     def _presses(self, status: RobotStatus) -> list[CarEvent]:
         new = [press for press in sorted(status.presses, key=lambda press: press.start_s)
