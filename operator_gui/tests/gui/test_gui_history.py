@@ -332,7 +332,7 @@ def store(lab, monkeypatch):
 def test_tests_of_the_store_are_listed_beside_those_of_the_folders_and_told(lab, store):
     history = show(lab)
     said = history.notice.text().replace("\u200b", "")
-    assert "3 tests, 3 of them shown. 2 of them are in the store /store/tests alone" in said
+    assert "3 tests, 3 of them shown. In the store /store/tests alone: 2;" in said
     model = history.table.model()
     assert model.data(model.index(2, 0), Qt.ToolTipRole) == "In the store /store/tests, as test 0"
 

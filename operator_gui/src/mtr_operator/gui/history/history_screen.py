@@ -216,9 +216,8 @@ class HistoryScreen(QWidget):
                                                                         shown=len(self.shown))
         stored = {entry.store for entry in entries if entry.store}
         if stored:
-            counted += " " + self.tr("{count} of them are in the store {where} alone; what is opened is copied from "
-                                     "there.").format(count=sum(1 for entry in entries if entry.store),
-                                                      where=", ".join(stored))
+            told = self.tr("In the store {where} alone: {count}; what is opened is copied from there.")
+            counted += " " + told.format(where=", ".join(stored), count=sum(1 for entry in entries if entry.store))
         more = len(problems) - _PROBLEMS_SHOWN
         tail = [self.tr("{count} more files cannot be read.").format(count=more)] if more > 0 else []
         self._summary = "\n".join([counted, *map(translated, problems[:_PROBLEMS_SHOWN]), *tail])

@@ -1754,7 +1754,7 @@
 <context>
     <name>HistoryScreen</name>
     <message>
-        <location filename="../history/history_screen.py" line="248"/>
+        <location filename="../history/history_screen.py" line="247"/>
         <source>Open</source>
         <translation>Otevřít</translation>
     </message>
@@ -1804,17 +1804,17 @@
         <translation>Testů: {count}, zobrazeno: {shown}.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="223"/>
+        <location filename="../history/history_screen.py" line="222"/>
         <source>{count} more files cannot be read.</source>
         <translation>Dalších {count} souborů nelze přečíst.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="248"/>
+        <location filename="../history/history_screen.py" line="247"/>
         <source>Continue</source>
         <translation>Pokračovat</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="252"/>
+        <location filename="../history/history_screen.py" line="251"/>
         <source>This test is in a signed bundle: it can be repeated and compared. Unpack the bundle into a folder of its own to open it.</source>
         <translation>Tento test je v podepsaném balíčku: lze jej opakovat a porovnat. Pro otevření balíček rozbalte do vlastní složky.</translation>
     </message>
@@ -1849,7 +1849,7 @@
         <translation>Co by se v tomto testu změnilo s nynějším profilem auta, podle zaznamenaného logu a poloh</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="273"/>
+        <location filename="../history/history_screen.py" line="272"/>
         <source>{name} is being computed anew.</source>
         <translation>{name} se přepočítává.</translation>
     </message>
@@ -1864,19 +1864,19 @@
         <translation>Průměr a směrodatná odchylka každé vzdálenosti: z vybraných testů, nebo ze všech testů auta a klíče jednoho testu s jeho parametry</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="288"/>
+        <location filename="../history/history_screen.py" line="287"/>
         <source>No other test has the parameters, the car and the key of this one.</source>
         <translation>Žádný jiný test nemá parametry, auto a klíč tohoto testu.</translation>
     </message>
     <message>
-        <location filename="../history/history_screen.py" line="293"/>
+        <location filename="../history/history_screen.py" line="292"/>
         <source>{count} tests are being read.</source>
         <translation>Čte se {count} testů.</translation>
     </message>
     <message>
         <location filename="../history/history_screen.py" line="219"/>
-        <source>{count} of them are in the store {where} alone; what is opened is copied from there.</source>
-        <translation>{count} z nich je jen v úložišti {where}; co se otevře, zkopíruje se odtud.</translation>
+        <source>In the store {where} alone: {count}; what is opened is copied from there.</source>
+        <translation>Jen v úložišti {where}: {count}; co se otevře, zkopíruje se odtud.</translation>
     </message>
 </context>
 <context>
