@@ -1,6 +1,7 @@
 """A test from start to protocol, stopped and gone on with, and what its screen shows of it."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
+from PyQt5.QtCore import Qt
 from stored import presses, stored
 
 from mtr_operator.station.readiness import Phase
@@ -31,6 +32,21 @@ def test_screen_tells_progress_robot_and_car(operator):
     assert screen.facts.values["key"].text() == "100 cm"
     assert screen.facts.values["newest"].text().startswith("1 (0°): press ")
     assert screen.facts.action.text()
+
+
+def test_high_screen_lists_what_is_measured_so_far_the_newest_first(operator, opener):
+    opener.passive = True
+    operator.window.resize(1360, 1000)
+    screen = operator.begin("autolock")
+    operator.wait(lambda: operator.model.done >= 2)
+    model = screen.so_far.table.model()
+    operator.wait(lambda: model.rowCount() >= 2)
+    assert screen.so_far.isVisible()
+    assert [model.headerData(column, Qt.Horizontal) for column in range(4)] == ["#", "Axis", "Unlock [m]", "Lock [m]"]
+    assert model.data(model.index(model.rowCount() - 1, 0)) == "1"
+    assert float(model.data(model.index(0, 2))) < float(model.data(model.index(0, 3)))
+    operator.window.resize(1360, 800)
+    operator.wait(lambda: not screen.so_far.isVisible())
 
 
 def test_stop_stands_the_robot_still_and_resume_measures_the_rest(operator, opener):

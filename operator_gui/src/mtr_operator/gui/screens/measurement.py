@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 
 from PyQt5.QtCore import QTimer, pyqtBoundSignal, pyqtSignal
-from PyQt5.QtGui import QHideEvent, QKeySequence, QShowEvent
+from PyQt5.QtGui import QHideEvent, QKeySequence, QResizeEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QShortcut, QVBoxLayout, QWidget
 
 from mtr_operator.station.handle_prompt import HandlePrompt, Prompt
@@ -24,16 +24,21 @@ from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 from ..theme.state import show_state
 from .measurement_facts import MeasurementFacts
+from .results_so_far import ResultsSoFar
 
 # Has no width, and a row may end there.
 _BREAK = "\N{ZERO WIDTH SPACE}"
 _SIDE_WIDTH, _MIN_SIDE_WIDTH = 400, 330
+# From this height on the facts leave room for a table.
+_TALL_PX = 880
 # No plain letter: what is skipped by mistake has to be measured again.
 _SKIP_KEY = "Ctrl+K"
 
 
 class MeasurementScreen(QWidget):
-    """Attributes: panel: the picture. facts: progress and state in words. resume, save, events, leave: buttons.
+    """Attributes: panel: the picture. facts: progress and state in words. so_far: table of the results.
+
+    resume, save, events, leave: buttons.
 
     skip: button and key by which the line that is being measured is left.
 
@@ -59,6 +64,8 @@ class MeasurementScreen(QWidget):
         self.panel = PicturePanel(appearance)
         self.picture = MeasurementPicture(model, self.panel)
         self.facts = MeasurementFacts()
+        self.so_far = ResultsSoFar()
+        self.so_far.hide()
         self.trouble, self.held, self.handle = (self._label("banner") for _ in range(3))
         self.note = self._label("soft")
         self.go_on = self._hold_button(self.tr("Hold to go on"), self.release_wanted)
@@ -106,6 +113,7 @@ class MeasurementScreen(QWidget):
         for label in (self.trouble, self.held, self.handle):
             told.addWidget(label)
         told.addWidget(self.facts, 1)
+        told.addWidget(self.so_far, 2)
         told.addWidget(self.note)
         side = QVBoxLayout()
         side.setSpacing(S)
@@ -136,6 +144,8 @@ class MeasurementScreen(QWidget):
             return
         self.picture.show_model(time.monotonic())
         self.facts.show_model(model)
+        if not self.so_far.isHidden():
+            self.so_far.show_model(model)
         self.trouble.setVisible(bool(model.trouble) and model.phase is Phase.PAUSED)
         self.trouble.setText(translated(model.trouble))
         self._show_cause(can_resume(model.readiness))
@@ -145,6 +155,12 @@ class MeasurementScreen(QWidget):
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
         self.leave.setVisible(model.phase is Phase.PAUSED)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """See QWidget."""
+        super().resizeEvent(event)
+        self.so_far.setVisible(event.size().height() >= _TALL_PX)
+        self.show_model()
 
     def _show_skip(self) -> None:
         """Disabled from the click on until another line is measured."""

@@ -2262,67 +2262,67 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="73"/>
+        <location filename="../screens/measurement.py" line="80"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="75"/>
+        <location filename="../screens/measurement.py" line="82"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="175"/>
+        <location filename="../screens/measurement.py" line="191"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="188"/>
+        <location filename="../screens/measurement.py" line="204"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="66"/>
+        <location filename="../screens/measurement.py" line="73"/>
         <source>Hold to resume</source>
         <translation>Podržením pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="64"/>
+        <location filename="../screens/measurement.py" line="71"/>
         <source>Hold to go on</source>
         <translation>Podržením jet dál</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="74"/>
+        <location filename="../screens/measurement.py" line="81"/>
         <source>Events</source>
         <translation>Události</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="175"/>
+        <location filename="../screens/measurement.py" line="191"/>
         <source>Extender switched</source>
         <translation>Extender přepnut</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="193"/>
+        <location filename="../screens/measurement.py" line="209"/>
         <source>Switch the extender on now, and then say so here, by Enter or the button.</source>
         <translation>Zapněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="194"/>
+        <location filename="../screens/measurement.py" line="210"/>
         <source>Switch the extender off now, and then say so here, by Enter or the button.</source>
         <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="68"/>
+        <location filename="../screens/measurement.py" line="75"/>
         <source>Leave the line that is being measured and go on with the next one (Ctrl+K); it can be measured again when the test is done</source>
         <translation>Opustit přímku, která se právě měří, a pokračovat další (Ctrl+K); po skončení testu ji lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="155"/>
+        <location filename="../screens/measurement.py" line="171"/>
         <source>Skip line {number}</source>
         <translation>Přeskočit přímku {number}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="155"/>
+        <location filename="../screens/measurement.py" line="171"/>
         <source>Skip the line</source>
         <translation>Přeskočit přímku</translation>
     </message>
@@ -3611,6 +3611,14 @@
         <location filename="../history/replay_window.py" line="86"/>
         <source>From the recorded log, the robot&apos;s poses and the car profile as it is now: {changed} of {count} distances would change; the largest difference is {worst} mm.</source>
         <translation>Podle zaznamenaného logu, poloh robotu a nynějšího profilu auta: změnilo by se {changed} z {count} vzdáleností; největší rozdíl je {worst} mm.</translation>
+    </message>
+</context>
+<context>
+    <name>ResultsSoFar</name>
+    <message>
+        <location filename="../screens/results_so_far.py" line="71"/>
+        <source>What is measured so far, the newest first</source>
+        <translation>Co je dosud změřeno, nejnovější první</translation>
     </message>
 </context>
 <context>
