@@ -52,10 +52,14 @@ class ExpectedView {
 
   /// No beam has met the surface there at the height at which this one would.
   bool is_at_new_height(int bin, double climb) const {
+    return beyond_heights_m(bin, climb) > kRiseToleranceM + kTiltSigmaRad * nearest(bin);
+  }
+
+  /// By how much it would be above or below all heights at which it has been met.
+  double beyond_heights_m(int bin, double climb) const {
     const Surfel& surfel = *surfels_[index_of(bin)];
     const double rise_m = climb * nearest(bin);
-    const double tolerance_m = kRiseToleranceM + kTiltSigmaRad * nearest(bin);
-    return rise_m < surfel.lowest_rise_m - tolerance_m || rise_m > surfel.highest_rise_m + tolerance_m;
+    return std::max({surfel.lowest_rise_m - rise_m, rise_m - surfel.highest_rise_m, 0.0});
   }
 
  private:
@@ -146,6 +150,7 @@ void count(const ExpectedView& view, const SurfelMap& map, const Beam& beam, dou
     ++agreement.passed;
   } else {
     ++(beam.shown == kNothing ? agreement.missing : agreement.beyond);
+    agreement.unsure += view.beyond_heights_m(beam.bin, beam.climb) > 0.0 ? 1 : 0;
   }
 }
 
@@ -158,6 +163,7 @@ Agreement& Agreement::operator+=(const Agreement& other) {
   missing += other.missing;
   passed += other.passed;
   unknown += other.unknown;
+  unsure += other.unsure;
   excused += other.excused;
   return *this;
 }

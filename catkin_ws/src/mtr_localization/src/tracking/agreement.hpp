@@ -27,12 +27,17 @@ struct Agreement {
   int passed = 0;
   /// Something where the map has nothing.
   int unknown = 0;
+  /// Those of `beyond` and `missing` that passed the surface above or below all heights at which it has been met, by
+  /// less than the robot's lean is off: it may end there.
+  int unsure = 0;
   /// Not the expected surface, but as the robot leans the LiDAR looks over or under it: it says nothing.
   int excused = 0;
 
   Agreement& operator+=(const Agreement& other);
   /// Beams that meet what the map shows, or should.
   int expected() const { return seen + hidden + beyond + missing + passed; }
+  /// Beams that look through a surface at a height at which it has been met.
+  int through() const { return beyond + missing - unsure; }
   /// Share of the expected view that is seen, 0 to 1; 1 when nothing is expected.
   double share_of_expected() const;
   /// Share of the returns that the map explains, 0 to 1; without returns 1 when none is expected, else 0.

@@ -40,7 +40,7 @@ bool ContradictionWatch::add(std::int64_t stamp_ns, const Agreement& view, const
   }
   const bool is_explained = view.seen >= Agreement::kMinEvidence && view.share_of_returns() >= kExplainedShare;
   const bool is_usual = view.is_expected() || is_explained;
-  const int through = is_usual ? 0 : std::max(0, view.beyond + view.missing - kUsualBeams);
+  const int through = is_usual ? 0 : std::max(0, view.through() - kUsualBeams);
   const double share = static_cast<double>(through) / view.expected();
   excess_s_ = std::max(0.0, excess_s_ + gap_s * (share - kUsualShare));
   return excess_s_ >= kMaxExcessS;

@@ -60,8 +60,7 @@ double position_sigma_m(const PoseFilter& filter) {
 
 /// Surfaces are not where the map has them.
 bool contradicts(const Agreement& all) {
-  const int through = all.beyond + all.missing;
-  return through >= kMinContradicted && through >= kContradictedShare * all.expected();
+  return all.through() >= kMinContradicted && all.through() >= kContradictedShare * all.expected();
 }
 
 }  // namespace

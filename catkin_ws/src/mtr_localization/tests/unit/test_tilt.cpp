@@ -163,6 +163,17 @@ TEST_F(LeaningViewTest, SurfaceMetAtAnotherHeightIsNotMissed) {
   EXPECT_GT(seen(12.0F, slope).beyond, 20);
 }
 
+TEST_F(LeaningViewTest, SurfaceMissedALittleAboveOrBelowWhereItWasMetIsNotLookedThrough) {
+  wall = SurfelMap({{{5.0, 0.0}, {-1.0, 0.0}, 4.0, 0.002, 50, -0.01, 0.01}});
+  for (const double slope : {0.005, -0.005}) {
+    const Agreement over = seen(12.0F, slope);
+    EXPECT_GT(over.beyond, 20);
+    EXPECT_EQ(over.through(), 0);
+  }
+  const Agreement at = seen(12.0F, 0.001);
+  EXPECT_EQ(at.through(), at.beyond);
+}
+
 TEST_F(LeaningViewTest, WhatStandsNearInTheWayCountsHoweverTheRobotLeans) { EXPECT_GT(seen(2.0F, -0.03).hidden, 20); }
 
 }  // namespace
