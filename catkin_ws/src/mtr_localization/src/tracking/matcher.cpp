@@ -34,6 +34,15 @@ constexpr double kMinInformation = 1e-6;
 
 double square(double value) { return value * value; }
 
+/// 1 sigma of where a surface is at the height at which a beam met it. This error stays as long as the robot stands or
+/// the map lasts, and is alike for all beams on one surface. Its lean was measured between the heights at which it had
+/// been met; beyond them it may lean by anything again.
+double lasting_sigma_m(const Surfel& surfel, double rise_m) {
+  const double seen_rise_m = std::clamp(rise_m, surfel.lowest_rise_m, surfel.highest_rise_m);
+  const double known_m = std::hypot(surfel.sigma_m, surfel.lean_sigma * seen_rise_m);
+  return std::hypot(known_m, mtr_surfel_map::kLeanSigma * (rise_m - seen_rise_m));
+}
+
 /// The beam meets the surfel's line beside the surfel, farther than an error of the pose across the beam explains: the
 /// point lies on something else, as the front of a tyre lies near the line of its side.
 bool passes_beside(const SurfelMatch& match, const Eigen::Vector2d& point, const Eigen::Vector2d& direction,
@@ -96,8 +105,7 @@ void ScanMatcher::for_each_match(const PoseVector& pose, const ScanPoints& scan,
     const Eigen::Vector2d& normal = match->surfel->normal;
     const Eigen::Vector3d slope(normal.x(), normal.y(), lever.x() * normal.y() - lever.y() * normal.x());
     const double along = normal.dot(direction);
-    // This error stays as long as the robot stands or the map lasts, and is alike for all beams on one surface.
-    const double lasting = std::hypot(match->surfel->sigma_m, match->surfel->lean_sigma * point.rise_m);
+    const double lasting = lasting_sigma_m(*match->surfel, point.rise_m);
     const double variance = square(parameters_.range_sigma_m * along) +
                             square(parameters_.beam_angle_sigma_rad * point.range_m) * (1.0 - square(along)) +
                             square(lasting);

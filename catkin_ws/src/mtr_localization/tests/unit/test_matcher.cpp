@@ -136,6 +136,31 @@ TEST_F(MatcherTest, KnownLeanIsTakenOffWhatIsMetHigher) {
   EXPECT_LT((match(PoseVector::Zero()).pose - kTruth).head<2>().norm(), 0.003);
 }
 
+TEST_F(MatcherTest, SurfaceIsLessCertainBeyondTheHeightsAtWhichItWasMet) {
+  room();
+  const auto lasting = [this](double lowest_m, double highest_m) {
+    for (Surfel& surfel : surfels) {
+      surfel.lean_sigma = 0.02;
+      surfel.lowest_rise_m = lowest_m;
+      surfel.highest_rise_m = highest_m;
+    }
+    const ScanMatch found = match(PoseVector::Zero());
+    PoseFilter filter{SensorParameters{}};
+    filter.set_pose(kTruth, Eigen::Vector3d(0.01, 0.01, 0.01).asDiagonal());
+    filter.consider_sources(map.error_sources());
+    filter.correct(found.correction);
+    return std::sqrt((filter.pose_covariance() - filter.prior_covariance())(0, 0));
+  };
+  rise_m = 0.1;
+  const double met_m = lasting(-0.1, 0.1);
+  const double beyond_m = lasting(-0.05, 0.05);
+  EXPECT_GT(beyond_m, 2.0 * met_m);
+  rise_m = -0.1;
+  EXPECT_NEAR(lasting(-0.05, 0.05), beyond_m, 0.1 * beyond_m);
+  rise_m = 0.04;
+  EXPECT_NEAR(lasting(-0.05, 0.05), lasting(-0.1, 0.1), 0.1 * met_m);
+}
+
 TEST_F(MatcherTest, SingleWallLeavesTheDirectionAlongItFree) {
   wall({4.0, -30.0}, {4.0, 30.0});
   const ScanMatch found = match({0.03, 0.0, 0.0});

@@ -52,6 +52,9 @@ struct KeyFrame {
 /// Lean of surfaces of which nothing is known, 1 sigma: sides of cars and cones lean by up to 1 in 5, the fronts of
 /// tyres by more, walls not at all.
 inline constexpr double kLeanSigma = 0.2;
+/// What a lean leaves unexplained, 1 sigma: no surface is straight from top to bottom. Bumpers are upright above and
+/// recede by 1 in 3 below; a straight line through both is off by a quarter of the bend.
+inline constexpr double kBendSigma = 0.1;
 
 /// A short straight piece of surface in map.
 struct Surfel {

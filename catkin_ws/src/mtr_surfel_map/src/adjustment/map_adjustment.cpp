@@ -114,7 +114,7 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
       map.surfels.push_back(surfels[i]);
       map.surfels.back().sigma_m =
           std::hypot(factor * uncertainty.surfels_m[i], kShapeShare * parameters.surface_sigma_m);
-      map.surfels.back().lean_sigma = std::min(kLeanSigma, factor * uncertainty.leans[i]);
+      map.surfels.back().lean_sigma = std::clamp(factor * uncertainty.leans[i], kBendSigma, kLeanSigma);
     }
   }
   map.range_bias = state.range_bias;

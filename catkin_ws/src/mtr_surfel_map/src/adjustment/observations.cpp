@@ -62,7 +62,7 @@ class Collector {
     std::sort(touched_.begin(), touched_.end());
     for (const int surfel : touched_) {
       Sums& sums = sums_[surfel];
-      const double surface = parameters_.surface_sigma_m;
+      const double surface = std::hypot(parameters_.surface_sigma_m, kBendSigma * sums.rise_m / sums.weight);
       const double variance = sums.variance / (sums.weight * sums.weight) + surface * surface;
       observations.push_back({key_frame, surfel, sums.position / sums.weight, sums.directions / sums.weight,
                               std::sqrt(variance), sums.beams, sums.rise_m / sums.weight, sums.lowest_rise_m,

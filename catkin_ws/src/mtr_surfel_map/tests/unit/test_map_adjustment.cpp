@@ -157,6 +157,29 @@ TEST(MapAdjustment, TiltOfOneDegreeCostsLessThanThreeTimes) {
   EXPECT_LT(tilted, 3.0 * level);
 }
 
+TEST(MapAdjustment, ViewsFromHigherOrLowerCountLessAndLeansAreNeverSurerThanBendsAllow) {
+  Loop loop = drive(in("lot"));
+  const AdjustedMap level = map_of(loop);
+  for (std::size_t i = 0; i < loop.key_frames.size(); ++i) {
+    for (ScanPoint& point : loop.key_frames[i].scan.points) {
+      point.rise_m = (i % 2 == 0 ? 0.03 : -0.03) * point.range_m;
+    }
+  }
+  const AdjustedMap rough = map_of(loop);
+  ASSERT_TRUE(level.valid && rough.valid);
+  double level_m = 0.0;
+  double rough_m = 0.0;
+  for (std::size_t i = 1; i < level.pose_covariances.size(); ++i) {
+    level_m += std::sqrt(level.pose_covariances[i].topLeftCorner<2, 2>().trace());
+    rough_m += std::sqrt(rough.pose_covariances[i].topLeftCorner<2, 2>().trace());
+  }
+  EXPECT_GT(rough_m, 1.2 * level_m);
+  for (const Surfel& surfel : rough.surfels) {
+    EXPECT_GE(surfel.lean_sigma, kBendSigma);
+    EXPECT_LE(surfel.lean_sigma, kLeanSigma);
+  }
+}
+
 TEST(MapAdjustment, PersonWhoWalksByLeavesNoSurface) {
   LoopOptions options;
   options.person = true;
