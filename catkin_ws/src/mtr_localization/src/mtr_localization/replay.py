@@ -8,7 +8,7 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import replace
-from typing import Dict, List, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple
 
 import rosbag
 from roslib.packages import find_node
@@ -93,9 +93,25 @@ def seen_in(path: str) -> Tuple[Dict[str, str], float]:
         raise BagUnusable(f"Bag {path} cannot be read: {error}.") from None
 
 
+class Help(argparse.Action):
+    """Prints the options, and the parameters of localization as the program itself tells them."""
+
+    def __call__(self, command_line: argparse.ArgumentParser, *_: Any) -> None:
+        command_line.print_help()
+        programs = find_node("mtr_localization", "replay_bag")
+        if not programs:
+            print("\nThe program replay_bag is not built, so its parameters are not told.")
+            command_line.exit()
+        told = subprocess.run([programs[0], "--help"], check=True, text=True, capture_output=True).stdout
+        # Its own usage is in the options above.
+        print(told[told.index("\n"):], end="")
+        command_line.exit()
+
+
 def parser() -> argparse.ArgumentParser:
     """The command line."""
-    parsed = argparse.ArgumentParser(prog="replay", description=__doc__)
+    parsed = argparse.ArgumentParser(prog="replay", description=__doc__, add_help=False)
+    parsed.add_argument("-h", "--help", action=Help, nargs=0, help="show this and each parameter, and end")
     parsed.add_argument("bag", help="recorded drive: scans, IMU, wheel odometry")
     parsed.add_argument("--out", required=True, type=pathlib.Path, help="folder for the results")
     parsed.add_argument("--front-only", action="store_true", help="leave out the rear LiDAR")

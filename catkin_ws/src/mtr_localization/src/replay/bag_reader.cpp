@@ -59,6 +59,8 @@ void BagReader::open() {
   }
   view_.emplace(bag_, rosbag::TopicQuery(topics));
   position_ = view_->begin();
+  begin_ns_ = mtr_core::to_ns(view_->getBeginTime());
+  whole_ns_ = mtr_core::to_ns(view_->getEndTime()) - begin_ns_;
 }
 
 void BagReader::require(const std::string& topic, const std::string& what) {
@@ -87,6 +89,10 @@ bool BagReader::next(Event& event) {
   event = std::move(waiting_.begin()->second);
   waiting_.erase(waiting_.begin());
   return true;
+}
+
+int BagReader::percent() const {
+  return whole_ns_ > 0 ? static_cast<int>(100 * (recorded_ns_ - begin_ns_) / whole_ns_) : 100;
 }
 
 void BagReader::read_message(const rosbag::MessageInstance& message) {

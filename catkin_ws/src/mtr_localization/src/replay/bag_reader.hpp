@@ -35,6 +35,9 @@ class BagReader {
   /// False at the end of the bag.
   bool next(Event& event);
 
+  /// How much of the bag has been read.
+  int percent() const;
+
   /// True when the bag says itself when the way round the Car begins and ends.
   bool has_orders() const { return has_orders_; }
 
@@ -57,6 +60,8 @@ class BagReader {
   std::optional<rosbag::View> view_;
   rosbag::View::iterator position_;
   std::int64_t recorded_ns_ = 0;
+  std::int64_t begin_ns_ = 0;
+  std::int64_t whole_ns_ = 0;
   std::multimap<Key, Event> waiting_;
 };
 

@@ -3,7 +3,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/options.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace mtr_localization::replay {
@@ -54,7 +57,34 @@ void set_parameter(Options& options, const std::string& assignment) {
   }
 }
 
+/// A line for each row whose name has not been told yet.
+template <typename Rows, typename P>
+void tell(const Rows& rows, const P& parameters, std::set<std::string>& told, std::ostringstream& text) {
+  for (const auto& row : rows) {
+    if (told.insert(row.name).second) {
+      text << "  " << row.name << "=" << parameters.*(row.member) << "  "
+           << mtr_core::range_text(row.low, row.high, row.unit) << "\n";
+    }
+  }
+}
+
 }  // namespace
+
+bool asks_for_help(const std::vector<std::string>& arguments) {
+  return std::any_of(arguments.begin(), arguments.end(),
+                     [](const std::string& each) { return each == "--help" || each == "-h"; });
+}
+
+std::string help() {
+  const Options options;
+  std::set<std::string> told;
+  std::ostringstream text;
+  text << kUsage << "\n\nParameters with their defaults, and what is allowed:\n";
+  for_each_group(options.parameters, [&](const auto& rows, const auto& group) { tell(rows, group, told, text); });
+  text << "\nWhere the LiDARs sit, of a bag that does not say it:\n";
+  tell(kMountingRows, options.mounting, told, text);
+  return text.str();
+}
 
 Options parse(const std::vector<std::string>& arguments) {
   Options options;

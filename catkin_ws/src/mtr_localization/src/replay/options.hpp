@@ -49,4 +49,9 @@ struct Options {
 /// Throws std::runtime_error with one sentence for what cannot be understood.
 Options parse(const std::vector<std::string>& arguments);
 
+/// Somebody asks what there is.
+bool asks_for_help(const std::vector<std::string>& arguments);
+/// Usage, and each parameter with its default and range, a line each.
+std::string help();
+
 }  // namespace mtr_localization::replay

@@ -37,7 +37,7 @@ class CpuTimer {
 
 }  // namespace
 
-Result Replay::run() {
+Result Replay::run(const Progress& progress) {
   const auto begun = std::chrono::steady_clock::now();
   const double process_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID);
   const CpuTimer thread;
@@ -45,9 +45,14 @@ Result Replay::run() {
   if (!options_.map.empty()) {
     go_on_with_map();
   }
+  int told = -1;
   Event event;
   while (reader_.next(event)) {
     std::visit([this](auto& content) { take(std::move(content)); }, event);
+    if (progress && reader_.percent() > told) {
+      told = reader_.percent();
+      progress(told);
+    }
   }
   result_.adjustment_s = cpu_s(CLOCK_PROCESS_CPUTIME_ID) - process_s - thread.elapsed_s();
   finish_map();

@@ -39,13 +39,16 @@ struct Result {
   double wall_s = 0.0;
 };
 
+/// Is told the part of the bag that has been read, in whole percent, whenever it has grown.
+using Progress = std::function<void(int percent)>;
+
 /// Feeds one bag; takes the bag's orders, or collects from the start and freezes when the path closes.
 class Replay {
  public:
   explicit Replay(const Options& options) : options_(options), reader_(options), localizer_(options.parameters) {}
 
   /// Throws std::runtime_error with one sentence when the bag cannot be used.
-  Result run();
+  Result run(const Progress& progress = {});
 
  private:
   void go_on_with_map();

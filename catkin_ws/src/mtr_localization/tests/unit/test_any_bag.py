@@ -12,6 +12,7 @@ from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
 
 from mtr_core import names
+from mtr_localization import replay
 from mtr_localization.any_bag import conversions
 from mtr_localization.any_bag.conversions import convert
 from mtr_localization.any_bag.errors import BagUnusable
@@ -211,3 +212,23 @@ def test_file_that_is_no_bag_is_a_sentence(robot, tmp_path):
 def test_own_recording_is_replayed_as_it_is():
     own = {names.FRONT_SCAN: "", names.IMU_DATA: "", names.WHEEL_ODOMETRY: ""}
     assert is_own(own, Asked()) and not is_own(own, Asked(imu=NONE)) and not is_own({names.FRONT_SCAN: ""}, Asked())
+
+
+def test_help_tells_the_options_and_every_parameter_of_the_program(tmp_path, monkeypatch, capsys):
+    program = tmp_path / "replay_bag"
+    program.write_text("#!/bin/sh\necho 'Usage: as above'\necho\necho '  range_noise_m=0.015  0.001 to 0.1 m'\n",
+                       encoding="utf-8")
+    program.chmod(0o755)
+    monkeypatch.setattr(replay, "find_node", lambda *_: [str(program)])
+    with pytest.raises(SystemExit) as ended:
+        replay.main(["--help"])
+    said = capsys.readouterr().out
+    assert ended.value.code in (0, None)
+    assert "--begin-at" in said and "  range_noise_m=0.015  0.001 to 0.1 m\n" in said and "as above" not in said
+
+
+def test_help_without_the_program_tells_what_is_missing(monkeypatch, capsys):
+    monkeypatch.setattr(replay, "find_node", lambda *_: [])
+    with pytest.raises(SystemExit):
+        replay.main(["-h"])
+    assert "not built" in capsys.readouterr().out

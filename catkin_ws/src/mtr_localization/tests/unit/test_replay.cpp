@@ -112,6 +112,33 @@ TEST(ReplayOptions, WhatIsNotUnderstoodIsASentence) {
   expect_sentence([] { parse({"a.bag", "--out", "b", "--map", "m", "--begin-at", "1", "2"}); }, "needs a value");
 }
 
+TEST(ReplayOptions, HelpTellsEachParameterOnceWithItsDefaultAndRange) {
+  EXPECT_TRUE(asks_for_help({"a.bag", "--help"}));
+  EXPECT_TRUE(asks_for_help({"-h"}));
+  EXPECT_FALSE(asks_for_help({"a.bag", "--out", "there"}));
+  const std::string text = help();
+  EXPECT_NE(text.find("  range_noise_m=0.015  0.001 to 0.1 m\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("  rear_lidar_x_m=-0.2  -2 to 2 m\n"), std::string::npos) << text;
+  const Options options;
+  for_each_group(options.parameters, [&](const auto& rows, const auto&) {
+    for (const auto& row : rows) {
+      const std::string line = std::string("\n  ") + row.name + "=";
+      EXPECT_EQ(text.find(line), text.rfind(line)) << row.name;
+      EXPECT_NE(text.find(line), std::string::npos) << row.name;
+    }
+  });
+}
+
+TEST(Replay, PersonWhoWaitsIsToldEachPercentOnce) {
+  const Options options = parse({bag_of("progress", {}), "--out", ::testing::TempDir() + "progress"});
+  std::vector<int> told;
+  Replay(options).run([&](int percent) { told.push_back(percent); });
+  EXPECT_EQ(told.back(), 100);
+  EXPECT_GT(told.size(), 50U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(std::adjacent_find(told.begin(), told.end()), told.end());
+}
+
 TEST(Replay, BagThatLacksSomethingIsASentence) {
   expect_sentence([] { replayed("/nowhere.bag"); }, "Bag /nowhere.bag cannot be read");
   BagOptions options;
