@@ -58,9 +58,11 @@ def test_wrong_heading_moves_the_key_by_its_lever():
 def test_pose_that_is_not_valid_is_unknown_and_not_good():
     valid = np.ones(len(STAMPS))
     valid[500:] = 0.0
-    track = pose_track(STAMPS, compose(MAP_FROM_CAR, circle()), valid=valid > 0.5)
+    covariances = np.tile(1e-4 * np.eye(3), (len(STAMPS), 1, 1))
+    track = pose_track(STAMPS, compose(MAP_FROM_CAR, circle()), covariances, valid > 0.5)
     errors = errors_of(track, MeasuredCar(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle()))
-    assert np.isnan(errors.key_m[500:]).all() and not np.isnan(errors.key_m[:500]).any()
+    for values in (errors.key_m, errors.nees):
+        assert np.isnan(values[500:]).all() and not np.isnan(values[:500]).any()
 
 
 def test_only_what_comes_after_the_loop_is_judged():

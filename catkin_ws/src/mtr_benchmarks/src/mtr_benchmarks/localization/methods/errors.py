@@ -22,7 +22,8 @@ class PoseErrors(NamedTuple):
     Attributes:
         key_m: distance of the key from where it is said to be; NaN where the method says that it does not know.
         yaw_deg: error of the heading, signed.
-        nees: normalised error squared of the pose in frame car; NaN from a method without covariance.
+        nees: normalised error squared of the pose in frame car; NaN where the method says that it does not know, and
+            from one without covariance.
         standing, on_axis, beyond_m: see DriveTruth.
     """
 
@@ -55,7 +56,8 @@ def errors_of(track: PoseTrack, car: MeasuredCar, truth: DriveTruth) -> PoseErro
     if track.covariances is not None:
         nees = normalised_squares(measured, true, joined(track.covariances[nearest], car, measured))
     if track.valid is not None:
-        key_m = np.where(track.valid[nearest], key_m, NAN)
+        # Who says that he does not know promises nothing.
+        key_m, nees = (np.where(track.valid[nearest], values, NAN) for values in (key_m, nees))
     yaw = np.degrees(wrapped(measured[:, 2] - true[:, 2]))
     return PoseErrors(stamps, key_m, yaw, nees, truth.standing[judged], truth.on_axis[judged], truth.beyond_m[judged])
 
