@@ -12,7 +12,7 @@ from xmlrpc.server import SimpleXMLRPCRequestHandler, SimpleXMLRPCServer
 import pytest
 
 from mtr_bringup.graph_watch import look
-from mtr_bringup.graph_watch.environment import LIBRARY, as_around, closed_environment
+from mtr_bringup.graph_watch.environment import LIBRARY, as_around, closed_environment, join_on_loopback
 from mtr_bringup.graph_watch.judge import MAX_AGE_S, Graph, Verdict, openings, place_of
 from mtr_bringup.graph_watch.listening_sockets import ListeningSocket, is_loopback, sockets_in
 
@@ -124,6 +124,17 @@ def test_closed_environment_keeps_all_but_what_opens():
     assert closed_environment(given) == closed and closed_environment({})["ROS_MASTER_URI"] == "http://127.0.0.1:11311"
     # What is started beside an open graph joins it as it is.
     assert as_around(given) == given and as_around({"ROS_IP": "127.0.0.1"})["LD_PRELOAD"] == LIBRARY
+
+
+@pytest.mark.parametrize("given, address", [
+    ({"ROS_MASTER_URI": "http://localhost:11311"}, "127.0.0.1"),
+    ({"ROS_MASTER_URI": "http://127.0.0.1:1"}, "127.0.0.1"),
+    ({"ROS_MASTER_URI": "http://10.0.0.1:11311"}, None), ({}, None),
+    ({"ROS_MASTER_URI": "http://localhost:11311", "ROS_IP": "10.0.0.1"}, "10.0.0.1"),
+    ({"ROS_MASTER_URI": "http://localhost:11311", "ROS_HOSTNAME": "robot"}, None)])
+def test_program_that_joins_a_graph_on_loopback_listens_there_unless_a_person_chose(given, address):
+    join_on_loopback(given)
+    assert given.get("ROS_IP") == address
 
 
 def test_program_closed_runs_another_in_that_environment():

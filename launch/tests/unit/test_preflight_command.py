@@ -1,15 +1,19 @@
 """The program: its options, its exit status, its file; without a ROS master."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import os
 import pathlib
 
 import pytest
 
+from mtr_bringup.base_contract.command_line import main as base_contract
+from mtr_bringup.calibration.command_line import main as calibrate
 from mtr_bringup.preflight import command_line
 from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.finding import bad, exit_code, good
 from mtr_bringup.preflight.records import RobotRecord
 from mtr_bringup.preflight.report import standing_findings, write
+from mtr_bringup.recording.command_line import record
 from mtr_core import names
 from mtr_description.shipped import shipped_base, shipped_geometry
 from mtr_dispatcher.preflight_report import report_in
@@ -23,6 +27,16 @@ def test_without_a_master_there_is_one_sentence_and_status_2(monkeypatch, capsys
     output = capsys.readouterr()
     assert output.out == "" and output.err == (
         "There is no ROS master at http://127.0.0.1:1; start the robot first (roslaunch mtr_bringup robot.launch).\n")
+
+
+@pytest.mark.parametrize("start", [
+    lambda: command_line.main([]), lambda: record(["--out", "/tmp"]), lambda: calibrate(["lever"]),
+    lambda: base_contract([])])
+def test_program_in_a_shell_that_says_no_address_does_not_open_the_robots_graph(start, monkeypatch):
+    monkeypatch.setenv("ROS_MASTER_URI", "http://localhost:1")
+    monkeypatch.setenv("ROS_IP", "")
+    monkeypatch.delenv("ROS_HOSTNAME", raising=False)
+    assert start() != 0 and os.environ["ROS_IP"] == "127.0.0.1"
 
 
 @pytest.mark.parametrize("seconds", ["1", "61", "nan", "x"])

@@ -7,6 +7,7 @@ Exit status: 0 nothing is bad, 1 something is, 2 it could not be checked.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
+import os
 import pathlib
 import sys
 import time
@@ -19,6 +20,7 @@ from mtr_core.errors import ConfigurationError, range_problem
 from mtr_description.base_controller import base_parameters_in
 from mtr_description.shipped import urdf_in
 
+from ..graph_watch.environment import join_on_loopback
 from ..preflight.base import start_findings
 from ..preflight.command_line import (
     CANNOT_CHECK,
@@ -74,6 +76,7 @@ def file_findings(options: argparse.Namespace) -> List[Finding]:
 
 def robot_findings(seconds: float) -> List[Finding]:
     """Of the running robot; ConfigurationError without a master."""
+    join_on_loopback(os.environ)
     if not master_answers():
         raise ConfigurationError("There is no ROS master; start the robot first (roslaunch mtr_bringup robot.launch), "
                                  "or name files (--robot-file).")

@@ -7,6 +7,7 @@ Exit status: 0 measured, or nothing overdue; 1 not measured, or something overdu
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import datetime
+import os
 import pathlib
 import sys
 from typing import Any, List, Mapping, Optional, Sequence
@@ -16,6 +17,7 @@ import rospy
 from mtr_core.errors import RobotError
 from mtr_description.shipped import shipped_geometry
 
+from ..graph_watch.environment import join_on_loopback
 from ..preflight.command_line import master_answers
 from .console import Console
 from .guides import GUIDES
@@ -34,6 +36,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     """Guide through one calibration; its exit status."""
     options = parsed(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
     path = options.record.expanduser()
+    join_on_loopback(os.environ)
     try:
         return status(path) if options.what == "status" else calibrated(options, path)
     except RobotError as error:

@@ -1,6 +1,9 @@
 """The environment in which a program of the ROS graph listens on loopback only. Pure."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Dict, Mapping
+from typing import Dict, Mapping, MutableMapping
+from urllib.parse import urlparse
+
+from .listening_sockets import is_loopback
 
 LOOPBACK = "127.0.0.1"
 # Found by LD_LIBRARY_PATH, which a workspace's setup.bash sets; of src/loopback.
@@ -17,3 +20,13 @@ def as_around(environment: Mapping[str, str]) -> Dict[str, str]:
     """The closed environment where the graph is on loopback; else, in a graph opened by choice, as it is."""
     on_loopback = environment.get("ROS_IP", "").startswith("127.")
     return closed_environment(environment) if on_loopback else dict(environment)
+
+
+def join_on_loopback(environment: MutableMapping[str, str]) -> None:
+    """Have a program in Python that joins a graph on loopback listen there too, unless a person chose its address.
+
+    In a shell that was not told otherwise it would listen on every address, and the robot would stand for it.
+    """
+    host = urlparse(environment.get("ROS_MASTER_URI", "")).hostname or ""
+    if is_loopback(host) and not environment.get("ROS_IP") and not environment.get("ROS_HOSTNAME"):
+        environment["ROS_IP"] = LOOPBACK

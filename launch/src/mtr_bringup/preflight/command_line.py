@@ -26,6 +26,7 @@ from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_base
 from mtr_dispatcher.preflight_report import PreflightItem, parameter_of, report_of
 
+from ..graph_watch.environment import join_on_loopback
 from .clocks import clock_finding, masters_finding, network_findings
 from .expected import Setup
 from .finding import NEEDS_MORE, Finding, bad, exit_code
@@ -47,6 +48,7 @@ CHRONY = ["chronyc", "-c", "tracking"]
 def main(arguments: Optional[List[str]] = None) -> int:
     """Check the robot; the exit status says whether something is bad."""
     options = parsed(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
+    join_on_loopback(os.environ)
     uri = os.environ.get("ROS_MASTER_URI", "")
     if not master_answers():
         print(f"There is no ROS master at {uri or '(ROS_MASTER_URI is not set)'}; start the robot first "

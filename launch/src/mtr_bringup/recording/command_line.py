@@ -24,7 +24,7 @@ from mtr_core import names
 from mtr_core.errors import RobotError, range_problem
 from mtr_core.lockstep.clock import LOCKSTEP_PARAMETER
 
-from ..graph_watch.environment import as_around
+from ..graph_watch.environment import as_around, join_on_loopback
 from ..preflight.command_line import master_answers
 from .bags import decisions_in, messages_in
 from .decisions import differences
@@ -44,6 +44,7 @@ def record(arguments: Optional[List[str]] = None) -> int:
     """Record until Ctrl-C; the exit status."""
     given = sys.argv[1:] if arguments is None else arguments
     options = parsed(rospy.myargv(given))
+    join_on_loopback(os.environ)
     try:
         if not master_answers():
             raise CannotRecord("There is no ROS master; start the robot first (roslaunch mtr_bringup robot.launch).")
