@@ -14,7 +14,7 @@ from mtr_operator.domain.robot_status import Problem
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.i18n import FOLDER, Language, duration, number
 from mtr_operator.gui.names import domain_word, parameter_title
-from mtr_operator.gui.sentences import robot_sentences, translated
+from mtr_operator.gui.sentences import in_window_words, robot_sentences, translated
 from mtr_operator.gui.texts import application, judgement, parameter_docs, parameter_names, scenarios, words
 from mtr_operator.report.parameter_names import parameter_name
 
@@ -135,6 +135,11 @@ def test_sentence_within_a_sentence_and_numbers_are_translated(czech):
     assert translated("axis 3 (front right): go to the start") == "osa 3 (vpředu vpravo): jízda na začátek"
     assert translated("A sentence that nobody has listed.") == "A sentence that nobody has listed."
     assert (domain_word("not reached"), number(1.25, 2), duration(3900.0)) == ("nedosaženo", "1,25", "1 h 05 min")
+
+
+def test_names_of_parameters_are_quoted_as_czech_does(czech):
+    said = in_window_words("Parameter passes is 9; allowed is 8.", SCENARIOS["autolock"].parameters_type)
+    assert "\N{DOUBLE LOW-9 QUOTATION MARK}" in said and "\N{RIGHT DOUBLE QUOTATION MARK}" not in said
 
 
 LOST = (Problem("state_machine.localization_lost_because", (), "Localization is lost. The dispatcher is late."),

@@ -52,7 +52,7 @@ def in_window_words(sentence: str, parameters_type: type[ParameterSet]) -> str:
     for name, declared in declarations:
         title = parameter_title(name, declared)
         sentence = sentence.replace(
-            declared.file_key, f"\N{LEFT DOUBLE QUOTATION MARK}{title}\N{RIGHT DOUBLE QUOTATION MARK}")
+            declared.file_key, translate("Sentence", "“{title}”").format(title=title))
     return sentence
 
 

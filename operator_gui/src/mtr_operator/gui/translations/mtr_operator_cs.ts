@@ -6779,6 +6779,11 @@
         <source>there is no such database or user on the server</source>
         <translation>taková databáze nebo uživatel na serveru není</translation>
     </message>
+    <message>
+        <location filename="../sentences.py" line="54"/>
+        <source>“{title}”</source>
+        <translation>„{title}“</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
