@@ -47,6 +47,18 @@ def test_row_marks_its_points_and_point_selects_its_row(protocol, operator):
     assert protocol.table.currentIndex().row() == 5
 
 
+def test_row_of_an_invalid_line_says_below_why(operator, opener):
+    screen = operator.begin("key_press")
+    operator.wait(lambda: operator.model.line == 2 and screen.skip.isEnabled())
+    operator.click(screen.skip)
+    protocol = operator.finish()
+    saved(protocol, operator)
+    protocol.table.selectRow(1)
+    assert "The line was skipped by the Operator." in protocol.notice.text()
+    protocol.table.selectRow(0)
+    assert "Saved" in protocol.notice.text() and "skipped" not in protocol.notice.text()
+
+
 def test_protocol_of_the_test_before_is_kept_no_longer_than_it_is_shown(protocol, operator):
     def models():
         # With a model goes what was chosen in it, at the next turn.

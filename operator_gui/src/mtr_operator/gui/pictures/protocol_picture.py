@@ -43,6 +43,11 @@ class Protocol:
         """Line and points of one result."""
         return self.scenario.picture(self.parameters, self.progress.measured_car, [self.progress.results[index]])
 
+    def reason_of(self, index: int) -> str:
+        """Why a line is invalid, or did not pass; empty for one of which there is nothing to say."""
+        result, judgement = self.progress.results[index], self.assessment.judgement
+        return result.reason or ("" if judgement is None else judgement.reason_of(result.number))
+
     def nearest(self, x: float, y: float, limit_m: float) -> int | None:
         """Index of the result with the point nearest to this place (m), None where none is within limit_m."""
         distances = [(math.dist((x, y), point), index) for index in range(len(self.progress.results))

@@ -66,7 +66,7 @@ class ProtocolScreen(QWidget):
         self._writer: ReportWriter | None = None
         self._kinds: tuple[str, ...] = ()
         self._saved: set[str] = set()
-        self._said = ""
+        self._said = self._told = ""
         self._folder: pathlib.Path | None = None
         self.panel = PicturePanel(appearance)
         self.panel.view.clicked.connect(self._choose_point)
@@ -203,6 +203,8 @@ class ProtocolScreen(QWidget):
         self._picture.points.chosen = tuple(point for each in points for point in each.known)
         self.panel.view.refresh()
         self._show_budget(row)
+        why = self.protocol.reason_of(row) if row >= 0 else ""
+        self.notice.setText(f"{self._summary()} {translated(why) or self._told}")
 
     def _show_budget(self, row: int) -> None:
         protocol = self.protocol
@@ -292,5 +294,6 @@ class ProtocolScreen(QWidget):
             self._show_notice(sentence.format(folder=self._folder))
 
     def _show_notice(self, sentence: str) -> None:
+        self._told = sentence
         self.notice.setText(f"{self._summary()} {sentence}")
         self.notice.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
