@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 
+import cantools
 import pytest
 
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.learn.command_line import learn_by
-from mtr_operator.car_link.profile import load_profile
+from mtr_operator.car_link.learn.database_names import bits_of
+from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.cli.commands import run_command
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, NothingLearned
+from mtr_operator.domain.ports import LockState
 
 CYCLE_S = 0.02
 
@@ -17,14 +20,14 @@ CYCLE_S = 0.02
 class Bench:
     """Adapter, Car and person. obeys: the Car does as it is told. lines: how often the person answers."""
 
-    def __init__(self, obeys=True, lines=99, problem=""):
+    def __init__(self, obeys=True, lines=99, problem="", database=None):
         self.now_s, self.problem = 100.0, ""
         self._late_problem = problem
         self._obeys, self._lines = obeys, lines
         self._message = DemoLockMessage()
         self._heard = None
         self.stopped = 0
-        self.options = argparse.Namespace(prompts=4)
+        self.options = argparse.Namespace(prompts=4, database=database)
 
     def listen(self, heard):
         self._heard = heard
@@ -69,6 +72,74 @@ def test_profile_is_written_and_said(tmp_path, capsys):
     assert "320" in told.out and "4/4" in told.out
     assert load_profile(str(tmp_path / "golf.yaml")).signal == "LockState"
     assert bench.stopped == 1
+
+
+def learned_with(database, folder):
+    bench = Bench(database=database)
+    bench._message.is_locked = False
+    bench.learn(folder / "golf.yaml")
+    return load_profile(str(folder / "golf.yaml"))
+
+
+def test_message_and_signal_have_the_names_of_a_database(tmp_path, capsys):
+    found = learned_with(PROFILE_FOLDER / "mtr_demo_car.dbc", tmp_path)
+    shipped = load_profile("mtr_demo_car")
+    told = capsys.readouterr()
+    for words in (f"{shipped.message.name} {shipped.signal}", f"Message {shipped.message.name} tells"):
+        assert words in told.out
+    assert (found.message.name, found.signal) == (shipped.message.name, shipped.signal)
+    known = (LockState.LOCKED, LockState.UNLOCKED)
+    assert found.states == {raw: state for raw, state in shipped.states.items() if state in known}
+    assert (found.alive_signal, found.command_signal) == (shipped.alive_signal, shipped.command_signal)
+    assert [path.name for path in tmp_path.iterdir()] == ["golf.yaml"]
+
+
+BIG_ENDIAN = """VERSION ""
+NS_ :
+BS_:
+BU_: Car
+BO_ 800 NO: 4 Car
+ SG_ ON : 1|2@0+ (0.5,3) [0|0] "" Car
+ SG_ REST : 15|24@0+ (1,0) [0|0] "" Car
+"""
+
+
+def test_signal_of_any_byte_order_scale_and_name_is_found(tmp_path):
+    (tmp_path / "golf.dbc").write_text(BIG_ENDIAN)
+    found = learned_with(tmp_path / "golf.dbc", tmp_path)
+    # Raw values, whatever the scale; and the database is as it was.
+    assert (found.message.name, found.signal) == ("NO", "ON")
+    assert found.states == {0: LockState.LOCKED, 1: LockState.UNLOCKED}
+    assert (tmp_path / "golf.dbc").read_text() == BIG_ENDIAN
+
+
+def test_database_that_does_not_know_the_signal_is_told_and_left_alone(tmp_path, capsys):
+    database = tmp_path / "other.dbc"
+    database.write_text(BIG_ENDIAN.replace("BO_ 800", "BO_ 801"))
+    assert learned_with(database, tmp_path).message.name == "Message_320"
+    assert f"The CAN database {database} has no signal where it was found" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("content", "words"), [(None, "No such file"), ("garbage", "cannot be read")])
+def test_database_that_cannot_be_read_is_refused_before_anything_is_asked(tmp_path, capsys, content, words):
+    database = tmp_path / "bad.dbc"
+    if content:
+        database.write_text(content)
+    assert run_command(["learn", "--out", str(tmp_path / "golf.yaml"), "--database", str(database)]) == 2
+    told = capsys.readouterr().err.strip()
+    assert words in told and "\n" not in told and not (tmp_path / "golf.yaml").exists()
+
+
+@pytest.mark.parametrize(("entry", "order"), [("20|3@0+", "big"), ("5|12@0+", "big"), ("9|5@1+", "little")])
+def test_bits_of_a_signal_are_those_that_it_sets(entry, order):
+    text = BIG_ENDIAN.replace("1|2@0+ (0.5,3)", f"{entry} (1,0)")
+    message = cantools.database.load_string(text, "dbc", strict=False).messages[0]
+    signal = message.get_signal_by_name("ON")
+    message.signals.remove(message.get_signal_by_name("REST"))
+    message.refresh(strict=False)
+    data = message.encode({"ON": (1 << signal.length) - 1}, strict=False)
+    value = int.from_bytes(data, "little")
+    assert bits_of(signal) == {bit for bit in range(32) if value >> bit & 1}
 
 
 def test_car_that_does_nothing_leaves_no_file_and_a_sentence(tmp_path):

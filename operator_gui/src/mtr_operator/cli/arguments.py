@@ -126,6 +126,9 @@ def _add_learn(parser: argparse.ArgumentParser) -> None:
                           "writes the message and signal that followed. Nothing is sent.")
     parser.add_argument("--out", type=pathlib.Path, required=True, metavar="FILE",
                         help="profile to be written, such as my_car.yaml; its database goes beside it")
+    parser.add_argument("--database", type=pathlib.Path, metavar="FILE",
+                        help="a CAN database of the Car, whose message and signal the profile names; without it the "
+                             "profile gets one of its own")
     parser.add_argument("--prompts", type=_whole_number, default=10, metavar="N",
                         help="how often you are asked, an even number from 4 to 40, default %(default)s")
     _add_adapter(parser)

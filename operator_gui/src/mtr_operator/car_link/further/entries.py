@@ -97,7 +97,7 @@ class Entries:
     def database(self, bus: str = FIRST_BUS) -> Any:
         """Of CAN messages; for one of another kind an empty one, in which no message is found."""
         if bus not in self._databases:
-            self._databases[bus] = _load(self.database_path(bus))
+            self._databases[bus] = load_database(self.database_path(bus))
         return self._databases[bus]
 
     def message(self, name: Any, bus: str = FIRST_BUS) -> Any:
@@ -141,7 +141,8 @@ def _parsed(path: pathlib.Path) -> Any:
         return cantools.database.load_string(mended, "dbc", strict=False)
 
 
-def _load(path: pathlib.Path) -> Any:
+def load_database(path: pathlib.Path) -> Any:
+    """A CAN database (cantools'); ConnectionFailed says why it cannot be read."""
     try:
         if path.stat().st_size > _MAX_DATABASE_BYTES:
             raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "

@@ -12,11 +12,12 @@ from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import LockState
 
 from ..adapter import AdapterSettings
+from .database_names import DatabaseNames
 from .findings import Findings
 from .learning import Learning, Listen
 from .listener import Listener
 from .session import REST_S, Stage
-from .words import HEADINGS, cells, doubts
+from .words import HEADINGS, cells, doubts, unnamed
 from .written_profile import check_name, message_name, write_profile
 
 _POLL_S = 0.05
@@ -34,18 +35,22 @@ def learn(options: argparse.Namespace) -> None:
 def learn_by(listen: Listen, options: argparse.Namespace, stdin: TextIO | None = None,
              clock: Callable[[], float] = time.monotonic, wait: Callable[[float], None] = time.sleep) -> None:
     """Learn, print what was found and write the profile; stdin, clock, wait: of the process by default."""
-    check_name(options.out)
+    names = DatabaseNames(options.database) if options.database else None
+    check_name(options.out, has_database=names is not None)
     learning = Learning(listen, options.prompts, clock)
     with contextlib.closing(learning):
         _listen(learning, stdin or sys.stdin, wait)
     findings = learning.findings()
-    for line in _table(findings):
+    for line in _table(findings, names):
         print(line)
-    for doubt in doubts(findings):
-        print(doubt, file=sys.stderr)
-    write_profile(options.out, findings)
+    for doubt in (*doubts(findings), unnamed(findings, names)):
+        if doubt:
+            _say(doubt)
+    write_profile(options.out, findings, names)
     best = findings.proposal
-    print(f"Message {message_name(best)} tells the locks; the profile is in {options.out}. Try it: --car-profile "
+    named = None if names is None else names.named(best)
+    name = message_name(best) if named is None else named.message
+    print(f"Message {name} tells the locks; the profile is in {options.out}. Try it: --car-profile "
           f"{options.out}")
 
 
@@ -70,8 +75,8 @@ def _say(sentence: str) -> None:
     print(sentence, file=sys.stderr, flush=True)
 
 
-def _table(findings: Findings) -> Iterator[str]:
-    rows: list[Sequence[str]] = [HEADINGS, *(cells(each, findings.stays) for each in findings.candidates)]
+def _table(findings: Findings, names: DatabaseNames | None) -> Iterator[str]:
+    rows: list[Sequence[str]] = [HEADINGS, *(cells(each, findings.stays, names) for each in findings.candidates)]
     widths = [max(len(row[column]) for row in rows) for column in range(len(HEADINGS))]
     for row in rows:
         yield _GAP.join(cell.ljust(width) for cell, width in zip(row, widths)).rstrip()

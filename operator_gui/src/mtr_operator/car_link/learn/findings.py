@@ -3,6 +3,7 @@ while it was unlocked."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import bisect
 import dataclasses
 import statistics
 from dataclasses import dataclass
@@ -33,7 +34,7 @@ class Candidate:
     lag_s: after the earliest candidate's change, middle of all prompts; None when it cannot be told.
     is_cyclic: the message comes often enough for a profile. on_change: it is also sent at once.
     counter, changes_counter: bits of the same message that count its frames, and the changes; None when none do.
-    sum_byte: number of the byte that is a check sum, None when none is.
+    sum_byte: number of the byte that is a check sum, None when none is. data: of the message at the end of each stay.
     """
 
     id: MessageId
@@ -49,6 +50,7 @@ class Candidate:
     counter: Field | None = None
     changes_counter: Field | None = None
     sum_byte: int | None = None
+    data: tuple[tuple[LockState, bytes], ...] = ()
 
 
 class Findings(NamedTuple):
@@ -120,14 +122,23 @@ def _candidates(message: Message, parts: Sequence[Held], stays: Sequence[Stay]) 
     if not fields:
         return
     cycle_s = _cycle(message)
-    counter = frame_counter(message)
+    counter, data = frame_counter(message), tuple(_ends(message, stays))
     for field, followed in fields:
         values = _values(parts, stays, field)
         moves = changes(message.samples, *field)
         yield Candidate(message.id, message.length, field, values, followed, max(len(moves) - len(stays), 0), cycle_s,
                         is_cyclic=cycle_s <= _MAX_CYCLE_S and _is_in_each(message, stays),
                         on_change=_is_sent_on_change(message, moves, cycle_s), counter=counter,
-                        changes_counter=counting, sum_byte=check_sum(message, counter))
+                        changes_counter=counting, sum_byte=check_sum(message, counter), data=data)
+
+
+def _ends(message: Message, stays: Sequence[Stay]) -> Iterator[tuple[LockState, bytes]]:
+    """State and newest data at the end of each stay; nothing of one before the message came first."""
+    times_s = [sample.time_s for sample in message.samples]
+    for stay in stays:
+        end = bisect.bisect_right(times_s, stay.end_s)
+        if end:
+            yield stay.state, message.samples[end - 1].value.to_bytes(message.length, "little")
 
 
 def _values(parts: Sequence[Held], stays: Sequence[Stay], field: Field) -> dict[LockState, int]:

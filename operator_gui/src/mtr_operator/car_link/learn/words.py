@@ -8,6 +8,7 @@ from mtr_operator.domain.ports import LockState
 
 from .bits import BITS_PER_BYTE
 from .counters import Field
+from .database_names import DatabaseNames
 from .findings import Candidate, Findings
 
 HEADINGS = ("identifier", "bits", "locked", "unlocked", "followed", "later by", "cycle", "besides")
@@ -16,14 +17,16 @@ MAX_BY_CHANCE = 0.1
 _MS_PER_S = 1000.0
 
 
-def cells(candidate: Candidate, stays: int) -> tuple[str, ...]:
-    """One row of the table, see HEADINGS."""
+def cells(candidate: Candidate, stays: int, names: DatabaseNames | None = None) -> tuple[str, ...]:
+    """One row of the table, see HEADINGS. names: by which it has its name in the last one."""
+    named = None if names is None else names.named(candidate)
+    told = [] if named is None else [f"{named.message} {named.signal}"]
     can_id, is_extended = candidate.id
     lag = "-" if candidate.lag_s is None else f"{candidate.lag_s * _MS_PER_S:.0f} ms"
     cycle = f"{candidate.cycle_s * _MS_PER_S:.0f} ms" if candidate.is_cyclic else "-"
     return (f"{can_id:0{8 if is_extended else 3}X}", place(candidate.field),
             str(candidate.values[LockState.LOCKED]), str(candidate.values[LockState.UNLOCKED]),
-            f"{candidate.followed}/{stays}", lag, cycle, ", ".join(besides(candidate)))
+            f"{candidate.followed}/{stays}", lag, cycle, ", ".join([*told, *besides(candidate)]))
 
 
 def place(field: Field) -> str:
@@ -44,6 +47,13 @@ def besides(candidate: Candidate) -> Iterator[str]:
         yield f"{candidate.extra} more changes"
     if not candidate.is_cyclic:
         yield "not cyclic"
+
+
+def unnamed(findings: Findings, names: DatabaseNames | None) -> str:
+    """A sentence when a database does not know what is proposed; empty else."""
+    if names is None or findings.best is None or names.named(findings.best) is not None:
+        return ""
+    return f"The CAN database {names.path} has no signal where it was found; the profile gets a database of its own."
 
 
 def doubts(findings: Findings) -> tuple[str, ...]:

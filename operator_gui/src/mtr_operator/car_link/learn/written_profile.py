@@ -1,9 +1,12 @@
-"""Writes what was learned as a profile of the Car: a YAML file, and beside it a CAN database of its one message."""
+"""Writes what was learned as a profile of the Car: a YAML file, and a database unless there is one already."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import json
+import os
 import pathlib
 import re
+from typing import Mapping, Sequence
 
 from mtr_operator.domain.errors import InvalidParameter, OutputError
 from mtr_operator.domain.ports import LockState
@@ -11,6 +14,7 @@ from mtr_operator.storage.atomic import write_bytes
 
 from ..profile import load_profile
 from .counters import Field
+from .database_names import DatabaseNames, Named
 from .findings import Candidate, Findings
 
 _NAME = re.compile(r"[A-Za-z0-9_\-]+\.yaml")
@@ -18,25 +22,31 @@ _EXTENDED_BIT = 0x8000_0000
 _SIGNAL, _ALIVE, _CHANGES = "LockState", "AliveCounter", "ChangeCounter"
 
 
-def check_name(path: pathlib.Path) -> None:
-    """Raise InvalidParameter for a path that is no NAME.yaml, OutputError when it or its database is there already."""
+def check_name(path: pathlib.Path, has_database: bool = False) -> None:
+    """Raise InvalidParameter for a path that is no NAME.yaml, OutputError when it or its database is there already.
+    has_database: the profile gets none of its own."""
     if not _NAME.fullmatch(path.name):
         raise InvalidParameter(f"The profile is called {path.name}; allowed are letters, digits, - and _, and .yaml at "
                                "the end.")
-    for each in (path, path.with_suffix(".dbc")):
+    for each in (path,) if has_database else (path, path.with_suffix(".dbc")):
         if each.exists():
             raise OutputError(f"The file {each} is there already; choose another name.")
 
 
-def write_profile(path: pathlib.Path, findings: Findings) -> None:
-    """Write NAME.yaml and NAME.dbc, and read them back as a test would; see check_name for what is refused.
+def write_profile(path: pathlib.Path, findings: Findings, names: DatabaseNames | None = None) -> None:
+    """Write NAME.yaml, and NAME.dbc unless names knows the signal; read them back as a test would.
 
-    OutputError when they cannot be written, NothingLearned when nothing followed the locks.
+    OutputError when they cannot be written, see check_name; NothingLearned when nothing followed the locks.
     """
     best, database = findings.proposal, path.with_suffix(".dbc")
-    check_name(path)
-    write_bytes(database, _database(best).encode("ascii"))
-    write_bytes(path, _profile(database.name, best, findings).encode("ascii"))
+    named = None if names is None else names.named(best)
+    check_name(path, has_database=named is not None)
+    if names is None or named is None:
+        write_bytes(database, _database(best).encode("ascii"))
+        lines = _own_entries(database.name, best)
+    else:
+        lines = _named_entries(path.parent, names, named, best)
+    write_bytes(path, _profile(lines, best, findings).encode("utf-8"))
     load_profile(str(path))
 
 
@@ -60,14 +70,38 @@ def _signal(name: str, field: Field) -> str:
     return f' SG_ {name} : {field.start}|{field.width}@1+ (1,0) [0|{(1 << field.width) - 1}] "" Tester'
 
 
-def _profile(database: str, best: Candidate, findings: Findings) -> str:
+def _profile(entries: Sequence[str], best: Candidate, findings: Findings) -> str:
     """Lines of the profile; what was not seen is left out, and holds by default."""
-    lines = [f"# Learned from {findings.frames} frames: followed {best.followed} of {findings.stays} prompts.",
-             "# Try it with the Car's live view before a test, and add what the Car tells beyond this.",
-             "description: Car learned from its bus", f"database: {database}", f"message: {message_name(best)}",
-             f"signal: {_SIGNAL}", "states:",
-             *(f"  {best.values[state]}: {state.value}" for state in (LockState.LOCKED, LockState.UNLOCKED)),
-             f"cycle_time_s: {max(round(best.cycle_s, 3), 0.001):g}", f"sent_on_change: {str(best.on_change).lower()}"]
+    return "\n".join([
+        f"# Learned from {findings.frames} frames: followed {best.followed} of {findings.stays} prompts.",
+        "# Try it with the Car's live view before a test, and add what the Car tells beyond this.",
+        "description: Car learned from its bus", *entries,
+        f"cycle_time_s: {max(round(best.cycle_s, 3), 0.001):g}", f"sent_on_change: {str(best.on_change).lower()}", ""])
+
+
+def _own_entries(database: str, best: Candidate) -> list[str]:
+    lines = [f"database: {database}", f"message: {message_name(best)}", f"signal: {_SIGNAL}", *_states(best.values)]
     lines += [f"alive_signal: {_ALIVE}"] if best.counter else []
     lines += [f"command_signal: {_CHANGES}"] if best.changes_counter else []
-    return "\n".join([*lines, ""])
+    return lines
+
+
+def _named_entries(folder: pathlib.Path, names: DatabaseNames, named: Named, best: Candidate) -> list[str]:
+    """Of a database that is there already; a name may be a word that YAML takes for something else."""
+    lines = [f"database: {json.dumps(_path_from(folder, names.path), ensure_ascii=False)}",
+             f"message: {json.dumps(named.message)}", f"signal: {json.dumps(named.signal)}", *_states(named.values)]
+    counters = {"alive_signal": best.counter, "command_signal": best.changes_counter}
+    lines += [f"{key}: {json.dumps(name)}" for key, field in counters.items() if (name := names.counter(best, field))]
+    return lines
+
+
+def _states(values: Mapping[LockState, int]) -> list[str]:
+    return ["states:", *(f"  {values[state]}: {state.value}" for state in (LockState.LOCKED, LockState.UNLOCKED))]
+
+
+def _path_from(folder: pathlib.Path, path: pathlib.Path) -> str:
+    """As a profile in the folder names the file; in full when it is on another drive."""
+    try:
+        return pathlib.Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
+    except ValueError:
+        return path.resolve().as_posix()

@@ -1,0 +1,86 @@
+"""What a CAN database calls the bits that followed the locks, so that a profile can name its message and signal."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+from typing import Any, Mapping, NamedTuple
+
+from mtr_operator.domain.ports import LockState
+
+from ..further.entries import load_database
+from .bits import BITS_PER_BYTE
+from .counters import Field
+from .findings import Candidate
+
+
+class Named(NamedTuple):
+    """message, signal: names. values: raw, of the whole signal, by the state of the locks."""
+
+    message: str
+    signal: str
+    values: Mapping[LockState, int]
+
+
+class DatabaseNames:
+    """path: of the database, of any kind that cantools reads; ConnectionFailed says what is wrong with it."""
+
+    def __init__(self, path: pathlib.Path):
+        self.path = path
+        self._messages = {(each.frame_id, each.is_extended_frame): each for each in load_database(path).messages}
+
+    def named(self, candidate: Candidate) -> Named | None:
+        """The signal that holds most of a candidate's bits, and was one value in each state; None without one."""
+        message = self._messages.get(candidate.id)
+        if message is None:
+            return None
+        bits = _bits(candidate.field)
+        found = [(len(bits & bits_of(signal)), -signal.length, signal.name, values) for signal in message.signals
+                 if bits & bits_of(signal) and (values := _values(message, signal.name, candidate)) is not None]
+        if not found:
+            return None
+        *_, name, values = max(found, key=lambda each: each[:2])
+        return Named(message.name, name, values)
+
+    def counter(self, candidate: Candidate, field: Field | None) -> str:
+        """Name of the signal that is these bits of the candidate's message, and no others; empty without one."""
+        if field is None:
+            return ""
+        return next((signal.name for signal in self._messages[candidate.id].signals
+                     if bits_of(signal) == _bits(field)), "")
+
+
+def bits_of(signal: Any) -> set[int]:
+    """Numbers of a signal's (cantools') bits, from 0 in the lowest bit of the first byte, as in Field."""
+    if signal.byte_order == "little_endian":
+        return set(range(signal.start, signal.start + signal.length))
+    found, bit = set(), signal.start
+    # From the highest bit down, and on in the highest of the next byte, as in the format DBC.
+    for _ in range(signal.length):
+        found.add(bit)
+        bit += -1 if bit % BITS_PER_BYTE else 2 * BITS_PER_BYTE - 1
+    return found
+
+
+def _bits(field: Field) -> set[int]:
+    return set(range(field.start, field.start + field.width))
+
+
+def _values(message: Any, name: str, candidate: Candidate) -> dict[LockState, int] | None:
+    """Of a signal, raw; None when it was several values in a state, or the same in both."""
+    found: dict[LockState, set[int]] = {}
+    for state, data in candidate.data:
+        raw = _decoded(message, data).get(name)
+        if type(raw) is not int:
+            return None
+        found.setdefault(state, set()).add(raw)
+    values = {state: raws.pop() for state, raws in found.items() if len(raws) == 1}
+    return values if len(values) == len(found) == len(set(values.values())) == len(candidate.values) else None
+
+
+def _decoded(message: Any, data: bytes) -> Mapping[str, Any]:
+    try:
+        found: Mapping[str, Any] = message.decode(data, decode_choices=False, scaling=False, allow_truncated=True)
+        return found
+    # A page that is not in the database, or whatever else the library makes of foreign data.
+    except Exception:
+        return {}
