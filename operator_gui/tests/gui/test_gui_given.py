@@ -29,7 +29,7 @@ def file(tmp_path):
 def choose(monkeypatch, operator):
     """choose(field, path) does what a person does with the file dialog."""
     def pick(field, path):
-        monkeypatch.setattr("mtr_operator.gui.forms.file_field.ask_yaml_file", lambda *_: path)
+        monkeypatch.setattr(field, "_ask", lambda *_: path)
         operator.click(field.choose)
     return pick
 

@@ -9,7 +9,7 @@ from mtr_operator.car_link.learn.findings import findings_of
 from mtr_operator.car_link.learn.learning import Learning
 from mtr_operator.car_link.learn.recording import Recording, Stay
 from mtr_operator.car_link.learn.session import DEFAULT_PROMPTS
-from mtr_operator.car_link.profile import load_profile
+from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
 from mtr_operator.gui.learn.learn_window import LearnWindow
@@ -90,6 +90,24 @@ def test_person_who_does_as_asked_gets_a_profile_in_the_form(newcomer, dialog, b
     assert (profile.name, profile.alive_signal, profile.command_signal) == ("golf", "AliveCounter", "ChangeCounter")
     assert form.choice.profile == str(newcomer.application.flow.store.profile_folder / "golf.yaml")
     assert bus.stops >= 1
+
+
+def test_database_names_what_followed_and_the_profile_refers_to_it(newcomer, dialog, bus, monkeypatch, tmp_path):
+    form = newcomer.window.can
+    answer_all(newcomer, dialog, bus)
+    newcomer.wait(dialog.database.isVisible)
+    (tmp_path / "bad.dbc").write_text("garbage")
+    for chosen in (tmp_path / "bad.dbc", PROFILE_FOLDER / "mtr_demo_car.dbc"):
+        monkeypatch.setattr(dialog.database, "_ask", lambda *_, chosen=chosen: chosen)
+        newcomer.click(dialog.database.choose)
+        assert ("cannot be read" in dialog.database.field.fault) is (chosen.name == "bad.dbc")
+    table = dialog.table.model()
+    shipped = load_profile("mtr_demo_car")
+    assert f"{shipped.message.name} {shipped.signal}" in table.index(0, table.columnCount() - 1).data()
+    dialog.name.show_text("golf")
+    newcomer.click(dialog.keep)
+    assert load_profile(form.profile.currentText()).signal == shipped.signal
+    assert not list(newcomer.application.flow.store.profile_folder.glob("*.dbc"))
 
 
 def test_name_that_is_taken_is_said_at_the_field(newcomer, dialog, bus):

@@ -30,6 +30,11 @@ def ask_yaml_file(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.P
     return _chosen_file(parent, title, start, "YAML (*.yaml *.yml)")
 
 
+def ask_database(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
+    """A CAN database that the Operator chooses; None when he does not."""
+    return _chosen_file(parent, title, start, "CAN (*.dbc *.arxml *.kcd *.sym)")
+
+
 def ask_bundle(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:
     """A bundle of evidence that the Operator chooses; None when he does not."""
     return _chosen_file(parent, title, start, "MTR (*.mtr.zip)")

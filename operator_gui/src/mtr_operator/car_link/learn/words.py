@@ -19,14 +19,12 @@ _MS_PER_S = 1000.0
 
 def cells(candidate: Candidate, stays: int, names: DatabaseNames | None = None) -> tuple[str, ...]:
     """One row of the table, see HEADINGS. names: by which it has its name in the last one."""
-    named = None if names is None else names.named(candidate)
-    told = [] if named is None else [f"{named.message} {named.signal}"]
     can_id, is_extended = candidate.id
     lag = "-" if candidate.lag_s is None else f"{candidate.lag_s * _MS_PER_S:.0f} ms"
     cycle = f"{candidate.cycle_s * _MS_PER_S:.0f} ms" if candidate.is_cyclic else "-"
     return (f"{can_id:0{8 if is_extended else 3}X}", place(candidate.field),
             str(candidate.values[LockState.LOCKED]), str(candidate.values[LockState.UNLOCKED]),
-            f"{candidate.followed}/{stays}", lag, cycle, ", ".join([*told, *besides(candidate)]))
+            f"{candidate.followed}/{stays}", lag, cycle, ", ".join(besides(candidate, names)))
 
 
 def place(field: Field) -> str:
@@ -35,8 +33,11 @@ def place(field: Field) -> str:
     return f"{field.byte}.{low}" if field.width == 1 else f"{field.byte}.{low}-{low + field.width - 1}"
 
 
-def besides(candidate: Candidate) -> Iterator[str]:
-    """What else the message holds."""
+def besides(candidate: Candidate, names: DatabaseNames | None = None) -> Iterator[str]:
+    """Its name in a database, and what else the message holds."""
+    named = None if names is None else names.named(candidate)
+    if named is not None:
+        yield f"{named.message} {named.signal}"
     if candidate.counter is not None:
         yield f"counter {place(candidate.counter)}"
     if candidate.changes_counter is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pathlib
+from typing import Callable, Optional
 
 from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
@@ -10,6 +11,9 @@ from PyQt5.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 from ..dialogs import ask_yaml_file
 from ..theme.scale import S
 from .field import Field
+
+# Has the Operator choose a file: parent of the dialog, its title, where it begins.
+Ask = Callable[[QWidget, str, pathlib.Path], Optional[pathlib.Path]]
 
 
 class FileField(QWidget):
@@ -20,9 +24,9 @@ class FileField(QWidget):
 
     changed = pyqtSignal()
 
-    def __init__(self, title: str, without: str, hint: str, parent: QWidget | None = None):
+    def __init__(self, title: str, without: str, hint: str, parent: QWidget | None = None, ask: Ask = ask_yaml_file):
         super().__init__(parent)
-        self._title = title
+        self._title, self._ask = title, ask
         self._path: pathlib.Path | None = None
         self.field = Field(title)
         self.setToolTip(hint)
@@ -66,7 +70,7 @@ class FileField(QWidget):
 
     def _choose(self) -> None:
         start = pathlib.Path.home() if self._path is None else self._path.parent
-        path = ask_yaml_file(self, self._title, start)
+        path = self._ask(self, self._title, start)
         if path is not None:
             self._change(path)
 

@@ -17,21 +17,24 @@ from PyQt5.QtWidgets import (
     QWidget,
 )
 
+from mtr_operator.car_link.learn.database_names import DatabaseNames
 from mtr_operator.car_link.learn.findings import Findings
 from mtr_operator.car_link.learn.learning import Learning
 from mtr_operator.car_link.learn.session import DEFAULT_PROMPTS, Stage
-from mtr_operator.car_link.learn.words import doubts
+from mtr_operator.car_link.learn.words import doubts, unnamed
 from mtr_operator.car_link.learn.written_profile import write_profile
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.station.connection import CanChoice
 
+from ..dialogs import ask_database
 from ..fitting.breaks import breakable
 from ..fitting.place import open_within
 from ..fitting.plain_table import plain_table, show_in
 from ..fitting.scroller import Scroller
 from ..flow import Flow
 from ..forms.field import Field
+from ..forms.file_field import FileField
 from ..sentences import translated
 from ..theme.scale import L, M
 from .adapter_loan import AdapterLoan
@@ -44,8 +47,8 @@ _TABLE_HEIGHT = 160
 
 class LearnWindow(QDialog):
     """Attributes: what: what the person is to do now. act: button that begins, and answers. progress: of the prompts.
-    note: what comes over the bus, and what went wrong. table: what followed. doubt: why that may be wrong. name: of the
-    Car. keep: button that writes the profile.
+    note: what comes over the bus, and what went wrong. table: what followed. doubt: why that may be wrong. database:
+    which names it. name: of the Car. keep: button that writes the profile.
 
     Signals: learned(path): a profile was written.
     """
@@ -61,6 +64,7 @@ class LearnWindow(QDialog):
         self._learning: Learning | None = None
         self._stage = Stage.OPENING
         self._findings: Findings | None = None
+        self._names: DatabaseNames | None = None
         self.what, self.note, self.doubt = QLabel(), QLabel(), QLabel()
         for label, role in ((self.what, "large"), (self.note, "soft"), (self.doubt, "soft")):
             label.setWordWrap(True)
@@ -73,6 +77,8 @@ class LearnWindow(QDialog):
         self.table = self._make_table()
         self.name = Field(self.tr("Name of the Car"),
                           self.tr("Letters, digits, - and _; the profile is kept under it."))
+        self.database = FileField(self.tr("CAN database of the Car"), self.tr("none: the profile gets one of its own"),
+                                  self.tr("Names the message and the signal."), ask=ask_database)
         self.keep = QPushButton(self.tr("Keep the profile"))
         self._timer = QTimer(self)
         self._timer.setInterval(_PERIOD_MS)
@@ -90,7 +96,7 @@ class LearnWindow(QDialog):
     def _lay_out(self) -> None:
         column = QVBoxLayout()
         column.setSpacing(M)
-        for widget in (self.what, self.progress, self.table, self.doubt, self.name, self.note):
+        for widget in (self.what, self.progress, self.table, self.doubt, self.database, self.name, self.note):
             column.addWidget(widget)
         column.addStretch(1)
         close = QPushButton(self.tr("Close"))
@@ -111,6 +117,7 @@ class LearnWindow(QDialog):
     def _connect(self) -> None:
         self.act.clicked.connect(self._act)
         self.keep.clicked.connect(self._keep)
+        self.database.changed.connect(self._name_findings)
         self.name.changed.connect(lambda: self.keep.setEnabled(bool(self.name.text.strip())))
         self._timer.timeout.connect(self._tick)
         self._loan.taken.connect(self._begin)
@@ -122,7 +129,7 @@ class LearnWindow(QDialog):
         self.act.setText(self.tr("Begin"))
         self.act.setVisible(True)
         self.act.setEnabled(True)
-        for widget in (self.progress, self.table, self.doubt, self.name, self.keep):
+        for widget in (self.progress, self.table, self.doubt, self.database, self.name, self.keep):
             widget.hide()
 
     def _act(self) -> None:
@@ -200,17 +207,30 @@ class LearnWindow(QDialog):
             self._show_table(findings)
             return
         self.what.setText(self.tr("The message {id} tells the locks.").format(id=f"{best.id[0]:03X}"))
-        self.doubt.setText(" ".join(map(translated, doubts(findings))))
-        self.doubt.setVisible(bool(self.doubt.text()))
-        self._show_table(findings)
+        self._name_findings()
         self.act.hide()
+        self.database.show()
         self.name.show()
         self.keep.show()
         self.keep.setEnabled(bool(self.name.text.strip()))
         self.name.edit.setFocus()
 
+    def _name_findings(self) -> None:
+        """By the database that is chosen; a file that is none is said at its line."""
+        self._names, fault = None, ""
+        try:
+            self._names = None if self.database.path is None else DatabaseNames(self.database.path)
+        except OperatorError as error:
+            fault = translated(str(error))
+        self.database.show_fault(fault)
+        if self._findings is not None:
+            told = (*doubts(self._findings), unnamed(self._findings, self._names))
+            self.doubt.setText(" ".join(translated(each) for each in told if each))
+            self.doubt.setVisible(bool(self.doubt.text()))
+            self._show_table(self._findings)
+
     def _show_table(self, findings: Findings) -> None:
-        show_in(self.table, CandidateModel(findings, self.table))
+        show_in(self.table, CandidateModel(findings, self.table, self._names))
         self.table.setVisible(bool(findings.candidates))
         self.progress.hide()
 
@@ -220,7 +240,7 @@ class LearnWindow(QDialog):
         path = self._folder / f"{self.name.text.strip()}.yaml"
         try:
             self._folder.mkdir(parents=True, exist_ok=True)
-            write_profile(path, self._findings)
+            write_profile(path, self._findings, self._names)
         except (OperatorError, OSError) as error:
             self.name.show_fault(translated(str(error)))
             return

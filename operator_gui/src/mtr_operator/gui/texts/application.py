@@ -100,6 +100,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Parameter minimum_distance_m is {} m; on the radial of {} degrees that leaves {}"
                                   " m between Remote key and Car, and clearance_m, {} m, has to remain."),
     QT_TRANSLATE_NOOP("Sentence", "The test cannot be continued from {}. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "There is no test in {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is not a progress file of this application."),
     QT_TRANSLATE_NOOP("Sentence", "It is not a progress file of this application, or of a scenario that it does not"
                                   " know."),

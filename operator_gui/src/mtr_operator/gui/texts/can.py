@@ -11,8 +11,11 @@ SENTENCES = (
                                   "{}, or choose normal mode (--can-normal) for a bench of one node."),
     QT_TRANSLATE_NOOP("Sentence", "python-can's driver {} has no CAN FD; use one of {}, or leave the data bit rate out "
                                   "for classic CAN."),
-    QT_TRANSLATE_NOOP("Sentence", "The PCAN adapter {} does not take the order to listen only; use another adapter, or "
-                                  "choose normal mode (--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "The {} does not take the order to listen only; end other programs that use it, take "
+                                  "another adapter, or choose normal mode (--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "python-can's driver {} has no bit rate of {} bit/s; use one of {}."),
+    QT_TRANSLATE_NOOP("Sentence", "python-can's driver ixxat is for Windows with the vendor's VCI; on Linux use the "
+                                  "kernel's interface of the adapter (socketcan)."),
     QT_TRANSLATE_NOOP("Sentence", "Whether the CAN interface {} only listens is not known, for the program ip does not "
                                   "tell; see that it is there and up, install iproute2, or choose normal mode "
                                   "(--can-normal) for a bench of one node."),

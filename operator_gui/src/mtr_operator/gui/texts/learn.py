@@ -17,6 +17,8 @@ SENTENCES = (
                                   "them; more prompts make it surer."),
     QT_TRANSLATE_NOOP("Sentence", "What is proposed also changed when nobody was asked to act; repeat it, and act only "
                                   "when asked."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN database {} has no signal where it was found; the profile gets a database "
+                                  "of its own."),
     QT_TRANSLATE_NOOP("Sentence", "counter {}"),
     QT_TRANSLATE_NOOP("Sentence", "counts changes {}"),
     QT_TRANSLATE_NOOP("Sentence", "check sum in byte {}"),

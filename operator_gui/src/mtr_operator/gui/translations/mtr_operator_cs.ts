@@ -404,42 +404,42 @@
 <context>
     <name>CandidateModel</name>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Identifier</source>
         <translation>Identifikátor</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Byte.bits</source>
         <translation>Bajt.bity</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Locked</source>
         <translation>Zamčeno</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Unlocked</source>
         <translation>Odemčeno</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Followed</source>
         <translation>Odpovídalo</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Later by</source>
         <translation>Později o</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Cycle</source>
         <translation>Perioda</translation>
     </message>
     <message>
-        <location filename="../learn/candidate_model.py" line="40"/>
+        <location filename="../learn/candidate_model.py" line="42"/>
         <source>Besides</source>
         <translation>Dále</translation>
     </message>
@@ -1378,22 +1378,22 @@
 <context>
     <name>FileField</name>
     <message>
-        <location filename="../forms/file_field.py" line="31"/>
+        <location filename="../forms/file_field.py" line="35"/>
         <source>Choose</source>
         <translation>Vybrat</translation>
     </message>
     <message>
-        <location filename="../forms/file_field.py" line="32"/>
+        <location filename="../forms/file_field.py" line="36"/>
         <source>Choose a file: {what}</source>
         <translation>Vybrat soubor: {what}</translation>
     </message>
     <message>
-        <location filename="../forms/file_field.py" line="34"/>
+        <location filename="../forms/file_field.py" line="38"/>
         <source>Without</source>
         <translation>Bez souboru</translation>
     </message>
     <message>
-        <location filename="../forms/file_field.py" line="35"/>
+        <location filename="../forms/file_field.py" line="39"/>
         <source>Without a file: {what}</source>
         <translation>Bez souboru: {what}</translation>
     </message>
@@ -1989,94 +1989,109 @@
 <context>
     <name>LearnWindow</name>
     <message>
-        <location filename="../learn/learn_window.py" line="58"/>
+        <location filename="../learn/learn_window.py" line="61"/>
         <source>Learn a Car</source>
         <translation>Naučit auto</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="122"/>
+        <location filename="../learn/learn_window.py" line="129"/>
         <source>Begin</source>
         <translation>Začít</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="71"/>
+        <location filename="../learn/learn_window.py" line="75"/>
         <source>Prompts that are answered</source>
         <translation>Zodpovězené výzvy</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="74"/>
+        <location filename="../learn/learn_window.py" line="78"/>
         <source>Name of the Car</source>
         <translation>Název auta</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="74"/>
+        <location filename="../learn/learn_window.py" line="78"/>
         <source>Letters, digits, - and _; the profile is kept under it.</source>
         <translation>Písmena, číslice, - a _; profil se pod ním uchová.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="76"/>
+        <location filename="../learn/learn_window.py" line="82"/>
         <source>Keep the profile</source>
         <translation>Uchovat profil</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="86"/>
+        <location filename="../learn/learn_window.py" line="92"/>
         <source>What followed the locks</source>
         <translation>Co odpovídalo zámkům</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="96"/>
+        <location filename="../learn/learn_window.py" line="102"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="120"/>
+        <location filename="../learn/learn_window.py" line="127"/>
         <source>You lock and unlock the Car with its own key {count} times, when you are asked; meanwhile its bus is listened to. Nothing is sent.</source>
         <translation>Na výzvu auto {count}krát zamknete a odemknete jeho vlastním klíčem; přitom se naslouchá jeho sběrnici. Nic se neposílá.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="134"/>
+        <location filename="../learn/learn_window.py" line="141"/>
         <source>The adapter is opened.</source>
         <translation>Otevírá se adaptér.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="167"/>
+        <location filename="../learn/learn_window.py" line="174"/>
         <source>{count} frames so far.</source>
         <translation>Zatím rámců: {count}.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="173"/>
+        <location filename="../learn/learn_window.py" line="180"/>
         <source>It is done</source>
         <translation>Hotovo</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="174"/>
+        <location filename="../learn/learn_window.py" line="181"/>
         <source>{number} of {count}: lock the Car with its own key.</source>
         <translation>{number} z {count}: zamkněte auto jeho vlastním klíčem.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="175"/>
+        <location filename="../learn/learn_window.py" line="182"/>
         <source>{number} of {count}: unlock the Car, all doors.</source>
         <translation>{number} z {count}: odemkněte auto, všechny dveře.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="176"/>
+        <location filename="../learn/learn_window.py" line="183"/>
         <source>Leave the Car alone for a moment.</source>
         <translation>Nechte auto chvíli v klidu.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="187"/>
+        <location filename="../learn/learn_window.py" line="194"/>
         <source>The recording is looked through.</source>
         <translation>Prohlíží se záznam.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="202"/>
+        <location filename="../learn/learn_window.py" line="209"/>
         <source>The message {id} tells the locks.</source>
         <translation>O zámcích vypovídá zpráva {id}.</translation>
     </message>
     <message>
-        <location filename="../learn/learn_window.py" line="227"/>
+        <location filename="../learn/learn_window.py" line="247"/>
         <source>Kept in {path}.</source>
         <translation>Uchováno v {path}.</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="80"/>
+        <source>CAN database of the Car</source>
+        <translation>Databáze CAN auta</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="80"/>
+        <source>none: the profile gets one of its own</source>
+        <translation>žádná: profil dostane vlastní</translation>
+    </message>
+    <message>
+        <location filename="../learn/learn_window.py" line="80"/>
+        <source>Names the message and the signal.</source>
+        <translation>Pojmenuje zprávu a signál.</translation>
     </message>
 </context>
 <context>
@@ -3482,17 +3497,17 @@
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="257"/>
+        <location filename="../screens/protocol.py" line="259"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="275"/>
+        <location filename="../screens/protocol.py" line="277"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="283"/>
+        <location filename="../screens/protocol.py" line="285"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
@@ -3507,7 +3522,7 @@
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="291"/>
+        <location filename="../screens/protocol.py" line="293"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
@@ -3552,17 +3567,17 @@
         <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="262"/>
+        <location filename="../screens/protocol.py" line="264"/>
         <source>The bundle is written: {percent} %.</source>
         <translation>Balíček se zapisuje: {percent} %.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="265"/>
+        <location filename="../screens/protocol.py" line="267"/>
         <source>It is bundle {number} of {station}.</source>
         <translation>Je to balíček {number} stanice {station}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="268"/>
+        <location filename="../screens/protocol.py" line="270"/>
         <source>Left out is {name}: {reason}</source>
         <translation>Chybí {name}: {reason}</translation>
     </message>
@@ -5476,11 +5491,6 @@
     </message>
     <message>
         <location filename="../texts/can.py" line="5"/>
-        <source>The PCAN adapter {} does not take the order to listen only; use another adapter, or choose normal mode (--can-normal) for a bench of one node.</source>
-        <translation>Adaptér PCAN {} nepřijal příkaz jen naslouchat; použijte jiný adaptér, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
-    </message>
-    <message>
-        <location filename="../texts/can.py" line="5"/>
         <source>Whether the CAN interface {} only listens is not known, for the program ip does not tell; see that it is there and up, install iproute2, or choose normal mode (--can-normal) for a bench of one node.</source>
         <translation>Není známo, zda rozhraní CAN {} jen naslouchá, protože program ip to neříká; ověřte, že existuje a je zapnuté, nainstalujte iproute2, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
     </message>
@@ -6778,6 +6788,31 @@
         <location filename="../texts/keeping.py" line="5"/>
         <source>there is no such database or user on the server</source>
         <translation>taková databáze nebo uživatel na serveru není</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>There is no test in {}.</source>
+        <translation>V {} není žádný test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The {} does not take the order to listen only; end other programs that use it, take another adapter, or choose normal mode (--can-normal) for a bench of one node.</source>
+        <translation>{} nepřijal příkaz jen naslouchat; ukončete jiné programy, které jej používají, vezměte jiný adaptér, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>python-can&apos;s driver {} has no bit rate of {} bit/s; use one of {}.</source>
+        <translation>Ovladač {} knihovny python-can nemá přenosovou rychlost {} bit/s; použijte některou z {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>python-can&apos;s driver ixxat is for Windows with the vendor&apos;s VCI; on Linux use the kernel&apos;s interface of the adapter (socketcan).</source>
+        <translation>Ovladač ixxat knihovny python-can je pro Windows s VCI od výrobce; v Linuxu použijte rozhraní jádra pro tento adaptér (socketcan).</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>The CAN database {} has no signal where it was found; the profile gets a database of its own.</source>
+        <translation>Databáze CAN {} tam, kde se stav našel, nemá signál; profil dostane vlastní databázi.</translation>
     </message>
     <message>
         <location filename="../sentences.py" line="54"/>
