@@ -164,7 +164,7 @@ bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memo
 	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" env QT_QPA_PLATFORM=xcb \
 		python -m mtr_benchmarks.gui --out out/bench
 
-bench-can: setup build ## The Car's bus at full load, learning, replay; figures in out/bench/can.json; CAN_OPTIONS=--short
+bench-can: setup build ## The Car's bus at full load, learning, replay; figures in out/bench/can.json; CAN_OPTIONS=--short or "--traffic LOGS"
 	@$(RUN) OPENBLAS_NUM_THREADS=1 python -m mtr_benchmarks.can_bus --out out/bench $(CAN_OPTIONS)
 
 bench-faults: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/faults.json

@@ -1,6 +1,7 @@
 """The benchmark of the Car's bus: what is lost is counted, what could not be filled is not met."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import random
 
 import pytest
 
@@ -8,6 +9,7 @@ from mtr_benchmarks.can_bus.__main__ import report
 from mtr_benchmarks.can_bus.learning import is_found
 from mtr_benchmarks.can_bus.listening import Listened, on_terminal, on_virtual_bus
 from mtr_benchmarks.can_bus.replaying import Replayed, replayed_autolock
+from mtr_benchmarks.can_bus.traffic import recorded_traffic
 from mtr_benchmarks.harness.report import finish
 from mtr_benchmarks.harness.rows import all_met
 
@@ -36,14 +38,48 @@ def test_table_is_met_by_a_good_link_alone(tmp_path):
     assert finish(good, tmp_path / "can.json") == 0
     names = [row["name"] for row in json.loads((tmp_path / "can.json").read_text())["table"]]
     assert names[0] == "frames lost: a bus" and len(names) == 6
+    in_cars = report([GOOD], [True], replayed, [True] * 95 + [False] * 5)
+    assert all_met(in_cars.rows) and len(in_cars.rows) == 7 and in_cars.figures["missed_seeds_recorded"][0] == 95
     for bad in (report([Listened("a bus", 1000, 1000, 999, 1.0, 0.3, [0.001])], [True], replayed),
                 report([Listened("a bus", 1000, 1000, 1000, 0.9, 0.3, [0.001])], [True], replayed),
                 report([Listened("a bus", 1000, 1000, 1000, 1.0, 0.3, [0.02] * 9)], [True], replayed),
                 report([GOOD], [True] * 94 + [False] * 6, replayed), report([GOOD], [True], Replayed(2e-4, 16)),
-                report([GOOD], [True], Replayed(0.0, 2)), report([GOOD], [], replayed)):
+                report([GOOD], [True], Replayed(0.0, 2)), report([GOOD], [], replayed),
+                report([GOOD], [True], replayed, [True] * 9 + [False])):
         assert not all_met(bad.rows)
 
 
 def test_signal_that_is_hidden_among_few_messages_is_found(monkeypatch):
     monkeypatch.setattr("mtr_benchmarks.can_bus.learning._FRAMES_PER_S", 300.0)
     assert [is_found(seed, prompts=10) for seed in range(3)].count(True) == 3
+
+
+@pytest.fixture(name="log")
+def log_fixture(tmp_path):
+    """Four messages of a car for two seconds: a counter, a still one, an extended one, one with a check sum."""
+    lines = []
+    for number in range(200):
+        stamp = f"({1000.0 + 0.01 * number:.6f}) can0"
+        lines += [f"{stamp} 123#{number % 256:02X}{number % 16:02X}", f"{stamp} 1A0#00FF00", f"{stamp} 12345678#0102"]
+        lines += [f"{stamp} 2B0#{number // 7:02X}00{number // 7 ^ 0x5A:02X}"]
+    path = tmp_path / "car.log"
+    path.write_text("\n".join(lines) + "\n")
+    return path
+
+
+def test_recorded_traffic_is_repeated_until_the_bus_is_full(log):
+    messages = list(recorded_traffic(log, random.Random(1), 1000.0))
+    assert sum(1.0 / each.cycle_s for each in messages) == pytest.approx(1000.0, rel=0.15)
+    assert len({(each.can_id, each.is_extended) for each in messages}) == len(messages) > 8
+    first = next(each for each in messages if each.can_id == 0x123)
+    times_s, counts = [], []
+    for _ in range(450):
+        times_s.append(first.due_s)
+        counts.append(first.frame(first.due_s).data[0])
+    assert times_s == sorted(times_s) and times_s[-1] == pytest.approx(4.5, abs=0.1)
+    assert counts[:200] == list(range(200)) and counts[200] == 0
+
+
+def test_signal_that_is_hidden_in_recorded_traffic_is_found(log, monkeypatch):
+    monkeypatch.setattr("mtr_benchmarks.can_bus.learning._FRAMES_PER_S", 1000.0)
+    assert [is_found(seed, log=log) for seed in range(3)].count(True) == 3

@@ -1,6 +1,6 @@
 """Runs the benchmark of the link to the Car's bus; figures go to can.json.
 
-Usage: python -m mtr_benchmarks.can_bus --out out/bench [--seconds 60] [--placements 100] [--short]
+Usage: python -m mtr_benchmarks.can_bus --out out/bench [--seconds 60] [--placements 100] [--short] [--traffic LOG ...]
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -20,6 +20,8 @@ LATENCY = "change sent to judged, 99 %: {}"
 CORES = "processor of the link, of one core: {}"
 MAX_LATENCY_MS = 5.0
 FOUND = Requirement("learn: the hidden signal is proposed first", "(share)", must=0.95, at_least=True)
+FOUND_RECORDED = Requirement("learn in recorded traffic: the hidden signal is proposed first", "(share)", must=0.95,
+                             at_least=True)
 REPLAY = Requirement("replay: largest difference of a distance", "mm", must=0.1)
 DISTANCES = Requirement("replay: distances that are compared", "(count)", must=10, at_least=True)
 # A bus that this computer could not fill proves nothing.
@@ -35,6 +37,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--seconds", type=float, default=60.0, help="of full load on each bus, default %(default)s")
     parser.add_argument("--placements", type=int, default=100, help="of the signal to learn, default %(default)s")
     parser.add_argument("--short", action="store_true", help=f"{_SHORT_S:g} s and {_SHORT_PLACEMENTS} placements")
+    parser.add_argument("--traffic", type=pathlib.Path, nargs="*", default=[], metavar="LOG",
+                        help="logs of cars, in which the signal is hidden, too")
     options = parser.parse_args(arguments)
     seconds = _SHORT_S if options.short else options.seconds
     placements = _SHORT_PLACEMENTS if options.short else options.placements
@@ -43,19 +47,28 @@ def main(arguments: Optional[List[str]] = None) -> int:
         listened = [on_virtual_bus(folder, seconds, False), on_virtual_bus(folder, seconds, True),
                     on_terminal(folder, seconds)]
         found = [is_found(seed) for seed in range(placements)]
+        recorded = [is_found(seed, log=options.traffic[seed % len(options.traffic)])
+                    for seed in range(placements if options.traffic else 0)]
         replayed = replayed_autolock(folder)
-    return finish(report(listened, found, replayed), options.out / "can.json")
+    return finish(report(listened, found, replayed, recorded), options.out / "can.json")
 
 
-def report(listened: Sequence[Listened], found: Sequence[bool], replayed: Replayed) -> BenchmarkReport:
-    """Rows of the table."""
+def report(listened: Sequence[Listened], found: Sequence[bool], replayed: Replayed,
+           recorded: Sequence[bool] = ()) -> BenchmarkReport:
+    """Rows of the table. recorded: placements in the traffic of cars; without them they have no row."""
     rows = [row for each in listened for row in _rows(each)]
-    rows.append(Row(FOUND, sum(found) / len(found) if found else None, details={"placements": float(len(found))}))
+    rows.append(_found(FOUND, found))
+    rows += [_found(FOUND_RECORDED, recorded)] if recorded else []
     rows += [Row(REPLAY, _MM_PER_M * replayed.worst_m), Row(DISTANCES, float(replayed.distances))]
     return BenchmarkReport(
         rows, {"missed_seeds": [seed for seed, each in enumerate(found) if not each],
+               "missed_seeds_recorded": [seed for seed, each in enumerate(recorded) if not each],
                "latency_median_ms": {each.name: each.latency_ms(50.0) for each in listened}},
         ["The sender runs on the same computer; other work on it lengthens the latencies."])
+
+
+def _found(requirement: Requirement, found: Sequence[bool]) -> Row:
+    return Row(requirement, sum(found) / len(found) if found else None, details={"placements": float(len(found))})
 
 
 def _rows(found: Listened) -> Iterator[Row]:
