@@ -16,6 +16,8 @@ from .slcan import FLAG_BUS_ERROR, FLAG_ERROR_PASSIVE, StampedSlcanBus
 LOOK_PERIOD_S = 0.2
 BUS_OFF = ("The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and "
            "termination.")
+REFUSES = ("The CAN adapter does not take the order to listen only (L of slcan), and stays closed; use another adapter "
+           "or firmware, or choose normal mode (--can-normal) for a bench of one node.")
 PASSIVE = "The CAN adapter is error-passive; check bit rate, plug and termination."
 # PCAN-Basic's words, python-can's can.interfaces.pcan.basic.
 _PCAN_OVERRUN, _PCAN_BUS_OFF, _PCAN_QUEUE_OVERRUN, _PCAN_PASSIVE = 0x02, 0x10, 0x40, 0x40000
@@ -100,6 +102,8 @@ def _slcan(bus: Any) -> _State | None:
     if not isinstance(bus, StampedSlcanBus):
         return None
     bus.request_flags()
+    if bus.refuses:
+        return _State(REFUSES, bus.overruns)
     flags = bus.flags
     return _State(BUS_OFF if flags & FLAG_BUS_ERROR else PASSIVE if flags & FLAG_ERROR_PASSIVE else "", bus.overruns)
 

@@ -3,6 +3,10 @@
 With Z1 such an adapter adds four hexadecimal digits to each frame: milliseconds, starting again each minute (Lawicel
 CAN232 manual). The driver also reads byte by byte; at the frame rates of an accelerated simulation that costs a
 processor core, so whole blocks are read here.
+
+To only listen is `L` by that manual. The firmware of the CANable (canable-fw, and cantact-fw before it) does not know
+it, answers to nothing but V, and listens when M1 came before O; an adapter by the manual refuses M1, for there M sets
+a filter of eight digits.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -16,7 +20,10 @@ import serial
 from can.exceptions import error_check
 from can.interfaces.slcan import slcanBus
 
+# What the CANable says to V: its version, and where its source lies.
+_CANABLE = re.compile(r"can(able|tact)", re.IGNORECASE)
 _LINE_END = re.compile(rb"[\r\a]")
+_REFUSED = "\a"
 _MAX_LINE = 512
 _SERIAL_TIMEOUT_S = 0.05
 _MAX_CLASSIC_DATA = 8
@@ -44,6 +51,7 @@ class StampedSlcanBus(slcanBus):
         flags: newest answer to request_flags(), 0 before the first.
         overruns: answers that told of lost frames.
         answers: lines that make sense as slcan; malformed: lines that do not.
+        refuses: the adapter does not take the order to only listen.
     """
 
     def __init__(self, channel: str, data_bitrate: int | None = None, **options: Any):
@@ -53,6 +61,9 @@ class StampedSlcanBus(slcanBus):
         self.flags = self.overruns = 0
         self.answers = 0
         self.malformed = 0
+        self.refuses = False
+        # Of the order before: None when there was no answer.
+        self._is_refused: bool | None = None
         super().__init__(channel, timeout=_SERIAL_TIMEOUT_S, **{"sleep_after_open": 0.0, **options})
 
     def set_bitrate(self, bitrate: int, data_bitrate: int | None = None) -> None:
@@ -67,7 +78,10 @@ class StampedSlcanBus(slcanBus):
         """Open the channel with time stamps; an adapter without them refuses Z1 and opens all the same."""
         self.close()
         self._write("Z1")
+        # An order of before lasts over opening and closing.
+        self._write("M1" if self._listen_only else "M0")
         super().open()
+        self._write("V")
 
     def request_flags(self) -> None:
         """Ask for the controller's state."""
@@ -93,6 +107,10 @@ class StampedSlcanBus(slcanBus):
         line = self._read(timeout)
         if line is None:
             return None, False
+        # No line of digits has that letter; a version may begin as a frame does.
+        if "n" in line.lower() and _CANABLE.search(line):
+            self._take_canable()
+            return None, False
         if line[0] not in _HEAD:
             self._take_answer(line)
             return None, False
@@ -106,6 +124,17 @@ class StampedSlcanBus(slcanBus):
         self.answers += 1
         return received
 
+    def _take_canable(self) -> None:
+        """Without a word it has taken M1, and left L alone: now it may be opened."""
+        self.answers += 1
+        if self._listen_only and self._is_refused is None:
+            self._write("O")
+        self._look_at_order()
+
+    def _look_at_order(self) -> None:
+        """V is answered: what came last before it is the answer to the order to listen."""
+        self.refuses = self._listen_only and self._is_refused is True
+
     def _take_answer(self, line: str) -> None:
         if re.fullmatch(r"F[0-9A-Fa-f]{2}\r", line):
             self.flags = int(line[1:3], 16)
@@ -113,6 +142,10 @@ class StampedSlcanBus(slcanBus):
         elif not re.fullmatch(r"(z|Z|[VvN][0-9A-Za-z]*)?[\r\a]", line):
             self.malformed += 1
             return
+        elif line[0] == "V":
+            self._look_at_order()
+        elif len(line) == 1:
+            self._is_refused = line == _REFUSED
         self.answers += 1
 
 

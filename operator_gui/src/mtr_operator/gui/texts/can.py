@@ -13,6 +13,9 @@ SENTENCES = (
                                   "for classic CAN."),
     QT_TRANSLATE_NOOP("Sentence", "The {} does not take the order to listen only; end other programs that use it, take "
                                   "another adapter, or choose normal mode (--can-normal) for a bench of one node."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN adapter does not take the order to listen only (L of slcan), and stays "
+                                  "closed; use another adapter or firmware, or choose normal mode (--can-normal) for "
+                                  "a bench of one node."),
     QT_TRANSLATE_NOOP("Sentence", "python-can's driver {} has no bit rate of {} bit/s; use one of {}."),
     QT_TRANSLATE_NOOP("Sentence", "python-can's driver ixxat is for Windows with the vendor's VCI; on Linux use the "
                                   "kernel's interface of the adapter (socketcan)."),

@@ -6815,6 +6815,11 @@
         <translation>Databáze CAN {} tam, kde se stav našel, nemá signál; profil dostane vlastní databázi.</translation>
     </message>
     <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN adapter does not take the order to listen only (L of slcan), and stays closed; use another adapter or firmware, or choose normal mode (--can-normal) for a bench of one node.</source>
+        <translation>Adaptér CAN nepřijal příkaz jen naslouchat (L protokolu slcan) a zůstává zavřený; použijte jiný adaptér nebo firmware, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
+    </message>
+    <message>
         <location filename="../sentences.py" line="54"/>
         <source>“{title}”</source>
         <translation>„{title}“</translation>
