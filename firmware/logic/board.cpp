@@ -43,7 +43,7 @@ void Board::start() {
 void Board::step() {
   now_us_ = hal::clock_us();
   const uint32_t began_us = now_us_;
-  uint8_t byte;
+  uint8_t byte = 0;
   for (uint8_t i = 0; i < kBytesPerPass && hal::uart_take(&byte); ++i) {
     client_.receive(byte, now_us_);
   }
@@ -54,7 +54,7 @@ void Board::step() {
   for (uint8_t ticks = hal::take_ticks(); ticks > 0; --ticks) {
     tick();
   }
-  uint32_t period_us;
+  uint32_t period_us = 0;
   if (hal::servo_turn(&period_us)) {
     presses_.step(period_us);
     for (uint8_t servo = 0; servo < kServoCount; ++servo) {

@@ -37,7 +37,7 @@ class Memory {
   void load_resets();
   void put_calibration();
 
-  uint8_t image_[kImageBytes];
+  uint8_t image_[kImageBytes] = {};
   Calibration calibration_;
   uint16_t resets_ = 0;
   uint8_t copies_ = 0;

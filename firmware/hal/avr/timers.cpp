@@ -30,7 +30,7 @@ struct Instant {
 };
 
 Instant now() {
-  Instant instant;
+  Instant instant{};
   ATOMIC_BLOCK(ATOMIC_RESTORESTATE) {
     instant.period_us = period_start_us;
     instant.ticks = TCNT1;

@@ -6,7 +6,7 @@
 namespace mtr {
 
 bool StallDetector::step(int16_t drive, int32_t position) {
-  const int8_t direction = drive > 0 ? 1 : drive < 0 ? -1 : 0;
+  const auto direction = static_cast<int8_t>(drive > 0 ? 1 : drive < 0 ? -1 : 0);
   const bool moved = (position - anchor_) * direction >= least_way_;
   if (direction == 0 || direction != direction_ || moved) {
     progressed_ = direction != 0 && direction == direction_;

@@ -49,7 +49,7 @@ class FrameReader {
   Handler handler_;
   void* context_;
   Counters* counters_;
-  uint8_t buffer_[kLongestPayload + kFrameOverheadBytes];
+  uint8_t buffer_[kLongestPayload + kFrameOverheadBytes] = {};
   uint8_t size_ = 0;
 };
 

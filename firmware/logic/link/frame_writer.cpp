@@ -42,7 +42,7 @@ void FrameWriter::u32(uint32_t value) {
 }
 
 void FrameWriter::f32(float value) {
-  uint32_t bits;
+  uint32_t bits = 0;
   static_assert(sizeof bits == sizeof value, "ROS float32");
   memcpy(&bits, &value, sizeof bits);
   u32(bits);

@@ -37,7 +37,7 @@ class Reader {
   }
   float f32() {
     const uint32_t bits = u32();
-    float value;
+    float value = 0.0f;
     memcpy(&value, &bits, sizeof value);
     return value;
   }

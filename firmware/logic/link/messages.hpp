@@ -12,27 +12,27 @@ namespace mtr {
 
 /// mtr_msgs/FirmwareCommand
 struct Command {
-  uint32_t seq;
-  float lift_height_m;
-  uint8_t led_pattern;
-  uint8_t stop;
-  uint32_t latest_us;
+  uint32_t seq = 0;
+  float lift_height_m = 0.0f;
+  uint8_t led_pattern = 0;
+  uint8_t stop = 0;
+  uint32_t latest_us = 0;
 };
 
 /// mtr_msgs/FirmwarePress
 struct Press {
-  uint32_t id;
-  uint8_t servos;
-  float strength;
-  uint16_t hold_ms;
-  uint32_t latest_us;
+  uint32_t id = 0;
+  uint8_t servos = 0;
+  float strength = 0.0f;
+  uint16_t hold_ms = 0;
+  uint32_t latest_us = 0;
 };
 
 /// mtr_msgs/FirmwareCalibrate
 struct Calibrate {
-  uint32_t id;
-  float stroke_m;
-  uint32_t latest_us;
+  uint32_t id = 0;
+  float stroke_m = 0.0f;
+  uint32_t latest_us = 0;
 };
 
 enum class PressState : uint8_t { kNone = 0, kPressing = 1, kDone = 2, kRefused = 3, kCutShort = 4 };
@@ -50,28 +50,28 @@ struct PressReport {
 
 /// mtr_msgs/FirmwareState
 struct State {
-  uint32_t time_us;
-  float lift_height_m;
-  uint16_t servo_us[kServoCount];
+  uint32_t time_us = 0;
+  float lift_height_m = 0.0f;
+  uint16_t servo_us[kServoCount]{};
   PressReport press;
-  uint8_t led_pattern;
-  Fault fault;
-  LiftState lift_state;
-  uint32_t calibration_id;
-  CalibrationState calibration_state;
+  uint8_t led_pattern = 0;
+  Fault fault = Fault::kNone;
+  LiftState lift_state = LiftState::kStill;
+  uint32_t calibration_id = 0;
+  CalibrationState calibration_state = CalibrationState::kNone;
 };
 
 /// mtr_msgs/FirmwareHealth
 struct Health {
-  uint8_t reset_cause;
-  uint16_t resets;
-  uint16_t uart_overruns;
-  uint16_t dropped_bytes;
+  uint8_t reset_cause = 0;
+  uint16_t resets = 0;
+  uint16_t uart_overruns = 0;
+  uint16_t dropped_bytes = 0;
   Counters counters;
-  uint32_t worst_loop_us;
-  uint16_t free_ram;
-  uint8_t calibration_copies;
-  uint16_t stroke_mm;
+  uint32_t worst_loop_us = 0;
+  uint16_t free_ram = 0;
+  uint8_t calibration_copies = 0;
+  uint16_t stroke_mm = 0;
 };
 
 /// Reads a payload; false when its CRC or its length is wrong.
