@@ -1,6 +1,7 @@
 """The sockets of the link on the loopback interface."""
 # SPDX-License-Identifier: Apache-2.0
 import socket
+import sys
 import time
 
 import pytest
@@ -8,11 +9,13 @@ import zmq
 
 from mtr_core.errors import ConfigurationError
 from mtr_dispatcher.command_codec import MAX_MESSAGE_BYTES
-from mtr_dispatcher.link_server import LinkError, LinkServer, Ports
+from mtr_dispatcher.link_server import THREAD_TURN_S, LinkError, LinkServer, Ports
 from mtr_dispatcher.parameters import Parameters
 
 RECEIVE_LIMIT_S = 5.0
 BEFORE = b"before"
+# sys.getswitchinterval
+PYTHONS_OWN_S = 0.005
 
 
 def free_ports():
@@ -50,6 +53,16 @@ def sent(link, *frames):
 
 def test_message_arrives(link):
     assert sent(link, b"hello") == [b"hello"]
+
+
+def test_threads_of_the_link_take_shorter_turns_than_pythons_own():
+    chosen_s = sys.getswitchinterval()
+    sys.setswitchinterval(PYTHONS_OWN_S)
+    try:
+        LinkServer(Ports("127.0.0.1", *free_ports())).close()
+        assert sys.getswitchinterval() == pytest.approx(THREAD_TURN_S, rel=0.01) and THREAD_TURN_S < PYTHONS_OWN_S
+    finally:
+        sys.setswitchinterval(chosen_s)
 
 
 def test_largest_message_arrives(link):
