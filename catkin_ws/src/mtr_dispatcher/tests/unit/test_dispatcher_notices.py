@@ -48,6 +48,15 @@ def test_operator_reads_which_sensor_stops_the_wheels(code, is_told):
     assert notices.get("drive_control") == ("Why." if is_told else None)
 
 
+@pytest.mark.parametrize("code", ["drive_control.lock_silent", "drive_control.waiting_for_lock"])
+@pytest.mark.parametrize("owner, is_told", [("graph_watch", True), ("other", True), ("state_machine", False)])
+def test_silent_owner_of_a_motion_lock_is_told_unless_it_is_missed_by_name(code, owner, is_told):
+    silent = ProblemMessage(code=code, text="Silent.", names=["owner"], values=[owner])
+    drive = DriveStatus(message="Silent.", problems=[silent])
+    codes = {notice.code for notice in Link().status(drive=drive).notifications}
+    assert ("drive_control" in codes) is is_told
+
+
 @pytest.mark.parametrize("parameter", [None, [], "text", 7, {}])
 def test_what_anybody_has_set_on_the_master_is_no_failure_of_a_node(parameter):
     master = MasterWatch(lambda _: parameter)

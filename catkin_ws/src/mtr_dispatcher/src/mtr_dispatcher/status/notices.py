@@ -23,6 +23,9 @@ MAX_FOREIGN = 16
 PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
     "waiting_for_lidar", "waiting_for_odometry", "lidar_", "odometry_", "imu_", "base_", "wheels_slip",
     "second_publisher"))
+# Of a motion lock whose owner is silent; these two are missed by name.
+SILENT_LOCKS = ("drive_control.lock_silent", "drive_control.waiting_for_lock")
+MISSED_OTHERWISE = ("dispatcher", "state_machine")
 
 
 class Notice(NamedTuple):
@@ -107,9 +110,10 @@ def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
 
 
 def _drive_notices(fresh: Inputs) -> Iterator[Notice]:
-    """What stops the wheels and nobody else tells: sensors and the base themselves."""
+    """What stops the wheels and nobody else tells: sensors and the base themselves, and who is silent."""
     problem = problem_of(fresh.drive.problems, fresh.drive.message) if fresh.drive is not None else NO_PROBLEM
-    if problem.code.startswith(PARTS_OF_DRIVE):
+    is_missed = problem.code in SILENT_LOCKS and dict(problem.arguments).get("owner") not in MISSED_OTHERWISE
+    if problem.code.startswith(PARTS_OF_DRIVE) or is_missed:
         yield Notice("drive_control", ERROR, problem)
 
 
