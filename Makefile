@@ -6,7 +6,7 @@ SHELL := /bin/bash
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
 	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
-	bench-truth red-team sanitize bench-link bench-real bench-results bench-campaign browser-test bench-faults bench-can gazebo try-cars firmware flash bare-root noetic-root \
+	bench-truth red-team sanitize bench-link bench-real bench-results bench-campaign browser-test bench-faults fault-matrix soak bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
 SEED ?= 1
@@ -167,8 +167,19 @@ bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memo
 bench-can: setup build ## The Car's bus at full load, learning, replay; figures in out/bench/can.json; CAN_OPTIONS=--short or "--traffic LOGS"
 	@$(RUN) OPENBLAS_NUM_THREADS=1 python -m mtr_benchmarks.can_bus --out out/bench $(CAN_OPTIONS)
 
-bench-faults: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/faults.json
-	@$(RUN) python -m mtr_benchmarks.faults --seed $(SEED) --out out/bench
+# Parts: matrix soak fuzz kills link and two more; MATRIX_OPTIONS of the matrix alone: --only PATTERN, --robots, --short.
+PROOFS ?=
+MATRIX_OPTIONS ?=
+bench-faults: setup build ## Matrix, an hour of soak, fuzz, kills and the link's cost, one table; figures in out/bench/faults.json; PROOFS="matrix soak"
+	@mkdir -p out/bench
+	@$(RUN) python -m mtr_benchmarks.faults.proofs --seed $(SEED) --out out/bench $(if $(PROOFS),--only $(PROOFS))
+
+fault-matrix: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/matrix/faults.json
+	@$(RUN) python -m mtr_benchmarks.faults --seed $(SEED) --out out/bench/matrix $(MATRIX_OPTIONS)
+
+HOURS ?= 8
+soak: setup build ## Hours of the robot's time with faults sprinkled in: does anything grow? figures in out/bench/soak.json; HOURS=8
+	@$(RUN) python -m mtr_benchmarks.soak --hours $(HOURS) --seed $(SEED) --out out/bench
 
 bench-link: setup build ## What encryption costs a Command on its way to the dispatcher; figures in out/bench/link.json
 	@$(RUN) python -m mtr_benchmarks.link --out out/bench

@@ -1,5 +1,7 @@
 """How an outcome of the matrix of states and faults is judged."""
 # SPDX-License-Identifier: Apache-2.0
+import importlib.util
+import pathlib
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -9,6 +11,7 @@ from mtr_benchmarks.faults.judge import (
     CarSeen,
     Outcome,
     Seen,
+    has_stood,
     invalid_because,
     modes_during,
     standstill_s,
@@ -17,6 +20,7 @@ from mtr_benchmarks.faults.judge import (
 )
 from mtr_benchmarks.faults.matrix import (
     ANY_REASON,
+    FILES,
     GOES_ON,
     HELD,
     LOST,
@@ -25,11 +29,14 @@ from mtr_benchmarks.faults.matrix import (
     Cell,
     Expected,
     Matrix,
+    read_matrix,
     table,
 )
+from mtr_benchmarks.faults.proofs import LANES, Proof, Ran, run, together
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Interventions, Mode, Notification, Problem
 
+TOP = pathlib.Path(__file__).resolve().parents[5]
 UNTOUCHED = Interventions()
 MUST = Expected(stands_s=0.7, told="drive_control.imu_frozen", told_s=1.0, mode="fault", then=HELD, record="lock")
 CELL = Cell("driving", "imu", "stuck", 1.0, 0.0, False, MUST)
@@ -47,6 +54,13 @@ def status(stamp_s, *codes, interventions=UNTOUCHED, pose_valid=True, mode=Mode.
     ([(1.0, 0.5), (1.5, 0.0), (2.0, 0.3)], None), ([], None)])
 def test_standstill_lasts_until_the_end_of_the_fault(speeds, stood_s):
     assert standstill_s(speeds, 1.0, 2.0) == pytest.approx(stood_s)
+
+
+@pytest.mark.parametrize("speeds, stood", [
+    ([(0.0, 0.5), (1.0, 0.0), (2.0, 0.01)], True), ([(0.0, 0.5), (1.0, 0.3), (2.0, 0.0)], False),
+    ([(1.0, 0.0), (2.0, 0.0)], False), ([], False)])
+def test_who_waits_has_stood_for_a_while(speeds, stood):
+    assert has_stood(speeds, 1.5) is stood
 
 
 def test_only_what_is_new_is_told_by_its_first_status():
@@ -81,6 +95,28 @@ def test_cell_that_does_what_it_must_is_right():
     assert wrong(CELL, SEEN) == []
 
 
+def test_of_several_states_and_ends_one_will_do_and_no_other():
+    cell = replace(CELL, expected=replace(MUST, mode="fault or unheard", then="goes on or held",
+                                          told="drive_control.imu_silent or drive_control.imu_frozen"))
+    assert wrong(cell, SEEN) == [] and wrong(cell, replace(SEEN, modes=["unheard"], then=GOES_ON)) == []
+    assert len(wrong(cell, replace(SEEN, modes=["mapping_car"], then=LOST, told_s={"dispatcher.expired": 0.1}))) == 3
+
+
+def test_state_has_its_own_mode_beside_others(tmp_path):
+    for name in FILES:
+        (tmp_path / f"{name}.yaml").write_text("faults: []", encoding="utf-8")
+    (tmp_path / "link.yaml").write_text("""
+robot: paced
+faults:
+- {faults: [link_commands slow, link_commands off], for_s: 1, expect: {stands_s: null, told: "", told_s: 1.0,
+   mode: own or unknown, then: held}, in: {mapping: {}, lifting: {then: goes on}}}""", encoding="utf-8")
+    cells = read_matrix(tmp_path).cells
+    assert [(cell.state, cell.amount, cell.robot) for cell in cells] == [
+        ("mapping", 0.5, PACED), ("lifting", 0.5, PACED), ("mapping", 0.0, PACED), ("lifting", 0.0, PACED)]
+    assert [cell.expected.mode for cell in cells[:2]] == ["mapping_car or unknown", "following_waypoint or unknown"]
+    assert [cell.expected.then for cell in cells[:2]] == [HELD, GOES_ON]
+
+
 @pytest.mark.parametrize("change, words", [
     ({"stood_s": None}, "stands after None"), ({"stood_s": 0.8}, "stands after 0.8 s"), ({"told_s": {}}, "told after"),
     ({"told_s": {"drive_control.imu_frozen": 1.1}}, "told after 1.1 s"),
@@ -96,13 +132,13 @@ def test_both_times_count_from_the_limit_up_to_which_the_fault_is_none():
     seen = replace(SEEN, stood_s=1.0, told_s={"drive_control.imu_frozen": 1.3})
     assert wrong(later, seen) == [] and len(wrong(CELL, seen)) == 2
     assert len(wrong(later, replace(seen, stood_s=1.1))) == 1
-    assert "0.3 + 0.7 s" in table(Matrix({}, (later,)))[2]
+    assert "0.3 + 0.7 s" in table(Matrix((later,)))[2]
 
 
 def test_where_any_reason_will_do_there_must_be_one():
     cell = replace(CELL, expected=replace(MUST, record=ANY_REASON))
     assert wrong(cell, SEEN) == [] and len(wrong(cell, replace(SEEN, record=""))) == 1
-    assert table(Matrix({}, (cell,)))[2].endswith("| invalid |")
+    assert table(Matrix((cell,)))[2].endswith("| invalid |")
 
 
 @pytest.mark.parametrize("lift_stood_s, is_right", [(0.8, True), (0.81, False), (None, False)])
@@ -110,7 +146,7 @@ def test_lift_has_a_time_of_its_own(lift_stood_s, is_right):
     cell = replace(CELL, expected=replace(MUST, lift_s=0.5, limit_s=0.3))
     found = wrong(cell, replace(SEEN, lift_stood_s=lift_stood_s))
     assert found == [] if is_right else "lift stands after" in found[0]
-    assert "| 0.3 + 0.5 s |" in table(Matrix({}, (cell,)))[2]
+    assert "| 0.3 + 0.5 s |" in table(Matrix((cell,)))[2]
 
 
 def test_robot_that_may_drive_on_must_not_stand_and_a_line_is_judged_only_where_there_is_one():
@@ -121,14 +157,14 @@ def test_robot_that_may_drive_on_must_not_stand_and_a_line_is_judged_only_where_
 
 def test_cells_from_which_the_robot_does_not_come_back_are_last_and_the_table_has_all():
     lost = replace(CELL, part="odometry", expected=replace(MUST, then=LOST))
-    matrix = Matrix({"driving": "drives"}, (lost, CELL, replace(CELL, state="ready", is_short=True)))
+    matrix = Matrix((lost, CELL, replace(CELL, state="ready", is_short=True)))
     assert matrix.of("driving") == [CELL, lost] and matrix.of("driving", only_short=True) == []
     assert len(table(matrix)) == 2 + 3 and "imu stuck, 1 s" in table(matrix)[3]
 
 
 def test_cells_of_a_kind_of_robot_are_run_together_in_the_order_of_the_states():
     ready, paced = replace(CELL, state="ready"), replace(CELL, robot=PACED)
-    matrix = Matrix({"ready": "stands", "driving": "drives"}, (CELL, paced, ready))
+    matrix = Matrix((CELL, paced, ready))
     assert matrix.courses() == [[ready, CELL], [paced]]
     assert matrix.courses(only="ready") == [[ready]] and matrix.courses(only_short=True) == []
 
@@ -136,3 +172,25 @@ def test_cells_of_a_kind_of_robot_are_run_together_in_the_order_of_the_states():
 def test_faults_of_two_amounts_have_two_names():
     names = {replace(CELL, amount=amount).name for amount in (0.0, 0.5)}
     assert names == {"imu stuck while driving", "imu stuck by 0.5 s while driving"}
+
+
+def test_tables_of_all_proofs_become_one_and_one_without_a_table_is_not_met():
+    good = {"table": [{"name": "crashes", "unit": "(count)", "value": 0, "is_met": True}], "cases": 5}
+    bad = {"table": [{"name": "slope", "unit": "MiB", "value": 2.0, "met": False}]}
+    proofs = [Proof(name, f"{name}.json", ()) for name in ("fuzz", "soak", "kills")]
+    found = together([Ran(proofs[0], 0, 60.0, good), Ran(proofs[1], 1, 5.0, bad), Ran(proofs[2], -9, 1.0, None)])
+    assert {row["name"]: row["met"] for row in found["table"]} == {
+        "fuzz: crashes": True, "fuzz: came to its end": True, "soak: slope": False, "soak: came to its end": True,
+        "kills: came to its end": False}
+    assert found["proofs"]["fuzz"]["cases"] == 5 and found["proofs"]["soak"]["took_s"] == 5.0
+
+
+def test_proof_that_leaves_nothing_is_no_table_of_the_run_before(tmp_path):
+    (tmp_path / "x.json").write_text('{"table": []}', encoding="utf-8")
+    assert run(Proof("x", "x.json", ("-c", "raise SystemExit(3)")), tmp_path, 1).document is None
+
+
+def test_programs_of_the_proofs_are_there():
+    for proof in (proof for lane in LANES for proof in lane):
+        first, *others = proof.command
+        assert (TOP / first).is_file() if first != "-m" else importlib.util.find_spec(f"{others[0]}.__main__")

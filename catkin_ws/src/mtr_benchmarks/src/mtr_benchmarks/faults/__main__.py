@@ -15,7 +15,9 @@ from typing import Dict, List, Optional
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .campaign import Found, one_robot
+from .judge import first_told_s
 from .matrix import read_matrix, table
+from .robots import ROBOTS
 
 FAILED = Requirement("cells of the matrix that do something else than it says", "(count)", must=0.0)
 # From the fault, or from the limit up to which it is none.
@@ -29,6 +31,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="only the cells that are part of `make test`")
     parser.add_argument("--only", default="", metavar="PATTERN", help="cells whose name has it, e.g. 'imu .* driving'")
+    parser.add_argument("--robots", nargs="*", default=list(ROBOTS), choices=list(ROBOTS), help="only cells of these")
     parser.add_argument("--table", action="store_true", help="print the matrix for docs/faults.md and run nothing")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation")
     options = parser.parse_args(arguments)
@@ -38,6 +41,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         return 0
     found: List[Found] = []
     for course in matrix.courses(options.short, options.only):
+        if course[0].robot not in options.robots:
+            continue
         wanted = len(found) + len(course)
         while len(found) < wanted:
             left, folder = course[len(found) - wanted:], options.out / "faults" / str(len(found))
@@ -53,7 +58,8 @@ def report(found: List[Found]) -> BenchmarkReport:
     seen = [(each.outcome, each.cell.expected) for each in found if each.outcome]
     stood = [outcome.stood_s - must.limit_s for outcome, must in seen
              if outcome.stood_s is not None and must.stands_s is not None]
-    told = [outcome.told_s[must.told] - must.limit_s for outcome, must in seen if must.told in outcome.told_s]
+    told = [told_s - must.limit_s for told_s, must in ((first_told_s(must, outcome), must) for outcome, must in seen)
+            if told_s is not None]
     rows = [Row(FAILED, len(failed), remark=f"{len(found)} cells"),
             Row(STANDSTILL, max(stood, default=0.0)), Row(NOTICE, max(told, default=0.0))]
     return BenchmarkReport(rows, {"cells": [_figures(each) for each in found]},

@@ -4,12 +4,14 @@ from typing import Callable, Dict
 
 from mtr_proto import robot_link_pb2 as link
 
-from .judge import LIFT_STANDS_MPS, STANDS_MPS, Outcome, invalid_because, modes_during, standstill_s, told_since
+from .judge import LIFT_STANDS_MPS, Outcome, invalid_because, modes_during, standstill_s, told_since
 from .matrix import GOES_ON, HELD, LOST, Cell
 from .robot import MOVES_MPS, FaultyRobot
 
 # After a fault what follows is seen for that long, s of the robot's time.
 SEEN_AFTER_S = 3.0
+# Who waits has stood for so long, s.
+REST_S = 1.5
 # Speed at which the lift is under way, m/s; it reaches 0.15.
 LIFTS_MPS = 0.12
 READY, MAPPING, DRIVING, WAITING, LIFTING = "ready", "mapping", "driving", "waiting", "lifting"
@@ -60,7 +62,7 @@ class Course:
 
         def go_on() -> None:
             robot.release_hold()
-            if robot.knows_car or not robot.maps_car:
+            if robot.knows_car or robot.has_not_found_car or not robot.maps_car:
                 robot.map_car()
         if not robot.maps_car:
             robot.wait_until(lambda: robot.status.mode not in OUT_OF_ORDER, "a robot that is well")
@@ -90,8 +92,10 @@ class Course:
         robot = self._robot
         if not robot.has_arrived:
             self._to_driving()
-        robot.wait_until(lambda: robot.has_arrived and robot.speed_mps < STANDS_MPS, "the end of the way",
-                         robot.release_hold)
+        # A robot that was held takes its waypoint up again and corrects its place.
+        since_s = robot.now_s
+        robot.wait_until(lambda: robot.now_s > since_s + REST_S and robot.has_arrived and robot.has_stood(REST_S),
+                         "the end of the way", robot.release_hold)
 
     def _to_lifting(self) -> None:
         self._to_waiting()

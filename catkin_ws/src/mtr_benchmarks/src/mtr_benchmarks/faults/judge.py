@@ -1,5 +1,6 @@
 """What a robot did during a fault, and whether that is what its cell of the matrix says. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 from dataclasses import dataclass
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
@@ -8,7 +9,7 @@ from mtr_operator.domain.actions.trouble import LINK_GAP_S, trouble_between
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
-from .matrix import ANY_REASON, UNHEARD, Cell
+from .matrix import ANY_REASON, OR, UNHEARD, Cell, Expected
 
 STANDS_MPS = 0.02
 # Of the lift: its height is told to a tenth of a millimetre each 40 ms.
@@ -69,6 +70,12 @@ def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: f
     return max(moving[-1] - begin_s, 0.0) if moving else 0.0
 
 
+def has_stood(speeds: Sequence[Tuple[float, float]], for_s: float) -> bool:
+    """True when the newest speeds, over so long, are standstill."""
+    newest = list(itertools.takewhile(lambda each: each[0] >= speeds[-1][0] - for_s, reversed(speeds)))
+    return bool(newest) and len(newest) < len(speeds) and all(abs(mps) <= STANDS_MPS for _, mps in newest)
+
+
 def codes(status: RobotStatus) -> Set[str]:
     """Codes of all problems that the Operator reads."""
     return {problem.code for notice in status.notifications for problem in notice.problems}
@@ -113,6 +120,11 @@ def invalid_because(seen: Sequence[Seen], begin_s: float) -> str:
     return ""
 
 
+def first_told_s(must: Expected, seen: Outcome) -> Optional[float]:
+    """When the Operator read the first of the codes that he must, s from the fault; None: he did not."""
+    return min((seen.told_s[code] for code in must.told.split(OR) if code in seen.told_s), default=None)
+
+
 def wrong(cell: Cell, seen: Outcome) -> List[str]:
     """What is not as the matrix says, a sentence each."""
     must, found = cell.expected, []
@@ -122,11 +134,12 @@ def wrong(cell: Cell, seen: Outcome) -> List[str]:
         found.append(f"lift stands after {seen.lift_stood_s} s, must {must.limit_s + must.lift_s:g}")
     if must.stands_s is None and seen.stood_s == 0.0 and seen.speed_mps > STANDS_MPS:
         found.append("stands, must drive on")
-    if must.told and not seen.told_s.get(must.told, 1e9) <= must.limit_s + must.told_s:
-        found.append(f"{must.told} told after {seen.told_s.get(must.told)} s, must {must.limit_s + must.told_s:g}")
-    if must.mode not in seen.modes:
+    told_s = first_told_s(must, seen)
+    if must.told and (told_s is None or told_s > must.limit_s + must.told_s):
+        found.append(f"{must.told} told after {told_s} s, must {must.limit_s + must.told_s:g}")
+    if not set(must.mode.split(OR)) & set(seen.modes):
         found.append(f"is in {seen.modes}, must be {must.mode}")
-    if must.then != seen.then:
+    if seen.then not in must.then.split(OR):
         found.append(f"afterwards {seen.then}, must be {must.then}")
     words = "" if must.record == ANY_REASON else must.record
     if words is not None and (words not in seen.record or bool(must.record) != bool(seen.record)):

@@ -1,18 +1,31 @@
-"""The matrix of states and faults: its file, its cells, and the table for docs/faults.md. No ROS inside."""
+"""The matrix of states and faults: its files, its cells, and the table for docs/faults.md. No ROS inside.
+
+A row of a file in cells/ names one or more faults (`part kind`), how long they last (`for_s`), the robot on which they
+are tried (`robot`, else that of the file, else lock-step), what must be seen (`expect`, see Expected) and in which
+states (`in`), with what differs there. `short: true` is part of `make test`.
+"""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re
 from dataclasses import dataclass
-from typing import Any, Dict, Iterator, List, Mapping, Optional, Tuple
+from typing import Any, Dict, Iterator, List, Optional, Tuple
 
 import yaml
 
-FILE = pathlib.Path(__file__).with_name("matrix.yaml")
+from mtr_fault_injection.parts import PARTS, USUAL_AMOUNTS, Kind, Place
+
+FOLDER = pathlib.Path(__file__).with_name("cells")
+FILES = ("sensors", "hardware", "nodes", "link", "guards", "computer")
+# In the order in which a robot can come into them, with the mode that the Operator reads in each.
+STATES = {"ready": "ready_to_map_car", "mapping": "mapping_car", "driving": "following_waypoint",
+          "waiting": "following_waypoint", "lifting": "following_waypoint"}
+OWN_MODE, OR = "own", " or "
 ANY_REASON = "any"
 GOES_ON, HELD, LOST = "goes on", "held", "lost"
 UNHEARD = "unheard"
 # Robots that a cell may be run on; robots.py says what they are.
-LOCKSTEP, PACED, CAR_BUS, MACHINE_CLOCK, SMALL_DISK = "lockstep", "paced", "car_bus", "machine_clock", "small_disk"
+LOCKSTEP, PACED, CAR_BUS, MACHINE_CLOCK = "lockstep", "paced", "car_bus", "machine_clock"
+SMALL_DISK, GUARDED, SATELLITES = "small_disk", "guarded", "satellites"
 # What an amount is of a kind whose amount is no time.
 AMOUNTS = {"lose": " of all"}
 BEGIN, END = "<!-- fault matrix: begin -->", "<!-- fault matrix: end -->"
@@ -27,10 +40,12 @@ class Expected:
 
     Attributes:
         stands_s: longest time from the fault to standstill of the true robot, s; None: it may drive on.
-        told: code of the problem that the Operator reads; empty: none.
+        told: code of the problem that the Operator reads, of several one; empty: none.
         told_s: longest time until then, s.
-        mode: the robot's state from then on, while the fault lasts; `unheard` while no Status comes.
-        then: `goes on` by itself, `held` until the Operator has it go on, or `lost`: it needs to be put back.
+        mode: the robot's state from then on, while the fault lasts; `unheard` while no Status comes. In a file `own` is
+            that of the state. Of several, with `or` between them, one.
+        then: `goes on` by itself, `held` until the Operator has it go on, or `lost`: it needs to be put back; of
+            several one.
         lift_s: longest time from the fault to standstill of the true lift, s; None: it may move on, or does not move.
         back_s: longest time from the end of the fault until it is no fault of the robot any more, s.
         record: what makes a line at hand invalid, words of the reason; `any`: whatever of several comes first;
@@ -77,9 +92,8 @@ class Cell:
 
 @dataclass(frozen=True)
 class Matrix:
-    """states: words for a person, in the order in which the robot goes through them."""
+    """All of it."""
 
-    states: Mapping[str, str]
     cells: Tuple[Cell, ...]
 
     def of(self, state: str, only_short: bool = False) -> List[Cell]:
@@ -89,25 +103,42 @@ class Matrix:
 
     def courses(self, only_short: bool = False, only: str = "") -> List[List[Cell]]:
         """Cells in the order in which they are run, a list for each kind of robot. only: pattern of their names."""
-        cells = [cell for state in self.states for cell in self.of(state, only_short) if re.search(only, cell.name)]
+        cells = [cell for state in STATES for cell in self.of(state, only_short) if re.search(only, cell.name)]
         robots = dict.fromkeys(cell.robot for cell in cells)
         return [[cell for cell in cells if cell.robot == robot] for robot in robots]
 
 
-def read_matrix(path: pathlib.Path = FILE) -> Matrix:
-    """The matrix in a file; KeyError or TypeError where it does not say all that a cell needs."""
-    document = yaml.safe_load(path.read_text(encoding="utf-8"))
-    return Matrix(document["states"], tuple(cell for row in document["faults"] for cell in _cells(row)))
+def left_out(folder: pathlib.Path = FOLDER) -> Dict[str, str]:
+    """Faults of the catalogue that are in no cell, by part or by part and kind, with the reason."""
+    return dict(yaml.safe_load((folder / "left_out.yaml").read_text(encoding="utf-8")))
 
 
-def _cells(row: Dict[str, Any]) -> Iterator[Cell]:
-    part, kind = row["fault"].split()
-    for state, own in row["in"].items():
-        expected = {**row["expect"], **own}
-        is_short = expected.pop("short", False)
-        amount = float(row.get("amount", 0.0))
-        yield Cell(state, part, kind, float(row["for_s"]), amount, is_short, Expected(**expected),
-                   row.get("robot", LOCKSTEP))
+def read_matrix(folder: pathlib.Path = FOLDER) -> Matrix:
+    """The matrix in a folder; KeyError or TypeError where it does not say all that a cell needs."""
+    cells: List[Cell] = []
+    for name in FILES:
+        document = yaml.safe_load((folder / f"{name}.yaml").read_text(encoding="utf-8"))
+        for row in document["faults"]:
+            cells += _cells(row, row.get("robot", document.get("robot", LOCKSTEP)))
+    return Matrix(tuple(cells))
+
+
+def _cells(row: Dict[str, Any], robot: str) -> Iterator[Cell]:
+    for fault in row["faults"]:
+        part, kind = fault.split()
+        for state, own in row["in"].items():
+            expected = {**row["expect"], **own}
+            is_short = expected.pop("short", False)
+            modes = expected["mode"].split(OR)
+            expected["mode"] = OR.join(STATES[state] if mode == OWN_MODE else mode for mode in modes)
+            yield Cell(state, part, kind, float(row["for_s"]), row.get("amount", _usual_amount(part, kind)), is_short,
+                       Expected(**expected), robot)
+
+
+def _usual_amount(part: str, kind: str) -> float:
+    """What a fault takes that does not say how much; a slow process takes nothing."""
+    is_process = PARTS[part].place in (Place.NODE, Place.MACHINE)
+    return 0.0 if is_process else USUAL_AMOUNTS.get(Kind(kind), 0.0)
 
 
 def table(matrix: Matrix) -> List[str]:
@@ -120,7 +151,8 @@ def _row(cell: Cell) -> str:
     limit = f"{must.limit_s:g} + " if must.limit_s else ""
     stands = "-" if must.stands_s is None else f"{limit}{must.stands_s:g} s"
     lift = "-" if must.lift_s is None else f"{limit}{must.lift_s:g} s"
-    told = (f"`{must.told}`", f"{limit}{must.told_s:g} s") if must.told else ("-", "-")
+    codes = OR.join(f"`{code}`" for code in must.told.split(OR))
+    told = (codes, f"{limit}{must.told_s:g} s") if must.told else ("-", "-")
     reason = "" if must.record == ANY_REASON else f": {must.record}"
     record = "-" if must.record is None else f"invalid{reason}" if must.record else "counts"
     return (f"| {cell.fault}, {cell.for_s:g} s | {cell.state} | {stands} | {lift} | {told[0]} | {told[1]} | "

@@ -6,7 +6,7 @@ import os
 import pathlib
 import time
 from types import SimpleNamespace
-from typing import Any, Callable, Dict, List, NamedTuple
+from typing import Any, Callable, List, NamedTuple
 
 import rospy
 from nav_msgs.msg import Odometry
@@ -22,14 +22,18 @@ from mtr_proto import robot_link_pb2 as link
 
 from ..harness.operator_link import OperatorLink
 from ..harness.ros_shutdown import shut_down
-from .judge import WELL, CarSeen, Seen
+from .judge import WELL, CarSeen, Seen, has_stood
+from .receiver import Receiver
 from .robots import RobotKind, small_disk
 
 # Wall time of a machine with much else to do.
 LIMIT_S = 400.0
 POLL_S = 0.005
+# Messages of each kind that are enough to go on with.
+KEPT = 100
 LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
 MOVES_MPS = 0.3
+NOT_FOUND = "car_locator.not_found"
 # s of wall time for which simulated time waits for a part that is silent: each of the many silences costs it once.
 PATIENCE = "/lockstep_patience_s: 0.7\n"
 # Heights of the key between which the lift is sent, m above ground, and where one is nearer than the other.
@@ -56,12 +60,14 @@ class FaultyRobot:
     Attributes:
         seen: all Statuses that have come, as the application understands them, with what it knows of the Car.
         speeds, lifts: of the robot and of its lift as they really are.
+        truth: where it really is, newest.
     """
 
     def __init__(self, folder: pathlib.Path, kind: RobotKind, seed: int = 1):
         self.seen: List[Seen] = []
         self.speeds: List[Speed] = []
         self.lifts: List[Speed] = []
+        self.truth = Odometry()
         folder.mkdir(parents=True, exist_ok=True)
         self._kind, self._open = kind, contextlib.ExitStack()
         self._disk = folder.resolve() / "ros"
@@ -70,12 +76,15 @@ class FaultyRobot:
         self._ports = free_port(), free_port()
         arguments = {**ARGUMENTS, **kind.arguments, "node_parameters": str(parameters),
                      "fault_relay_status_port": str(self._ports[0]), "fault_relay_command_port": str(self._ports[1])}
-        variables: Dict[str, str] = {}
+        variables = dict(kind.variables)
         if kind.has_small_disk:
             arguments["fault_disk_folder"] = str(self._disk)
         if not kind.is_simulated:
             clock = SettableClock(folder.resolve() / "clock")
-            arguments["fault_clock_file"], variables = str(clock.file), clock.variables
+            arguments["fault_clock_file"] = str(clock.file)
+            # Both libraries are preloaded where there are two.
+            both = filter(None, (variables.get("LD_PRELOAD"), clock.variables["LD_PRELOAD"]))
+            variables = {**variables, **clock.variables, "LD_PRELOAD": " ".join(both)}
         self._stack = Stack(StackOptions(folder, seed, kind.real_time_factor, not kind.by_relay, arguments=arguments,
                                          variables=variables))
         self._begun_s = self._height_m = math.nan
@@ -93,6 +102,8 @@ class FaultyRobot:
             rospy.Subscriber(names.SIM_TRUTH, Odometry, self._take_truth, queue_size=200, tcp_nodelay=True)
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_lift, queue_size=200, tcp_nodelay=True)
             rospy.Subscriber(names.ACTIVE_FAULTS, ActiveFaults, self._take_faults, queue_size=10)
+            if self._kind.has_receiver:
+                rospy.Subscriber(names.SIM_TRUTH, Odometry, Receiver().take, queue_size=200, tcp_nodelay=True)
             self._inject = rospy.ServiceProxy(names.INJECT_FAULT, InjectFault)
             self._car = CanCarLink("slcan", str(self._stack.can_link)) if self._kind.hears_car else None
             if self._car:
@@ -108,6 +119,11 @@ class FaultyRobot:
         self._open.close()
 
     @property
+    def process(self) -> int:
+        """Id of the process below which all of its nodes are."""
+        return self._stack.pid
+
+    @property
     def status(self) -> Any:
         """The newest Status, as it came."""
         return self._operator.status
@@ -121,6 +137,10 @@ class FaultyRobot:
     def speed_mps(self) -> float:
         """Newest true speed."""
         return abs(self.speeds[-1].mps) if self.speeds else 0.0
+
+    def has_stood(self, for_s: float) -> bool:
+        """True when it has not moved for that long."""
+        return has_stood(self.speeds, for_s)
 
     @property
     def lift_mps(self) -> float:
@@ -142,6 +162,13 @@ class FaultyRobot:
         """True when the Car has been mapped as ordered last."""
         return bool(self._maps and self.status.car.mapped and self.status.map_car_id == self._maps
                     and self.status.mode == link.MODE_FOLLOWING_WAYPOINT)
+
+    @property
+    def has_not_found_car(self) -> bool:
+        """True when it went round and saw too little; it waits for another order, as after a fault while it drove."""
+        is_newest = self.status.map_car_id == self._maps
+        return is_newest and any(
+            problem.code == NOT_FOUND for note in self.status.notifications for problem in note.problems)
 
     @property
     def has_mapped(self) -> bool:
@@ -191,6 +218,11 @@ class FaultyRobot:
         self.wait_until(lambda: not math.isnan(self._begun_s), "the fault")
         return self._begun_s
 
+    def forget(self) -> None:
+        """All but the newest of what has come."""
+        for each in (self.seen, self.speeds, self.lifts):
+            del each[:-KEPT]
+
     def wait_until(self, condition: Callable[[], Any], what: str, meanwhile: Callable[[], None] = lambda: None) -> None:
         """Wait, by wall time; FaultyRobotError when it takes longer."""
         end_s = time.monotonic() + LIMIT_S
@@ -217,6 +249,7 @@ class FaultyRobot:
         self.seen.append(Seen(float(self.status.steady_time_s), status, car))
 
     def _take_truth(self, odometry: Any) -> None:
+        self.truth = odometry
         self.speeds.append(Speed(self._time_s(odometry.header.stamp.to_sec()), odometry.twist.twist.linear.x))
 
     def _take_lift(self, state: Any) -> None:

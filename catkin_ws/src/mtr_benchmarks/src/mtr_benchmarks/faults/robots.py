@@ -6,7 +6,9 @@ import subprocess
 from dataclasses import dataclass, field
 from typing import Dict, Iterator
 
-from .matrix import CAR_BUS, LOCKSTEP, MACHINE_CLOCK, PACED, SMALL_DISK
+from mtr_bringup.graph_watch.environment import closed_environment
+
+from .matrix import CAR_BUS, GUARDED, LOCKSTEP, MACHINE_CLOCK, PACED, SATELLITES, SMALL_DISK
 
 # Of a disk that is filled: room for logs until then.
 SMALL_DISK_SIZE = "24m"
@@ -17,32 +19,42 @@ class RobotKind:
     """One of them.
 
     Attributes:
-        arguments: of sim.launch.
+        arguments: of sim.launch. variables: of its environment.
         real_time_factor: simulated seconds per second, 0: as fast as the machine can.
         by_relay: the Operator reaches the robot through the relay that has the link's faults, and time waits for no
             answer of his; else it waits.
         is_simulated: stamps are of the simulated clock; else of one of the machine that is set.
         has_small_disk: the nodes write to a disk of its own, which can be filled.
         hears_car: the application listens to the Car's bus.
+        has_receiver: of satellites, which the simulator has not.
     """
 
     arguments: Dict[str, str] = field(default_factory=dict)
+    variables: Dict[str, str] = field(default_factory=dict)
     real_time_factor: float = 0.0
     by_relay: bool = False
     is_simulated: bool = True
     has_small_disk: bool = False
     hears_car: bool = False
+    has_receiver: bool = False
 
 
 # As the nodes of a robot: who has ended is started again.
 _RESPAWN = {"respawn": "true"}
+# As setup/robot/start does it; each robot has a master of its own.
+_CLOSED = {name: value for name, value in closed_environment({}).items() if name != "ROS_MASTER_URI"}
 ROBOTS = {
     LOCKSTEP: RobotKind(),
     # The link's delays are of the wall clock, and so is the start of a node.
-    PACED: RobotKind(_RESPAWN, 1.0, by_relay=True),
-    CAR_BUS: RobotKind(_RESPAWN, 1.0, by_relay=True, hears_car=True),
-    MACHINE_CLOCK: RobotKind({**_RESPAWN, "machine_clock": "true"}, 1.0, by_relay=True, is_simulated=False),
+    PACED: RobotKind(_RESPAWN, real_time_factor=1.0, by_relay=True),
+    CAR_BUS: RobotKind(_RESPAWN, real_time_factor=1.0, by_relay=True, hears_car=True),
+    MACHINE_CLOCK: RobotKind({**_RESPAWN, "machine_clock": "true"}, real_time_factor=1.0, by_relay=True,
+                             is_simulated=False),
+    # In lock-step the simulator waits for drive control's own word; a guard before the base goes by the wall clock.
+    GUARDED: RobotKind({**_RESPAWN, "machine_clock": "true", "graph_watch": "true", "base_guard": "true"}, _CLOSED, 1.0,
+                       by_relay=True, is_simulated=False),
     SMALL_DISK: RobotKind(has_small_disk=True),
+    SATELLITES: RobotKind(has_receiver=True),
 }
 
 

@@ -1,0 +1,84 @@
+"""Soak: what grows is found and what only wavers is not; processes are read from /proc."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+import os
+import random
+import socket
+import subprocess
+import sys
+
+import pytest
+
+from mtr_benchmarks.soak.figures import Place, by_halves, trends_of
+from mtr_benchmarks.soak.processes import Usage, below, usage_of, waiting_bytes
+from mtr_benchmarks.soak.trend import Trend, difference, growing, trend_of
+
+
+def series(slope_per_hour, noise, seed=1, hours=1.0, wander=0.0):
+    chance, walked = random.Random(seed), 0.0
+    for second in range(0, int(3600 * hours), 10):
+        walked = 0.9 * walked + chance.gauss(0.0, wander)
+        yield second, 100.0 + slope_per_hour * second / 3600.0 + chance.gauss(0.0, noise) + walked
+
+
+def test_growth_of_a_mebibyte_an_hour_is_found_below_noise():
+    trend = trend_of(list(series(1.0, 0.5)))
+    assert trend.per_hour == pytest.approx(1.0, abs=0.2) and not trend.is_flat and growing([trend]) == 1
+
+
+def test_what_only_wavers_is_flat_in_nineteen_of_twenty():
+    flat = sum(trend_of(list(series(0.0, 0.5, seed, wander=0.3))).is_flat for seed in range(200))
+    assert 180 <= flat <= 199
+
+
+def test_what_never_changes_is_flat_and_what_shrinks_does_not_grow():
+    assert trend_of([(float(second), 7.0) for second in range(100)]) == Trend(0.0, 0.0, 1.0)
+    assert growing([trend_of(list(series(-5.0, 0.5)))]) == 0
+
+
+def test_two_samples_tell_nothing():
+    with pytest.raises(ValueError):
+        trend_of([(0.0, 1.0), (1.0, 2.0)])
+
+
+def test_of_many_processes_one_that_grows_is_counted_and_chance_is_not():
+    quiet = [trend_of(list(series(0.0, 0.5, seed))) for seed in range(20)]
+    assert growing(quiet) == 0 and growing([*quiet, trend_of(list(series(2.0, 0.5, 99)))]) == 1
+
+
+def test_growth_while_it_warms_up_does_not_count():
+    usages = [(float(second), Usage(min(second, 600) / 10.0, 5, 1, 0)) for second in range(0, 3600, 10)]
+    assert trends_of({"node": usages}, "memory, MiB")["node"].is_flat
+    assert trends_of({"gone": usages[:2]}, "memory, MiB") == {}
+
+
+def test_difference_has_an_interval():
+    worse, half_width = difference([0.010, 0.012, 0.011, 0.009], [0.020, 0.022, 0.021, 0.019])
+    assert worse == pytest.approx(0.010) and half_width < 0.003
+    assert all(map(math.isnan, difference([0.01], [0.02])))
+
+
+def test_errors_are_means_of_maps_in_their_order():
+    places = [Place(0.0, 0.01, 1), Place(1.0, 0.03, 1), Place(2.0, 0.05, 2)]
+    assert by_halves(places) == ([pytest.approx(0.02)], [0.05])
+
+
+def test_use_of_a_process_is_read_and_its_node_has_a_name():
+    here, there = socket.socketpair()
+    with here, there, subprocess.Popen([sys.executable, "-c", "input()", "__name:=localization"],
+                                       stdin=subprocess.PIPE) as child:
+        assert below(os.getpid())[child.pid] == "localization"
+        usage = usage_of(child.pid, {})
+        assert usage.private_mib > 1.0 and usage.files >= 3 and usage.threads == 1
+        own = usage_of(os.getpid(), {os.readlink(f"/proc/self/fd/{here.fileno()}")[len("socket:["):-1]: 77})
+        assert own.queued_bytes == 77
+        child.communicate(b"\n")
+    assert usage_of(child.pid, {}) is None
+
+
+def test_bytes_that_nobody_reads_are_counted():
+    with socket.create_server(("127.0.0.1", 0)) as listener, \
+            socket.create_connection(listener.getsockname()) as sender, listener.accept()[0] as receiver:
+        sender.sendall(bytes(1000))
+        assert usage_of(os.getpid(), waiting_bytes()).queued_bytes >= 1000
+        assert len(receiver.recv(1000)) == 1000
