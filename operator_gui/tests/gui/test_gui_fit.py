@@ -154,10 +154,11 @@ def test_protocol_fits(application, main, monkeypatch, tmp_path):
     assert_fits(main, monkeypatch, WANTED)
 
 
-def test_protocol_on_a_small_laptop_needs_no_scrolling(application, main, tmp_path):
+@pytest.mark.parametrize("size", [QSize(1350, 696), QSize(1008, 660)])
+def test_protocol_on_a_small_laptop_needs_no_scrolling(application, main, tmp_path, size):
     take_up(application, tmp_path, Phase.FINISHED)
     application.flow.show(Step.PROTOCOL)
-    main.resize(QSize(1350, 696))
+    main.resize(size)
     QApplication.processEvents()
     for widget in (main.protocol.title, main.protocol.done):
         assert widget.visibleRegion().boundingRect() == widget.rect(), widget.text()

@@ -1,7 +1,7 @@
 """Windows beside the main one fit every screen, and their Stop is always inside."""
 # SPDX-License-Identifier: Apache-2.0
 from fit_checks import CAR, assert_fits, faults, visible
-from PyQt5.QtCore import QSize
+from PyQt5.QtCore import QRect, QSize
 from PyQt5.QtWidgets import QApplication, QLabel, QLineEdit, QWidget
 
 from mtr_operator.domain.identity.identity import Identity
@@ -9,6 +9,7 @@ from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
+from mtr_operator.gui.fitting import place
 from mtr_operator.gui.forms.adapters.bus_forms import BusForm
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.history.comparison_window import ComparisonWindow
@@ -65,6 +66,15 @@ def test_calibration_on_a_small_laptop_has_all_its_buttons_in_sight(application,
     QApplication.processEvents()
     for button in (window.car.check, window.car.map, window.send):
         assert button.visibleRegion().boundingRect() == button.rect(), button.text()
+
+
+def test_calibration_opens_without_a_scroll_bar_where_there_is_room(application, main, show, monkeypatch):
+    monkeypatch.setattr(place, "available", lambda _: QRect(0, 0, 1920, 1080))
+    window = show(lambda: CalibrationWindow(application.flow, main))
+    window.notice.setText("Pressed for 0.30 s. The Car has not answered to it.")
+    QApplication.processEvents()
+    for label in window.findChildren(QLabel):
+        assert label.isHidden() or label.visibleRegion().boundingRect() == label.rect(), label.text()
 
 
 def test_settings_fit_and_have_their_stop_in_sight__B6(application, main, show, monkeypatch):

@@ -114,7 +114,7 @@ class ProtocolScreen(QWidget):
     def _lay_out(self) -> None:
         side = QVBoxLayout()
         side.setContentsMargins(0, 0, 0, 0)
-        side.setSpacing(M)
+        side.setSpacing(S)
         side.addWidget(self.title)
         side.addWidget(self.date)
         side.addWidget(self.table, 3)

@@ -38,6 +38,8 @@ from .car_card import CarCard
 from .card import Card
 
 _WIDTH = 820
+# Further rows of the sentences in the cards.
+_WRAPPED_LINES = 4
 _CM_PER_M = 100.0
 _UNKNOWN = "\N{EN DASH}"
 
@@ -145,9 +147,11 @@ class CalibrationWindow(QDialog):
         return card
 
     def wanted_size(self) -> QSize:
-        """Size at which all is seen."""
+        """Size at which all is seen, also what will be said of a press."""
         self.ensurePolished()
-        return self.sizeHint().expandedTo(QSize(_WIDTH, 0))
+        size = self.sizeHint().expandedTo(QSize(_WIDTH, 0))
+        # Qt guesses the height of texts that wrap before it knows their width.
+        return QSize(size.width(), size.height() + _WRAPPED_LINES * self.fontMetrics().lineSpacing())
 
     def done(self, result: int) -> None:
         """See QDialog; however it is left, what moves is stopped first."""
