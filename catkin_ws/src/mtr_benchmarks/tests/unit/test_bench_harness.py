@@ -43,6 +43,7 @@ def test_row_in_a_file_has_the_promised_keys():
     (Row(ERROR, 0.0155, remark="in 3 drives"), "error 1.55 cm must <= 2.00, goal <= 1.00: met, in 3 drives"),
     (Row(ERROR, None), "error unknown cm must <= 2.00, goal <= 1.00: NOT MET"),
     (Row(SPEED, 10.34), "speed 10.3 x must >= 7.0: met"),
+    (Row(Requirement("start", "s", goal=2.0), 3.49), "start 3.49 s goal <= 2.00: goal not met"),
     (Row(TEMPERATURE, 21.0), "temperature 21.00 deg"),
     (Row(TEMPERATURE, 21.0, remark="outside"), "temperature 21.00 deg outside"),
     (Row(Requirement("contacts", "(count)", must=0.0), 1), "contacts 1 must <= 0: NOT MET"),

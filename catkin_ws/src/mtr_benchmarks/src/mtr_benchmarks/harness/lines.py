@@ -35,7 +35,9 @@ def line(row: Row) -> str:
 def _verdict(row: Row) -> str:
     if not row.is_met:
         return "NOT MET"
-    return "goal met" if row.requirement.goal is not None and row.is_goal_met else "met"
+    if row.requirement.goal is None or row.is_goal_met:
+        return "met" if row.requirement.goal is None else "goal met"
+    return "goal not met" if row.requirement.must is None else "met"
 
 
 def _number(value: Optional[float], shown: Shown) -> str:
