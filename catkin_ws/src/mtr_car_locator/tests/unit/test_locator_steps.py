@@ -6,7 +6,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from mtr_car_locator.estimate import Inputs
-from mtr_car_locator.steps import LocatorSteps
+from mtr_car_locator.steps import CONNECTING_NS, MAP_LAG_NS, LocatorSteps, ScanWindow, is_map_due
 from mtr_core.executors import InlineExecutor
 
 LIMIT_S = 20.0
@@ -87,3 +87,32 @@ def test_what_a_step_raised_reaches_the_node(thread):
     steps = LocatorSteps(SlowLocator(), thread, patience_s=LIMIT_S)
     with pytest.raises(ValueError, match="no step"):
         tick(steps, -1)
+
+
+def test_scans_count_from_the_time_on_at_which_their_connections_are_made():
+    window, begin_ns = ScanWindow(), 5_000_000_000
+    assert not window.counts(begin_ns)
+    window.follow(begin_ns, True)
+    assert not window.counts(begin_ns + CONNECTING_NS - 1) and window.counts(begin_ns + CONNECTING_NS)
+    window.follow(begin_ns + 100_000_000, True)
+    assert window.counts(begin_ns + CONNECTING_NS)
+
+
+def test_scans_that_are_wanted_again_count_anew():
+    window, begin_ns = ScanWindow(), 5_000_000_000
+    window.follow(begin_ns, True)
+    window.follow(begin_ns + 1_000_000_000, False)
+    assert not window.counts(begin_ns + 1_000_000_000)
+    window.follow(begin_ns + 2_000_000_000, True)
+    assert not window.counts(begin_ns + 2_000_000_000) and window.counts(begin_ns + 2_000_000_000 + CONNECTING_NS)
+
+
+def test_scans_count_after_the_clock_was_set_back():
+    window, begin_ns = ScanWindow(), 5_000_000_000
+    window.follow(begin_ns, True)
+    window.follow(begin_ns - 3_000_000_000, True)
+    assert window.counts(begin_ns - 3_000_000_000 + CONNECTING_NS)
+
+
+def test_map_counts_a_while_after_its_stamp():
+    assert not is_map_due(7, 7 + MAP_LAG_NS - 1) and is_map_due(7, 7 + MAP_LAG_NS)
