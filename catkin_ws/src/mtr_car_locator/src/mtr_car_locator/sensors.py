@@ -21,8 +21,9 @@ from .scan import Scan
 from .steps import SCAN_LAG_NS, ScanWindow, is_map_due
 from .survey.surface_map import SurfaceMap
 
-# A map that a pose speaks of is waited for so long (wall time).
-MAP_WAIT_WALL_S = 2.0
+# A map that a pose speaks of is waited for as long as any other message: what is given up sooner depends on how busy
+# the machine is.
+MAP_WAIT_WALL_S = schedule.PRODUCER_LOST_AFTER_WALL_S
 
 
 class PoseSource:
