@@ -29,7 +29,8 @@ def test_bundle_has_report_and_findings_and_is_verified_in_the_history(protocol,
     assert found.is_intact
     record = next(name for name in found.manifest.files if name.startswith("autolock_") and name.endswith(".json"))
     assert path.name == record.replace(".json", ".mtr.zip")
-    assert {"results.csv", "budget.json", "protocol.png", "record.json", "parameters.json"} <= set(found.manifest.files)
+    assert {"results.csv", "budget.json", "protocol.png", "protocol.pdf", "record.json",
+            "parameters.json"} <= set(found.manifest.files)
     said = protocol.notice.text().replace("\N{ZERO WIDTH SPACE}", "")
     assert path.name in said and str(path.parent) in said
     assert f"It is bundle 1 of {found.manifest.station}." in said

@@ -44,7 +44,7 @@ def test_demo_runs_on_the_substitutes(scenario, tmp_path, capsys):
     arguments = (scenario, DEMO / f"{scenario}.yaml", tmp_path / "out", "--simulated-robot", "--simulated-car")
     assert run(*arguments) == 0
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
-        "budget.json", "progress.journal", "progress.json", "protocol.png", "recording", "results.csv"]
+        "budget.json", "progress.journal", "progress.json", "protocol.pdf", "protocol.png", "recording", "results.csv"]
     assert "lines measured" in capsys.readouterr().out
 
 
@@ -220,7 +220,7 @@ def test_ctrl_c_while_the_report_is_written_completes_it(parameters, tmp_path, m
     monkeypatch.setattr("mtr_operator.cli.run.write_report", interrupted)
     assert run("autolock", parameters, tmp_path / "out") == 130
     assert sorted(path.name for path in (tmp_path / "out").iterdir()) == [
-        "budget.json", "progress.journal", "progress.json", "protocol.png", "recording", "results.csv"]
+        "budget.json", "progress.journal", "progress.json", "protocol.pdf", "protocol.png", "recording", "results.csv"]
     assert "the results are complete" in capsys.readouterr().err
 
 

@@ -57,8 +57,8 @@ def bundle_fixture(measured, station, tmp_path):
 def test_bundle_holds_all_that_a_laboratory_keeps_and_is_intact(bundle, station):
     found = verify_bundle(bundle)
     assert found.is_intact and found.manifest.key == station.key and found.manifest.station == station.name
-    assert {"record.json", "record.schema.json", "results.csv", "budget.json", "protocol.png", "progress.json",
-            "progress.journal", "parameters.json", "calibration.json", "plan.json", "versions.json",
+    assert {"record.json", "record.schema.json", "results.csv", "budget.json", "protocol.png", "protocol.pdf",
+            "progress.json", "progress.journal", "parameters.json", "calibration.json", "plan.json", "versions.json",
             "recording/course_001.jsonl", "recording/course_001.mcap", "adapters/openhtf.json", "adapters/junit.xml",
             "adapters/ods.json", "car/mtr_demo_car.yaml", "car/mtr_demo_car.dbc"} <= set(found.manifest.files)
 

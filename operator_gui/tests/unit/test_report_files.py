@@ -1,4 +1,4 @@
-"""results.csv and protocol.png."""
+"""results.csv, protocol.png and protocol.pdf."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import struct
@@ -16,7 +16,7 @@ from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.report.figures import sigma_text
 from mtr_operator.report.files import write_report
-from mtr_operator.report.protocol_png import label_stretches
+from mtr_operator.report.protocol_page import label_stretches
 from mtr_operator.report.protocol_rows import date_text, parameter_rows
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import line_text, results_table
@@ -215,4 +215,16 @@ def test_picture_is_drawn_whatever_was_measured(tmp_path, results):
     width, height = struct.unpack(">II", content[16:24])
     assert content.startswith(b"\x89PNG\r\n\x1a\n")
     assert (width, height) == (1755, 1245)
-    assert sorted(file.name for file in tmp_path.iterdir()) == ["budget.json", "protocol.png", "results.csv"]
+    assert sorted(file.name for file in tmp_path.iterdir()) == [
+        "budget.json", "protocol.pdf", "protocol.png", "results.csv"]
+
+
+def test_page_of_the_same_test_is_the_same_whenever_it_is_made(tmp_path, monkeypatch):
+    scenario = SCENARIOS["autolock"]
+    pages = []
+    for epoch_s in ("0", "86400"):
+        monkeypatch.setenv("SOURCE_DATE_EPOCH", epoch_s)
+        write_report(tmp_path, scenario, scenario.parameters_type(), progress_of(scenario, [axis(1), axis(2)]))
+        pages.append((tmp_path / "protocol.pdf").read_bytes())
+    assert pages[0].startswith(b"%PDF-") and b"/Type /Pages /Kids [ " in pages[0] and b"/Count 1 " in pages[0]
+    assert pages[0] == pages[1]

@@ -16,7 +16,7 @@ from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.domain.scenarios.zone_map.parameters import ZoneMapParameters
 from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
 from mtr_operator.domain.verdict.assessment import Assessor
-from mtr_operator.report.protocol_png import protocol_png
+from mtr_operator.report.protocol_page import protocol_png
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import line_text, results_table
 from mtr_operator.storage.given_files import load_calibration

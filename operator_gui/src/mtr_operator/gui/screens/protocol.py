@@ -87,7 +87,7 @@ class ProtocolScreen(QWidget):
         self.again = HoldButton(self.tr("Hold to measure again"))
         self.again.held.connect(self._measure_again)
         self.annotate = self._button(self.tr("Notes and photos"), "", self._open_annotation)
-        self.bundle = self._button(self.tr("Save evidence bundle"), "", lambda: self._write((CSV, PNG, BUNDLE)))
+        self.bundle = self._button(self.tr("Save evidence bundle"), "", lambda: self._write((CSV, PNG, PDF, BUNDLE)))
         self.bundle.setToolTip(self.tr("One signed file with results, recording, profile, software versions and "
                                        "journal"))
         self.done = self._button(self.tr("New test"), "", self.closed.emit)

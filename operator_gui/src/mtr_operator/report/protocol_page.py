@@ -1,4 +1,4 @@
-"""protocol.png: the Car from above with everything measured around it, parameters and date."""
+"""protocol.png and protocol.pdf: the Car from above with everything measured around it, parameters and date."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -45,6 +45,17 @@ _STYLES = {
 def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  assessment: Assessment | None = None) -> bytes:
     """Content of the file; the progress has to hold the Car's dimensions."""
+    return _saved(_page(scenario, parameters, progress, assessment), "png", {})
+
+
+def protocol_pdf(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
+                 assessment: Assessment | None = None) -> bytes:
+    """The same as a page to print; it says when the test was, and not when the page was made."""
+    return _saved(_page(scenario, parameters, progress, assessment), "pdf", {"CreationDate": None})
+
+
+def _page(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
+          assessment: Assessment | None) -> Figure:
     figure = Figure(figsize=_SIZE_INCH, facecolor="white")
     FigureCanvasAgg(figure)
     axes = figure.add_axes(_AXES_BOX)
@@ -61,8 +72,12 @@ def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress
     for points in picture.point_sets:
         draw_scale(figure, points)
     write_panel(figure, axes, scenario, progress, picture=picture, assessment=assessment)
+    return figure
+
+
+def _saved(figure: Figure, kind: str, metadata: dict[str, None]) -> bytes:
     file = io.BytesIO()
-    figure.savefig(file, format="png", dpi=_RESOLUTION_DPI)
+    figure.savefig(file, format=kind, dpi=_RESOLUTION_DPI, metadata=metadata)
     return file.getvalue()
 
 
