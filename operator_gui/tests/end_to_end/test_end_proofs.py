@@ -23,7 +23,9 @@ def test_short_form_of_the_benchmark_of_results_loses_nothing(tmp_path):
 
 
 def test_short_form_of_the_benchmark_of_campaigns_loses_nothing_when_a_worker_is_killed(tmp_path):
-    command = [sys.executable, PROOFS / "campaigns.py", "--runs", "8", "--pairs", "0", "--short", "--out", tmp_path]
+    # Whole robots take a minute each; tests/system/test_cores.py has them.
+    command = [sys.executable, PROOFS / "campaigns.py", "--runs", "8", "--pairs", "0", "--cores", "0", "--short",
+               "--out", tmp_path]
     done = subprocess.run(command, capture_output=True, text=True, check=False,
                           env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})
     assert done.returncode == 0, done.stdout + done.stderr
