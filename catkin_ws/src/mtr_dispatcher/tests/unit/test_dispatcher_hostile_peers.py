@@ -138,7 +138,8 @@ def test_message_of_a_peer_with_an_old_protocol_is_received():
         server.close()
 
 
-LIMITS = Allowance(burst_bytes=1000.0, bytes_per_s=10.0, connections=2, pause_s=5.0, overhead_bytes=2)
+LIMITS = Allowance(burst_bytes=1000.0, bytes_per_s=10.0, connections=2, pause_s=5.0, overhead_bytes=2,
+                   check_period_s=0.05)
 
 
 def test_one_connection_too_many_is_cut_off_and_those_before_stay():

@@ -24,8 +24,6 @@ TOO_MUCH = "more than messages"
 # One that finds by itself that the robot speaks another language may be gone before the robot has read its greeting;
 # so is one that only looks whether the port is open.
 HANDSHAKE_FAILURES = {zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL: NOT_ENCRYPTED, zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL: GONE}
-# A connection that floods brings some 20 MB in this time on the loopback interface.
-CHECK_PERIOD_S = 0.05
 # ZeroMQ waits, with everybody's messages, while some 2000 events are not taken (measured, 4.3.4).
 EVENTS_PER_TURN = 500
 # linux/tcp.h, struct tcp_info: tcpi_bytes_received.
@@ -62,7 +60,7 @@ class ConnectionWatch:
 
     def _run(self) -> None:
         while not self._over.is_set():
-            self._monitor.poll(round(1000.0 * CHECK_PERIOD_S))
+            self._monitor.poll(round(1000.0 * self._limits.check_period_s))
             self._take_events()
             received = {number: _received_bytes(number, peer) for number, peer in self._peers.items()}
             for number in self._limits.excessive(received, time.monotonic()):
