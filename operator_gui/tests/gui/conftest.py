@@ -10,12 +10,13 @@ os.environ["QT_QPA_PLATFORM"] = "offscreen"
 import pytest
 from fit_checks import application_in_a_language, main_window, show_for_a_test  # noqa: F401
 from PyQt5 import sip
-from PyQt5.QtCore import QCoreApplication, QEvent, Qt
+from PyQt5.QtCore import QCoreApplication, QEvent, Qt, QTimer
 from PyQt5.QtTest import QTest
 
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockState
+from mtr_operator.gui import dialogs
 from mtr_operator.gui.app import Application
 from mtr_operator.gui.forms.hold_button import HoldButton
 from mtr_operator.robot_link.fake import FakeRobotLink
@@ -143,6 +144,19 @@ def no_leftovers(qapp):
     """Widgets that are left over would be styled anew by the style sheet of each later test."""
     yield
     QCoreApplication.sendPostedEvents(None, QEvent.DeferredDelete)
+
+
+@pytest.fixture(autouse=True)
+def unanswered_dialogs_end(monkeypatch):
+    """Within a dialog the time limit of a test is not heard; one that nobody answers would hold all tests up."""
+    run = dialogs._run
+
+    def run_for_a_while(dialog):
+        timer = QTimer(dialog)
+        timer.timeout.connect(dialog.reject)
+        timer.start(LIMIT_MS)
+        return run(dialog)
+    monkeypatch.setattr(dialogs, "_run", run_for_a_while)
 
 
 @pytest.fixture(autouse=True)
