@@ -65,8 +65,10 @@ def test_errors_are_means_of_maps_in_their_order():
 
 def test_use_of_a_process_is_read_and_its_node_has_a_name():
     here, there = socket.socketpair()
-    with here, there, subprocess.Popen([sys.executable, "-c", "input()", "__name:=localization"],
-                                       stdin=subprocess.PIPE) as child:
+    command = [sys.executable, "-c", "print('ready', flush=True); input()", "__name:=localization"]
+    with here, there, subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as child:
+        # Before, it is another program that only becomes this one.
+        assert child.stdout.readline() == b"ready\n"
         assert below(os.getpid())[child.pid] == "localization"
         usage = usage_of(child.pid, {})
         assert usage.private_mib > 1.0 and usage.files >= 3 and usage.threads == 1
