@@ -15,7 +15,8 @@ from mtr_operator.domain.verdict.assessment import Assessment
 
 FORMAT, VERSION = "mtr test record", 1
 SCHEMA = pathlib.Path(__file__).with_name("record.schema.json")
-_PACKAGES = ("numpy", "scipy", "python-can", "cantools", "pyzmq", "protobuf", "uncertainties", "PyNaCl")
+_PACKAGES = ("numpy", "scipy", "python-can", "cantools", "pyzmq", "protobuf", "uncertainties", "PyNaCl",
+             "can-isotp", "udsoncan", "mcap", "duckdb")
 
 
 def record_of(scenario: AnyScenario, progress: Progress, assessment: Assessment | None) -> dict[str, Any]:
