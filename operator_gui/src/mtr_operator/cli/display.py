@@ -8,6 +8,7 @@ from typing import TextIO
 import tqdm
 
 from mtr_operator.domain.actions.observer import RunObserver
+from mtr_operator.domain.eventlog.robot_events import is_alike
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import Mode, RobotStatus
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
@@ -102,7 +103,8 @@ class Display(RunObserver):
     def _notify(self, status: RobotStatus) -> None:
         current = {notification.code: notification for notification in status.notifications}
         for code, notification in current.items():
-            if self._notified.get(code) != notification.text:
+            said = self._notified.get(code)
+            if said is None or not is_alike(said, notification.text):
                 self._print_notice(notification.severity, notification.text)
         self._notified = {code: notification.text for code, notification in current.items()}
 
