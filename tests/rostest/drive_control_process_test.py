@@ -8,6 +8,7 @@ import unittest
 
 import rospy
 import rostest
+from case import case
 from geometry_msgs.msg import Twist
 from live_robot import BASE, CRUISE_MPS, PERIOD_S, LiveRobot, wait_until
 from node_process import NodeProcess
@@ -25,6 +26,7 @@ SAID_WITHIN_S = 1.0
 STARTED_WITHIN_S = 20.0
 OTHER_COMMAND = "/other_base/cmd_vel"
 ACCELERATION_MPS2 = 1.0
+STEP_UP_MPS = ACCELERATION_MPS2 * PERIOD_S + 1e-9
 # With a low key, see mtr_drive_control/tip_over.hpp; the last step of a stop may take the rounding with it.
 HARDEST_STEP_MPS = 1.01 * 2.4 * PERIOD_S
 # Odometry of wheels that brake is that old on a machine that does other things too.
@@ -72,29 +74,37 @@ class DriveControlProcess(unittest.TestCase):
                    and abs(self.robot.speed_mps - CRUISE_MPS) < 0.01, "cruise speed")
 
     def stall(self, duration_s, meanwhile=lambda: None):
-        """Stop the process for so long; the wheels' speed when it goes on, and the commands of the next half second."""
+        """Stop the process for so long; what it may command when it goes on, and its commands of the next half second.
+
+        One command that was decided before the stop may leave after it, for a Twist has no stamp by which it would be
+        found old; until the next one the wheels obey it.
+        """
         self.node.signal(signal.SIGSTOP)
         time.sleep(IN_FLIGHT_S)
         meanwhile()
         time.sleep(duration_s - IN_FLIGHT_S)
-        count, speed_mps = len(self.robot.commands), self.robot.speed_mps
+        count, wheels_mps = len(self.robot.commands), self.robot.speed_mps
         self.node.signal(signal.SIGCONT)
         time.sleep(0.5)
-        return speed_mps, [speed for _, speed in self.robot.commands[count:]]
-
-    def assert_no_surge(self, wheels_mps, commands):
-        """The first command is what the wheels do or less, and the others grow no faster than they may."""
+        commands = self.robot.commands[count:]
         self.assertGreater(len(commands), 5)
-        allowed_mps = wheels_mps + seen_late_mps(wheels_mps) + ACCELERATION_MPS2 * PERIOD_S + 1e-9
+        allowed_mps = wheels_mps + seen_late_mps(wheels_mps)
+        if commands[0][1] == CRUISE_MPS > allowed_mps + STEP_UP_MPS:
+            allowed_mps += BASE.linear_acceleration_mps2 * (commands[1][0] - commands[0][0] + SEEN_LATE_S)
+            commands = commands[1:]
+        return wheels_mps, allowed_mps, [speed for _, speed in commands]
+
+    def assert_no_surge(self, allowed_mps, commands):
+        """The first command is what the wheels do or less, and the others grow no faster than they may."""
         for speed_mps in commands:
-            self.assertLessEqual(speed_mps, allowed_mps)
-            allowed_mps = speed_mps + ACCELERATION_MPS2 * PERIOD_S + 1e-9
+            self.assertLessEqual(speed_mps, allowed_mps + STEP_UP_MPS)
+            allowed_mps = speed_mps
 
     def test_stalled_process_goes_on_from_what_the_wheels_do(self):
         for duration_s in STALLS_S:
-            with self.subTest(stall_s=duration_s):  # A1
-                wheels_mps, commands = self.stall(duration_s)
-                self.assert_no_surge(wheels_mps, commands)
+            with case(f"stalled for {duration_s} s"):  # A1
+                wheels_mps, allowed_mps, commands = self.stall(duration_s)
+                self.assert_no_surge(allowed_mps, commands)
                 self.assertTrue(wheels_mps == 0.0 or duration_s < 1.0)
                 self.cruise()
 
@@ -104,9 +114,9 @@ class DriveControlProcess(unittest.TestCase):
             self.robot.planner.message.linear_mps = 0.0
 
         for duration_s in STALLS_S:
-            with self.subTest(stall_s=duration_s):  # A1
-                wheels_mps, commands = self.stall(duration_s, lock)
-                self.assertLessEqual(max(commands), wheels_mps + seen_late_mps(wheels_mps))
+            with case(f"stalled for {duration_s} s"):  # A1
+                _, allowed_mps, commands = self.stall(duration_s, lock)
+                self.assertLessEqual(max(commands), allowed_mps)
                 self.assertEqual(commands[-1], 0.0)
                 self.robot.dispatcher.message.engaged = False
                 self.cruise()
@@ -146,7 +156,7 @@ class DriveControlProcess(unittest.TestCase):
         self.node.stop()
         try:
             for value in (20.0, None):
-                with self.subTest(max_acceleration=value):
+                with case(f"max_acceleration {value}"):
                     rospy.delete_param(limit) if value is None else rospy.set_param(limit, value)
                     self.node = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control")
                     self.assertEqual(self.node.exit_status(), 2)
@@ -155,7 +165,7 @@ class DriveControlProcess(unittest.TestCase):
 
     def test_process_that_is_ended_brakes_first_and_no_harder_than_it_may(self):
         for number in (signal.SIGINT, signal.SIGTERM):
-            with self.subTest(signal=number):  # A2
+            with case(f"signal {number}"):  # A2
                 count = len(self.robot.commands)
                 self.node.signal(number)
                 self.assertEqual(self.node.exit_status(), 0)
