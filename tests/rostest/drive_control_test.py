@@ -7,6 +7,7 @@ import unittest
 
 import rospy
 import rostest
+from case import case
 from geometry_msgs.msg import Twist
 from scripted_sensors import BEAMS, open_ground
 from scripted_time import NS, Listener, ScriptedTime, Speaker
@@ -135,7 +136,7 @@ class DriveControl(unittest.TestCase):
 
     def test_frozen_or_silent_imu_stops_the_robot(self):  # A7
         for fault, sentence in (("is_frozen", "The IMU is frozen"), ("is_silent", "The IMU is silent")):
-            with self.subTest(sentence):
+            with case(sentence):
                 setattr(self.imu, fault, True)
                 self.time.advance_until(lambda: self.status().source == "locked", within_s=FROZEN_SEEN_S)
                 self.assertIn(sentence, self.status().message)

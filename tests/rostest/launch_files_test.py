@@ -12,6 +12,7 @@ import roslaunch
 import rospkg
 import rostest
 import sensor_msgs.msg
+from case import case
 from roslaunch.node_args import create_local_process_args, get_node_list
 from std_msgs.msg import Header
 
@@ -45,7 +46,7 @@ class LaunchFiles(unittest.TestCase):
 
     def test_each_launch_file_starts_its_nodes_with_no_more_than_the_needed_arguments(self):
         for name, arguments in NEEDED.items():
-            with self.subTest(name):
+            with case(name):
                 self.assertEqual(set(get_node_list(load(name, arguments))), NODES[name])
 
     def test_manual_controller_that_is_started_is_a_required_owner_of_the_motion_lock(self):  # A4
@@ -85,7 +86,7 @@ class LaunchFiles(unittest.TestCase):
         robot = load("robot.launch", ["front_scan:=/scan", "wheel_command:=/base/cmd_vel", "publish_odom_tf:=false"])
         for name in ("drive_control", "localization", "car_locator", "dispatcher"):
             node = next(node for node in robot.nodes if node.name == name)
-            with self.subTest(name):
+            with case(name):
                 self.assertIn(["/front/scan", "/scan"], node.remap_args)
                 self.assertIn(["/jackal_velocity_controller/cmd_vel", "/base/cmd_vel"], node.remap_args)
         self.assertIs(robot.params["/localization/publish_odom_tf"].value, False)
@@ -107,7 +108,7 @@ class LaunchFiles(unittest.TestCase):
     def test_drivers_of_a_jackals_lidars_speak_where_the_nodes_listen(self):
         for kind, package, word in (("sick_lms111", "lms1xx", "host"), ("hokuyo_ust10lx", "urg_node", "ip_address"),
                                     ("sick_tim5xx", "sick_tim", "hostname")):
-            with self.subTest(kind):
+            with case(kind):
                 jackal = load("jackal.launch", [f"lidar:={kind}", "rear_host:=10.0.0.2"])
                 drivers = {node.name: node for node in jackal.nodes if node.name.endswith("_lidar_driver")}
                 self.assertEqual({node.package for node in drivers.values()}, {package})
@@ -140,7 +141,7 @@ class LaunchFiles(unittest.TestCase):
                    "range_bias_sigma_m": sensor_figures.ASSUMED_RANGE_BIAS_M,
                    "time_increment_s": sensor_figures.SensorFigure(0.0, 1e-6, 0.001, "s")}
         for kind in kinds:
-            with self.subTest(kind):
+            with case(kind):
                 params = load("robot.launch", [f"lidar:={kind}"]).params
                 for name, figure in allowed.items():
                     self.assertTrue(figure.low <= params[f"/localization/{name}"].value <= figure.high, name)
@@ -165,7 +166,7 @@ class LaunchFiles(unittest.TestCase):
 
     def test_each_node_of_robot_and_simulation_has_an_executable(self):
         for node in load("sim.launch", NEEDED["sim.launch"]).nodes:
-            with self.subTest(node.name):
+            with case(node.name):
                 command = create_local_process_args(node, None)
                 self.assertTrue(os.access(command[0], os.X_OK), command)
 

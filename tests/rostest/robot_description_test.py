@@ -8,6 +8,7 @@ import unittest
 import roslib.packages
 import rospy
 import rostest
+from case import case
 
 from mtr_core import names
 from mtr_core.lockstep.start import CANNOT_START
@@ -35,7 +36,7 @@ class RobotDescription(unittest.TestCase):
     def check(self, nodes, sentence):
         """Each of the nodes refuses to start with that sentence."""
         for node in sorted(nodes):
-            with self.subTest(node):
+            with case(node):
                 done = run(node)
                 self.assertEqual(done.returncode, CANNOT_START, done.stdout)
                 self.assertIn(sentence, done.stdout)
