@@ -21,6 +21,11 @@ constexpr double kSlipS = 0.7;
 // What moves at less than this may stand still for its encoders.
 constexpr double kMovesMps = 0.05;
 constexpr double kMovesRadps = 0.15;
+// Wheels that stand may seem to move by this: servos that settle creep by some mm/s, and an encoder that flickers by a
+// count in 20 ms shows 0.6 mm/s where a count is 13 um, as on a Jackal, and 10 mm/s where it is 0.2 mm. It is a quarter
+// of the least motion that counts, so that a base which follows a crawl is far from it.
+constexpr double kStandsMps = 0.25 * kMovesMps;
+constexpr double kStandsRadps = 0.25 * kMovesRadps;
 // Beyond what was sent lately, plus this, the base does something else. A jolt is shorter than kContradictionS.
 constexpr double kDisobeysMps = 0.2;
 constexpr double kDisobeysRadps = 0.5;
@@ -38,6 +43,10 @@ bool repeats(const Motion& motion, const Motion& before) {
          motion.odom_from_base.heading_rad() == before.odom_from_base.heading_rad() &&
          motion.velocity.linear_mps == before.velocity.linear_mps &&
          motion.velocity.angular_radps == before.velocity.angular_radps;
+}
+
+bool stands(const Velocity& measured) {
+  return std::abs(measured.linear_mps) <= kStandsMps && std::abs(measured.angular_radps) <= kStandsRadps;
 }
 
 }  // namespace
@@ -95,8 +104,14 @@ mtr_core::Problem MotionWatch::wheels_problem(std::int64_t tick_ns, const Motion
     odometry_repeats_ = motion_ && repeats(motion, *motion_);
     motion_ = motion;
   }
-  if (frozen_odometry_.lasts(odometry_repeats_ && was_told_to_move(), tick_ns, kContradictionS)) {
-    return motion.velocity.is_zero() ? problems::kBaseStands() : problems::kOdometryFrozen();
+  const bool is_told = was_told_to_move();
+  const bool is_standing = standing_.lasts(is_told && stands(motion.velocity), tick_ns, kContradictionS);
+  const bool is_frozen = frozen_odometry_.lasts(is_told && odometry_repeats_, tick_ns, kContradictionS);
+  if (is_standing) {
+    return problems::kBaseStands();
+  }
+  if (is_frozen) {
+    return problems::kOdometryFrozen();
   }
   if (disobedience_.lasts(!obeys(motion.velocity), tick_ns, kContradictionS)) {
     const Velocity& sent = told_.back().velocity;

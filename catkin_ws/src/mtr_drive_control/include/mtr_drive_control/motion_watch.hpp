@@ -42,7 +42,8 @@ class Duration {
 /// Third sense of drive control: each fault is told by its cause, and never from a single reading.
 ///
 /// What is sent reaches the wheels some time later, so what they do is compared with all that was sent lately. Live
-/// sensors never repeat themselves in motion: encoders count, and the IMU has noise.
+/// sensors never repeat themselves in motion: encoders count, and the IMU has noise. Wheels that stand may repeat
+/// themselves or not: their encoders flicker, and their servos settle.
 class MotionWatch {
  public:
   /// Takes the velocity sent last and the newest readings of a tick; a problem while they contradict each other.
@@ -67,6 +68,7 @@ class MotionWatch {
   std::optional<ImuReading> imu_;
   bool odometry_repeats_ = false;
   bool imu_repeats_ = false;
+  Duration standing_;
   Duration frozen_odometry_;
   Duration frozen_imu_;
   Duration disobedience_;

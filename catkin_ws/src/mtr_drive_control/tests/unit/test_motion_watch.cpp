@@ -73,6 +73,43 @@ TEST_F(MotionWatchTest, BaseWhoseWheelsStandIsToldWithinASecond) {
   EXPECT_LE(told_after_s, 1.0);
 }
 
+TEST_F(MotionWatchTest, BaseWhoseWheelsStandIsToldAlthoughItsEncodersFlickerAndItsServosSettle) {
+  // A count of a Jackal's encoder forth and back, now and then; the last of a stop.
+  for (const Velocity& flicker : {Velocity{0.00064, 0.001}, Velocity{-0.008, 0.0}, Velocity{0.0, 0.02}}) {
+    watch = MotionWatch();
+    drive({0.4, 0.0}, {0.4, 0.0}, 0.0);
+    const std::int64_t begun_ns = now_ns;
+    std::string code;
+    for (int tick = 0; tick < 60 && code.empty(); ++tick) {
+      code = step({0.4, 0.0}, flicker.scaled(tick % 7 == 0 ? 1.0 : tick % 7 == 3 ? -1.0 : 0.0), 0.0).code;
+    }
+    EXPECT_EQ(code, "drive_control.base_stands");
+    EXPECT_LE(static_cast<double>(now_ns - begun_ns) * 1e-9, 0.6);
+  }
+}
+
+TEST_F(MotionWatchTest, BaseThatFollowsACrawlIsWell) {
+  // Half of what was sent, uphill, and a count more or less at each tick.
+  for (int tick = 0; tick < 500; ++tick) {
+    EXPECT_FALSE(step({0.05, 0.0}, {0.025 + 0.008 * (tick % 3 - 1), 0.0}, 0.0));
+  }
+  for (int tick = 0; tick < 500; ++tick) {
+    EXPECT_FALSE(step({0.0, 0.15}, {0.0, 0.075 + 0.02 * (tick % 3 - 1)}, 0.05));
+  }
+}
+
+TEST_F(MotionWatchTest, BaseThatSetsOffLateOrStandsWhereItTurnsBackIsWell) {
+  drive({}, {}, 0.0);
+  drive({0.3, 0.0}, {}, 0.0, 0.6);
+  EXPECT_EQ(drive({0.3, 0.0}, {0.3, 0.0}, 0.0), "");
+  EXPECT_EQ(drive({-0.3, 0.0}, {}, 0.0, 0.4), "");
+  EXPECT_EQ(drive({-0.3, 0.0}, {-0.3, 0.0}, 0.0), "");
+}
+
+TEST_F(MotionWatchTest, BaseThatStandsWithoutAnOrderToMoveIsWell) {
+  EXPECT_EQ(drive({0.03, 0.1}, {0.0, 0.0}, 0.0), "");
+}
+
 TEST_F(MotionWatchTest, BaseThatDoesSomethingElseIsTold) {
   EXPECT_EQ(drive({0.7, 0.0}, {0.7, 0.9}, 0.9), "drive_control.base_disobeys");
   EXPECT_LE(told_after_s, 1.0);
