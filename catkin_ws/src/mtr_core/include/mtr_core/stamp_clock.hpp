@@ -24,15 +24,14 @@ class StampClock {
  public:
   /// The steady time of the stamp of a message that arrives now.
   ///
-  /// Just after a step the message may be of before; of both offsets that one holds with which it is as old as usual.
-  /// @param usual_age_ns age of the message of this producer that came last; becomes this one's
+  /// Just after a step the message may be of before: stamped until the clock was set, by its former offset. No message
+  /// is of the future; where both offsets can be, that one holds with which it is as old as usual.
+  /// @param usual_age_ns age of this producer's newest message without such a doubt; becomes that of this one
   std::int64_t time_of(std::int64_t stamp_ns, const Instant& now, std::int64_t& usual_age_ns) {
     follow(now);
-    std::int64_t time_ns = stamp_ns - offset_ns_;
+    const std::int64_t time_ns = stamp_ns - offset_ns_;
     if (was_set_ && now.time_ns - set_ns_ <= kUnderWayNs) {
-      const auto misfit = [&](std::int64_t time) { return std::abs(now.time_ns - time - usual_age_ns); };
-      const std::int64_t other_ns = stamp_ns - former_ns_;
-      time_ns = misfit(other_ns) < misfit(time_ns) ? other_ns : time_ns;
+      return is_of_before(stamp_ns, now.time_ns, usual_age_ns) ? stamp_ns - former_ns_ : time_ns;
     }
     usual_age_ns = now.time_ns - time_ns;
     return time_ns;
@@ -42,6 +41,17 @@ class StampClock {
   std::int64_t stamp_of(std::int64_t time_ns) const { return time_ns + offset_ns_; }
 
  private:
+  bool is_of_before(std::int64_t stamp_ns, std::int64_t now_ns, std::int64_t usual_age_ns) const {
+    // A producer's clock may run ahead of this one's.
+    const std::int64_t ahead_ns = kClockStepNs + std::max<std::int64_t>(0, -usual_age_ns);
+    const auto misfit = [&](std::int64_t time_ns) { return std::abs(now_ns - time_ns - usual_age_ns); };
+    const std::int64_t time_ns = stamp_ns - offset_ns_;
+    const std::int64_t former_time_ns = stamp_ns - former_ns_;
+    const bool may_be = former_time_ns <= set_ns_ + ahead_ns;
+    const bool must_be = time_ns > now_ns + ahead_ns;
+    return may_be && (must_be || misfit(former_time_ns) < misfit(time_ns));
+  }
+
   void follow(const Instant& now) {
     const std::int64_t offset_ns = now.stamp_ns - now.time_ns;
     if (!is_known_) {

@@ -34,10 +34,11 @@ def steady_stamp_ns(stamp_ns: int, now: Instant, before: Optional[Instant] = Non
     """The steady clock's time of a stamp of the robot's clock.
 
     The clock may have been set between the stamp and now; of the offsets now and before, that one holds which makes
-    the message younger.
+    the message younger, and not of the future.
     """
     stamps = [stamp_ns - reading.offset_ns for reading in (now, before or now)]
-    return min(stamps, key=lambda stamp: abs(now.steady_ns - stamp))
+    past = [stamp for stamp in stamps if stamp <= now.steady_ns + CLOCK_STEP_NS]
+    return min(past or stamps, key=lambda stamp: abs(now.steady_ns - stamp))
 
 
 class ClockWatch:

@@ -29,6 +29,14 @@ def test_step_of_the_clock_changes_no_age(step_s):  # A10
     assert after == pytest.approx(5.1 * SECOND_NS, abs=1000)
 
 
+@pytest.mark.parametrize("step_s", [-0.4, 0.4])
+def test_message_that_a_busy_machine_delays_across_a_step_is_not_of_the_future(step_s):  # A10
+    in_flight = steady_stamp_ns(at(5.0).clock_ns, at(5.3, step_s), before=at(4.9))
+    assert in_flight <= 5.3 * SECOND_NS
+    after = steady_stamp_ns(at(5.1, step_s).clock_ns, at(5.4, step_s), before=at(5.0))
+    assert after <= 5.4 * SECOND_NS
+
+
 def test_message_that_is_really_old_stays_old():
     assert steady_stamp_ns(at(2.0).clock_ns, at(5.0), before=at(4.9)) == pytest.approx(2.0 * SECOND_NS, abs=1000)
 
