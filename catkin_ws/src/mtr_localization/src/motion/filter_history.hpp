@@ -21,6 +21,8 @@ struct FilterInput {
   Motion motion{0.0, 0.0, 0.0};
   /// Rise of base_link's x and y axes per metre, at its end.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  /// Its 1 sigma along each axis.
+  double slope_sigma = 0.0;
 };
 
 /// State of the filter at one wheel sample.

@@ -18,6 +18,9 @@ class GroundLevel {
   /// Slope against the ground.
   Eigen::Vector2d relative(double heading_rad, const Eigen::Vector2d& slope) const;
 
+  /// 1 sigma of that slope along each axis: uneven ground tells less of its mean plane.
+  double sigma() const { return sigma_; }
+
  private:
   using Unknowns = Eigen::Vector4d;
 
@@ -27,6 +30,7 @@ class GroundLevel {
   Unknowns information_vector_ = Unknowns::Zero();
   double squares_ = 0.0;
   double count_ = 0.0;
+  double sigma_ = 0.0;
 };
 
 }  // namespace mtr_localization

@@ -56,6 +56,7 @@ FilterInput Odometry::input_since_last(const WheelSample& wheels, const YawRateH
   FilterInput input;
   input.motion.duration_s = static_cast<double>(wheels.stamp_ns - last_->stamp_ns) * 1e-9;
   input.slope = slope_at(wheels, gyro.sample_at(wheels.stamp_ns), input.motion.duration_s);
+  input.slope_sigma = level_.sigma();
   if (state_ == MotionState::kLost) {
     return input;
   }

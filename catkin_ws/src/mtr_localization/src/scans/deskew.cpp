@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "map_names.hpp"
+#include "scans/ground.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -16,8 +17,6 @@ constexpr double kMaxSlope = 5.7;
 constexpr double kNoiseBetweenNeighboursM = 0.06;
 // Beams on either side that can back a return.
 constexpr int kNeighbours = 2;
-// What is met so far below the LiDAR may be the ground: LiDARs sit 0.2 m or more above it.
-constexpr double kNearGroundM = 0.17;
 
 class Converter {
  public:
@@ -26,7 +25,7 @@ class Converter {
         motion_(motion),
         scan_(scan),
         odom_from_ref_(motion.odom_at(scan.stamp_ns)),
-        slope_(motion.at(motion.nearest(scan.stamp_ns)).input.slope) {}
+        input_(motion.at(motion.nearest(scan.stamp_ns)).input) {}
 
   void run() {
     // The robot's motion within a few ms is straight: its pose is worked out for some beams, and in between by share.
@@ -42,7 +41,7 @@ class Converter {
   PoseVector lidar_at(std::size_t beam) const {
     PoseVector mount = sweep_.mount;
     // A robot whose nose is up carries its LiDAR farther back.
-    mount.head<2>() -= sweep_.mount_height_m * slope_;
+    mount.head<2>() -= sweep_.mount_height_m * input_.slope;
     return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), mount);
   }
 
@@ -65,9 +64,9 @@ class Converter {
 
   void add(const Eigen::Vector2d& lidar, const Eigen::Vector2d& direction, double range) {
     // The plane of a robot that leans meets the ground; and seen from above, what it shows is nearer.
-    const double climb = slope_.dot(direction);
-    if (climb * range > -kNearGroundM) {
-      const Eigen::Vector2d beam = range * (direction - 0.5 * climb * slope_);
+    const double climb = input_.slope.dot(direction);
+    if (!may_be_ground(climb * range, range, input_.slope_sigma)) {
+      const Eigen::Vector2d beam = range * (direction - 0.5 * climb * input_.slope);
       scan_.points.push_back({lidar + beam, direction, range, climb * range, static_cast<int>(sweep_.lidar)});
     }
   }
@@ -94,7 +93,7 @@ class Converter {
   const FilterHistory& motion_;
   ScanPoints& scan_;
   PoseVector odom_from_ref_;
-  Eigen::Vector2d slope_;
+  const FilterInput& input_;
 };
 
 }  // namespace

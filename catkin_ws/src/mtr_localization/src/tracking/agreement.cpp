@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "map_names.hpp"
+#include "scans/ground.hpp"
 
 namespace mtr_localization {
 namespace {
@@ -93,11 +94,14 @@ struct Beam {
   Eigen::Vector2d eye;
   Eigen::Vector2d direction;
   double shown;
-  /// Rise per metre.
+  /// Rise per metre, and its 1 sigma.
   double climb;
+  double climb_sigma;
 
   /// So far away the beam is at another height than the map.
   bool is_off_plane_at(double range) const { return std::abs(climb) > kSameHeightM / range; }
+
+  bool shows_ground() const { return shown < kNothing && may_be_ground(climb * shown, shown, climb_sigma); }
 };
 
 /// What is expected round a beam, as far aside as a surface may be off.
@@ -129,20 +133,24 @@ bool is_on_surface(const SurfelMap& map, const Beam& beam, double tolerance_m) {
          map.match(beam.eye + beam.shown * beam.direction, tolerance_m + kTolerancePerM * beam.shown, beam.direction);
 }
 
+/// It looks over or under what is expected, or at the ground before it; by a few centimetres where a bumper or sill ends
+/// beside the LiDAR's plane.
+bool is_excused(const ExpectedView& view, const Beam& beam) {
+  const double expected = view.nearest(beam.bin);
+  return beam.is_off_plane_at(std::min(beam.shown, expected)) || beam.shows_ground() ||
+         (beam.shown > expected && view.is_at_new_height(beam.bin, beam.climb));
+}
+
 void count(const ExpectedView& view, const SurfelMap& map, const Beam& beam, double tolerance_m, Agreement& agreement) {
   const double expected = view.nearest(beam.bin);
   const Surroundings around = look_around(view, beam, tolerance_m);
   const bool agrees = around.agrees || is_on_surface(map, beam, tolerance_m);
   if (expected == kNothing) {
     const bool is_known = beam.shown == kNothing || agrees;
-    agreement.unknown += is_known || beam.is_off_plane_at(beam.shown) ? 0 : 1;
+    agreement.unknown += is_known || beam.is_off_plane_at(beam.shown) || beam.shows_ground() ? 0 : 1;
   } else if (agrees) {
     ++agreement.seen;
-  } else if (beam.is_off_plane_at(std::min(beam.shown, expected))) {
-    // It looks over or under what is expected, or at the ground before it.
-    ++agreement.excused;
-  } else if (beam.shown > expected && view.is_at_new_height(beam.bin, beam.climb)) {
-    // The same, by less: bumpers and sills end a few centimetres beside the LiDAR's plane.
+  } else if (is_excused(view, beam)) {
     ++agreement.excused;
   } else if (beam.shown < expected) {
     ++agreement.hidden;
@@ -200,7 +208,8 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     const double angle_in_base = sweep.mount.z() + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
     const double climb = view.slope.dot(Eigen::Vector2d(std::cos(angle_in_base), std::sin(angle_in_base)));
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
-    count(expected, map, {bin_of(angle), eye.head<2>(), direction, shown, climb}, tolerance_m, agreement);
+    count(expected, map, {bin_of(angle), eye.head<2>(), direction, shown, climb, view.slope_sigma}, tolerance_m,
+          agreement);
   }
   return agreement;
 }

@@ -60,6 +60,8 @@ struct ViewPose {
   SweepTurn turn = {};
   /// Rise of base_link's x and y axes per metre.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  /// Its 1 sigma along each axis.
+  double slope_sigma = 0.0;
 };
 
 /// Draws the map as the LiDAR would see it and compares. Where the robot's tilt makes the LiDAR look over or under

@@ -24,6 +24,8 @@ struct View {
   PoseVector odom = PoseVector::Zero();
   /// Rise of base_link's x and y axes per metre.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
+  /// Its 1 sigma along each axis.
+  double slope_sigma = 0.0;
 };
 
 View view_of(const ScanSet& set, ScanPoints scan, const FilterHistory& history);

@@ -33,10 +33,11 @@ Sweep sweep_of_range(float range_m) {
   return sweep;
 }
 
-FilterHistory leaning(const Eigen::Vector2d& slope) {
+FilterHistory leaning(const Eigen::Vector2d& slope, double slope_sigma = 0.0) {
   FilterHistory history(PoseFilter(SensorParameters{}), 0);
   FilterInput input;
   input.slope = slope;
+  input.slope_sigma = slope_sigma;
   history.advance(kStepNs, input);
   return history;
 }
@@ -118,6 +119,18 @@ TEST(GroundLevel, BiasAndSlopeOfTheGroundAreToldApartByDrivingRound) {
   EXPECT_NEAR((level.relative(1.0, shown) - own).norm(), 0.0, 0.0005);
 }
 
+TEST(GroundLevel, UnevenGroundTellsLessOfItsPlaneThanALevelOne) {
+  GroundLevel level;
+  GroundLevel uneven;
+  for (int i = 0; i < 60; ++i) {
+    level.add(0.0, Eigen::Vector2d::Zero());
+    // Waves of 3 m, seen every 0.3 m.
+    uneven.add(0.0, 0.017 * Eigen::Vector2d(std::sin(0.63 * i), std::cos(0.63 * i)));
+  }
+  EXPECT_NEAR(level.sigma(), 0.002, 1e-9);
+  EXPECT_NEAR(uneven.sigma(), 0.006, 0.001);
+}
+
 TEST(Deskew, LeaningRobotKeepsItsPointsWhereALevelOneSeesThem) {
   Sweep sweep = sweep_of_range(3.0F);
   sweep.mount_height_m = 0.24;
@@ -134,10 +147,19 @@ TEST(Deskew, WhatALeaningRobotSeesNearTheGroundIsLeftOut) {
   EXPECT_EQ(up.points.size(), 101u);
 }
 
+TEST(Deskew, WhatMayBeGroundIsLeftOutWhereTheLeanIsKnownBadly) {
+  // 8 cm below the LiDAR, 10 m away.
+  const Eigen::Vector2d slope(-0.008, 0.0);
+  EXPECT_EQ(deskew({{sweep_of_range(10.0F)}, 1}, leaning(slope, 0.002)).points.size(), 101u);
+  EXPECT_TRUE(deskew({{sweep_of_range(10.0F)}, 1}, leaning(slope, 0.006)).points.empty());
+  // Near by it is known all the same.
+  EXPECT_EQ(deskew({{sweep_of_range(2.0F)}, 1}, leaning(slope, 0.006)).points.size(), 101u);
+}
+
 class LeaningViewTest : public ::testing::Test {
  protected:
-  Agreement seen(float range_m, double slope) const {
-    return agreement_of(sweep_of_range(range_m), {PoseVector::Zero(), 0.0, 0.0, {slope, 0.0}}, wall, 0.1);
+  Agreement seen(float range_m, double slope, double slope_sigma = 0.0) const {
+    return agreement_of(sweep_of_range(range_m), {PoseVector::Zero(), {}, {slope, 0.0}, slope_sigma}, wall, 0.1);
   }
 
   /// A wall 5 m ahead.
@@ -153,6 +175,16 @@ TEST_F(LeaningViewTest, LookingUnderTheMapOrAtTheGroundSaysNothing) {
   const Agreement agreement = seen(12.0F, -0.03);
   EXPECT_EQ(agreement.hidden + agreement.beyond + agreement.missing, 0);
   EXPECT_EQ(agreement.unknown, 0);
+}
+
+TEST_F(LeaningViewTest, WhatMayBeGroundSaysNothingWhereTheLeanIsKnownBadly) {
+  wall = SurfelMap({{{12.0, 0.0}, {-1.0, 0.0}, 4.0, 0.002, 50}});
+  const Agreement known = seen(9.0F, -0.008, 0.002);
+  EXPECT_GT(known.hidden, 10);
+  EXPECT_GT(known.unknown, 10);
+  const Agreement unknown = seen(9.0F, -0.008, 0.006);
+  EXPECT_EQ(unknown.hidden, 0);
+  EXPECT_EQ(unknown.unknown, 0);
 }
 
 TEST_F(LeaningViewTest, SurfaceMetAtAnotherHeightIsNotMissed) {
