@@ -25,5 +25,10 @@ constexpr Sentence kOutliers{"surfel_map.outliers",
                              "{percent:.0f} % of what the LiDARs saw does not fit the map: did something large move?"};
 constexpr Sentence kMotionDisagrees{"surfel_map.motion_disagrees",
                                     "Wheels and gyro disagree with the LiDARs by {ratio:.1f} times their uncertainty."};
+constexpr Sentence kJump{
+    "surfel_map.jump",
+    "On the way round the LiDARs show a jump of {distance_m:.2f} m and {angle_deg:.1f} degrees that "
+    "wheels and gyro exclude: drive round the Car again, slowly and on even ground, and let nobody "
+    "push the robot."};
 
 }  // namespace mtr_surfel_map::problems

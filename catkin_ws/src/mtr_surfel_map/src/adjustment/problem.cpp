@@ -15,6 +15,8 @@ constexpr int kMaxSteps = 4;
 // A step that moves no place by more ends the steps: the next association changes more than another step would.
 constexpr double kSettledM = 0.0001;
 constexpr double kOutlierSigmas = 4.0;
+// Beyond so many sigmas, as the key frames say them, wheels and gyro exclude a motion, however they slip.
+constexpr double kExcludedSigmas = 10.0;
 // Median over sigma of the size of a normal distribution's values.
 constexpr double kMedianOfNormal = 0.6745;
 
@@ -72,6 +74,17 @@ double take(const Step& step, Adjustment& state) {
   return max_m;
 }
 
+/// Of the motion to a key frame; none where it is less than wheels and gyro may be off.
+Jump jump_to(const Adjustment& state, std::size_t key_frame, double size_in_sigmas) {
+  if (size_in_sigmas < kExcludedSigmas) {
+    return {};
+  }
+  const KeyFrame& frame = state.key_frames[key_frame];
+  const PoseVector between = relative(state.key_frames[key_frame - 1].pose, frame.pose);
+  return {(between.head<2>() - (1.0 + state.wheel_scale) * frame.motion.head<2>()).norm(),
+          std::abs(wrapped(between[2] - (1.0 + state.gyro_scale) * frame.motion[2]))};
+}
+
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -95,6 +108,7 @@ double solve(Adjustment& state, const std::vector<Observation>& observations, co
 Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations) {
   Fit fit;
   std::vector<double> sizes;
+  sizes.reserve(observations.size());
   for (const Observation& seen : observations) {
     sizes.push_back(std::abs(surface_residual(state, seen).value[0]));
   }
@@ -105,7 +119,11 @@ Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations
   }
   double sum = 0.0;
   for (std::size_t i = 1; i < state.key_frames.size(); ++i) {
-    sum += motion_residual(state, i).value.squaredNorm() / 3.0;
+    const double square = motion_residual(state, i).value.squaredNorm();
+    const Jump jump = jump_to(state, i, state.motion_factor * std::sqrt(square));
+    fit.jump.distance_m = std::max(fit.jump.distance_m, jump.distance_m);
+    fit.jump.angle_rad = std::max(fit.jump.angle_rad, jump.angle_rad);
+    sum += square / 3.0;
   }
   if (state.key_frames.size() > 1) {
     fit.motion_ratio = state.motion_factor * std::sqrt(sum / static_cast<double>(state.key_frames.size() - 1));

@@ -12,6 +12,12 @@
 
 namespace mtr_surfel_map {
 
+/// Distance and angle by which a pose is elsewhere than wheels and gyro have led from the key frame before.
+struct Jump {
+  double distance_m = 0.0;
+  double angle_rad = 0.0;
+};
+
 /// How well the measurements agree after the adjustment.
 struct Fit {
   /// Size of the differences between surfaces and views in their sigmas: 1 when the sigmas are right. From the median,
@@ -22,6 +28,8 @@ struct Fit {
   /// Root mean square of the differences between wheels and gyro and the poses, in the sigmas that the
   /// key frames say.
   double motion_ratio = 0.0;
+  /// Largest difference of one motion from one key frame to the next, of those that wheels and gyro exclude.
+  Jump jump;
 };
 
 /// Uncertainty of the results.

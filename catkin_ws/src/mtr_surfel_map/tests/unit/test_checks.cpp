@@ -75,6 +75,18 @@ TEST(MapVerdict, WayThatEndsWhereOtherThingsAreSeenThanWhereItBeganIsNoMap) {
   }
 }
 
+TEST(MapVerdict, OneMotionThatWheelsAndGyroExcludeIsNoMap) {
+  for (const PoseVector& jump : {PoseVector(0.4, 0.0, 0.0), PoseVector(0.0, 0.0, 0.06)}) {
+    std::vector<KeyFrame> frames = drive(LoopOptions{}).key_frames;
+    KeyFrame& jumping = frames[frames.size() / 3];
+    jumping.motion += jump;
+    expect_refused(frames, "wheels and gyro exclude");
+    // A way that nobody saw excludes nothing.
+    jumping.motion_covariance = Eigen::Matrix3d::Identity();
+    EXPECT_TRUE(adjust(frames, AdjustmentParameters{}).valid);
+  }
+}
+
 TEST(MapVerdict, KeyFrameThatIsNoNumberIsNoMap) {
   std::vector<KeyFrame> frames = drive(open_field()).key_frames;
   frames[7].scan.points[3].position.x() = std::nan("");
