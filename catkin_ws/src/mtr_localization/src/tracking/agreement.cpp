@@ -133,8 +133,8 @@ bool is_on_surface(const SurfelMap& map, const Beam& beam, double tolerance_m) {
          map.match(beam.eye + beam.shown * beam.direction, tolerance_m + kTolerancePerM * beam.shown, beam.direction);
 }
 
-/// It looks over or under what is expected, or at the ground before it; by a few centimetres where a bumper or sill ends
-/// beside the LiDAR's plane.
+/// It looks over or under what is expected, or at the ground before it; by a few centimetres where a bumper or sill
+/// ends beside the LiDAR's plane.
 bool is_excused(const ExpectedView& view, const Beam& beam) {
   const double expected = view.nearest(beam.bin);
   return beam.is_off_plane_at(std::min(beam.shown, expected)) || beam.shows_ground() ||
