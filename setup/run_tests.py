@@ -41,6 +41,9 @@ def main(wanted: List[str]) -> int:
     else:
         sums = [run(name) for name in names]
     passed, failed = (sum(column) for column in zip(*sums))
+    # Once more at the end: of a long output often only the end is kept.
+    for line in failures(names):
+        print(line)
     print(f"{passed} passed, {failed} failed")
     return 1 if failed or not passed else 0
 
@@ -208,6 +211,24 @@ def counts_of(reports: List[pathlib.Path], status: int) -> Counts:
             passed += int(suite.get("tests", 0)) - bad - int(suite.get("skipped", 0) or 0)
             failed += bad
     return passed, failed or (1 if status else 0)
+
+
+def failures(names: Sequence[str]) -> List[str]:
+    """A line for each test that failed, by the reports of the suites."""
+    found = []
+    # What rostest itself writes is about the test's process; rosunit's report has the tests.
+    for report in sorted(path for name in names for path in (RESULTS / name).rglob("*.xml")
+                         if not path.name.startswith("rostest-")):
+        try:
+            root = ElementTree.parse(report).getroot()
+        except (OSError, ElementTree.ParseError):
+            found.append(f"unreadable: {report.relative_to(RESULTS)}")
+            continue
+        for case in root.iter("testcase"):
+            for reason in case.findall("failure") + case.findall("error"):
+                said = (reason.get("message") or reason.text or "").strip().split("\n")[0]
+                found.append(f"failed: {case.get('classname')} {case.get('name')}: {said[:200]}")
+    return found
 
 
 SUITES: Dict[str, Callable[[], Counts]] = {
