@@ -56,12 +56,12 @@ Estimate Localizer::step(const GatedSample& sample) {
     memory_.reset();
   }
 
-  // Begin a map when one is ordered, and enter it when it is adjusted.
+  // Begin a map when one is ordered, and enter it when it is adjusted and can be trusted.
   if (mapper().begins(now_ns)) {
     begin_map();
   }
   if (const AdjustedMap* adjusted = mapper().finish(now_ns)) {
-    enter(*adjusted);
+    adjusted->valid ? enter(*adjusted) : leave(*adjusted);
   }
 
   // Correct by what has been seen meanwhile.
@@ -136,6 +136,8 @@ void Localizer::take_up(const Memory& memory) {
 
 void Localizer::begin_map() {
   memory_.reset();
+  // The frame of a map is given by where it begins: a doubt about the one before does not last.
+  history().change_newest([](PoseFilter& filter) { filter.set_pose(filter.pose(), Eigen::Matrix3d::Zero()); });
   tracker_.begin_map(history().newest());
   history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
   history().forget_past();
@@ -153,6 +155,12 @@ void Localizer::enter(const AdjustedMap& map) {
   const int sources = tracker_.enter(map, history().newest());
   history().change_newest([sources](PoseFilter& filter) { filter.consider_sources(sources); });
   history().forget_past();
+}
+
+void Localizer::leave(const AdjustedMap& refused) {
+  // The growing map is made of what has been refused, and so are the poses in it.
+  tracker_.give_up(problems::kMapRefused({{"cause", refused.message}}));
+  history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
 }
 
 void Localizer::bridge(const RememberedPose& before, const PoseVector& odom_before, const mtr_core::Problem& loss) {

@@ -43,6 +43,7 @@ class Localizer : public PoseSource {
   void begin_map();
   void take_up(const Memory& memory);
   void enter(const AdjustedMap& map);
+  void leave(const AdjustedMap& refused);
   void bridge(const RememberedPose& before, const PoseVector& odom_before, const mtr_core::Problem& loss);
   Estimate estimate() const;
   PoseMode mode() const;

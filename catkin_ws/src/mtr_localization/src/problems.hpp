@@ -53,6 +53,9 @@ constexpr Sentence kStartedAnew{"localization.started_anew", "Localization was s
 constexpr Sentence kLostOnTheWay{
     "localization.lost_on_the_way",
     "The position was lost on the way round the Car, and the robot went on; map the Car again."};
+constexpr Sentence kMapRefused{"localization.map_refused",
+                               "Position lost: there is no map of the Car. {cause} Put the robot at the starting place "
+                               "and map again."};
 constexpr Sentence kNotAdjusted{"localization.not_adjusted", "Surfaces by poses from elsewhere, not adjusted."};
 constexpr Sentence kNoScan{"localization.no_scan", "No scan has been seen."};
 

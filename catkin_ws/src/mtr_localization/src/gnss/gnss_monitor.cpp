@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gnss/gnss_monitor.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -33,11 +32,6 @@ Eigen::Matrix<double, 2, 3> antenna_by_pose(const PoseVector& pose, const Eigen:
   const Eigen::Vector2d arm = rotation(pose.z()) * antenna;
   jacobian.col(2) << -arm.y(), arm.x();
   return jacobian;
-}
-
-double worst_sigma_m(const Eigen::Matrix2d& covariance) {
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
 }
 
 }  // namespace
@@ -88,7 +82,7 @@ mtr_core::Problem GnssMonitor::use(const GnssFix& fix, const ScanTracker& tracke
       return problem;
     }
   }
-  if (!tracker.degenerate() && worst_sigma_m(step.filter.pose_covariance().topLeftCorner<2, 2>()) < kKnownSigmaM) {
+  if (!tracker.degenerate() && step.filter.position_sigma_m() < kKnownSigmaM) {
     frame_.learn(fix, transformed(step.filter.pose(), fix.antenna));
   }
   return {};

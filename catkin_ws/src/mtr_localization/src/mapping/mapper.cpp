@@ -117,7 +117,7 @@ const AdjustedMap* Mapper::finish(std::int64_t now_ns) {
   result_->stamp_ns = now_ns;
   result_->map_car_id = map_car_id_;
   result_->revision = newest_revision_;
-  return result_->map.valid ? &result_->map : nullptr;
+  return &result_->map;
 }
 
 Eigen::Matrix3d Mapper::drift_covariance() const {

@@ -60,8 +60,8 @@ class Mapper {
   /// Takes the next scan; the key frame that it completes, else null. Valid until the next call.
   const KeyFrame* add(const KeyFrameCandidate& candidate);
 
-  /// The adjusted map from the instant on at which poses are to be in it, once; null when there is none, or none that
-  /// can be trusted. Valid until take_result. In lock-step it waits for the thread.
+  /// The adjusted map from the instant on at which poses are to be in it, once; null at any other time. It may be one
+  /// that cannot be trusted, see its `valid`. There until take_result. In lock-step it waits for the thread.
   const AdjustedMap* finish(std::int64_t now_ns);
 
   /// The newest answer to an order to freeze, each once.

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/pose_filter.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 
@@ -14,6 +15,11 @@ namespace {
 double square(double value) { return value * value; }
 
 }  // namespace
+
+double worst_sigma_m(const Eigen::Matrix2d& covariance) {
+  return std::sqrt(
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+}
 
 PoseFilter::PoseFilter(const SensorParameters& parameters) : parameters_(parameters) {
   covariance_(kBias, kBias) = square(mtr_core::sensor_figures::kAssumedGyroBiasAtStartRadps);
@@ -127,5 +133,7 @@ Eigen::Matrix3d PoseFilter::pose_covariance() const {
   const Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxErrorSources> lasting = by_source_.topRows<3>();
   return prior_covariance() + lasting * lasting.transpose();
 }
+
+double PoseFilter::position_sigma_m() const { return worst_sigma_m(pose_covariance().topLeftCorner<2, 2>()); }
 
 }  // namespace mtr_localization

@@ -84,6 +84,8 @@ class PoseFilter {
 
   /// Covariance of x (m), y (m), heading (rad), with lasting errors.
   Eigen::Matrix3d pose_covariance() const;
+  /// Of the position, in its worst direction.
+  double position_sigma_m() const;
 
  private:
   enum Index { kX, kY, kHeading, kBias, kWheelScale, kGyroScale, kStates };
@@ -97,5 +99,8 @@ class PoseFilter {
   Covariance covariance_ = Covariance::Zero();
   Eigen::Matrix<double, kStates, Eigen::Dynamic, 0, kStates, kMaxErrorSources> by_source_{kStates, 0};
 };
+
+/// 1 sigma of a position in its worst direction.
+double worst_sigma_m(const Eigen::Matrix2d& covariance);
 
 }  // namespace mtr_localization

@@ -31,6 +31,9 @@ constexpr double kTiltSigmaRad = 0.003;
 // A view of which so much agrees is the expected one: at a wrong place nearly nothing does, and chance gives seldom
 // more than half.
 constexpr double kExpectedShare = 0.75;
+// Beams and share of the expected view that look through surfaces.
+constexpr int kMinContradicted = 8;
+constexpr double kContradictedShare = 0.25;
 // Surfaces so far aside, in bins, are not compared any more: 10 degrees.
 constexpr int kMaxAside = 20;
 
@@ -188,6 +191,10 @@ double Agreement::share_of_returns() const {
 }
 
 bool Agreement::is_expected() const { return expected() >= kMinEvidence && share_of_both() >= kExpectedShare; }
+
+bool Agreement::is_contradicted() const {
+  return through() >= kMinContradicted && through() >= kContradictedShare * expected();
+}
 
 Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m) {
   const PoseVector eye = compose(view.pose, sweep.mount);

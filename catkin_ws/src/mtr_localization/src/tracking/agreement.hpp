@@ -46,6 +46,8 @@ struct Agreement {
   double share_of_both() const { return 0.5 * (share_of_expected() + share_of_returns()); }
   /// So much agrees as at a wrong place only chance gives, and seldom.
   bool is_expected() const;
+  /// Surfaces are not where the map has them, of which no person can be the cause.
+  bool is_contradicted() const;
 };
 
 /// How far base_link had turned against the pose of a sweep when its first and its last beam were taken.

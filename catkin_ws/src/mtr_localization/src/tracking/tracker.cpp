@@ -40,9 +40,6 @@ constexpr std::int64_t kSettledNs = 500'000'000;
 // Of so many returns near surfaces a pose that is what its covariance says puts nearly all on them.
 constexpr int kMinNear = 15;
 constexpr double kMinExactShare = 0.5;
-// Beams and share of the expected view that look through surfaces, of which no person can be the cause.
-constexpr int kMinContradicted = 8;
-constexpr double kContradictedShare = 0.25;
 
 double weakest_sigma_m(const Eigen::Matrix3d& information) {
   const Eigen::Vector3d scale(1.0, 1.0, 1.0 / kLeverM);
@@ -50,17 +47,6 @@ double weakest_sigma_m(const Eigen::Matrix3d& information) {
   const double least =
       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues().minCoeff();
   return 1.0 / std::sqrt(std::max(least, kMinInformation));
-}
-
-double position_sigma_m(const PoseFilter& filter) {
-  const Eigen::Matrix2d covariance = filter.pose_covariance().topLeftCorner<2, 2>();
-  return std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(covariance, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
-}
-
-/// Surfaces are not where the map has them.
-bool contradicts(const Agreement& all) {
-  return all.through() >= kMinContradicted && all.through() >= kContradictedShare * all.expected();
 }
 
 }  // namespace
@@ -107,6 +93,13 @@ void ScanTracker::doubt(const mtr_core::Problem& reason, bool reckoned) {
   is_reckoned_ = reckoned;
 }
 
+void ScanTracker::give_up(const mtr_core::Problem& reason) {
+  state_ = State::kNoMap;
+  map_ = std::make_unique<ReferenceMap>();
+  search_.reset();
+  doubt(reason, false);
+}
+
 void ScanTracker::lose_sight(const mtr_core::Problem& reason) {
   lost_reason_ = reason;
   degenerate_ = false;
@@ -140,7 +133,7 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
     return Judgement::kLost;
   }
   const FilterStep& step = history.at(set.step);
-  const double tolerance_m = kToleranceM + 3.0 * position_sigma_m(history.newest().filter);
+  const double tolerance_m = kToleranceM + 3.0 * history.newest().filter.position_sigma_m();
   const View view = view_of(set, {}, history);
   const Agreement all = agreement_of(view, step.filter.pose(), map_->surfaces, tolerance_m);
   const bool is_right = agrees(all);
@@ -161,10 +154,10 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
     is_contradicted_ = true;
     lose_sight(problems::kOtherView());
   }
-  if (position_sigma_m(history.newest().filter) > parameters_.lost_sigma_m && state_ == State::kLocalized) {
+  if (history.newest().filter.position_sigma_m() > parameters_.lost_sigma_m && state_ == State::kLocalized) {
     lose_sight(problems::kOutOfView());
   }
-  is_contradicted_ = is_contradicted_ || contradicts(all);
+  is_contradicted_ = is_contradicted_ || all.is_contradicted();
   if (lost()) {
     return Judgement::kLost;
   }
@@ -201,7 +194,7 @@ double ScanTracker::patience_after(const Agreement& all, const Eigen::Vector2d& 
     return patience_s_;
   }
   const double since_s = static_cast<double>(step.stamp_ns - agreed_ns_) * 1e-9;
-  return std::max(patience_s_ - since_s, contradicts(all) ? 0.0 : parameters_.lost_after_s);
+  return std::max(patience_s_ - since_s, all.is_contradicted() ? 0.0 : parameters_.lost_after_s);
 }
 
 bool ScanTracker::is_beyond_patience(const Agreement& all, const FilterStep& step) const {
@@ -287,10 +280,10 @@ Relocalization::Found ScanTracker::matched_near(const View& view, const PoseFilt
 bool ScanTracker::is_uncovered(const View& view, const PoseVector& pose, const FilterHistory& history,
                                const FilterStep& step) {
   const Agreement all = agreement_of(view, pose, map_->surfaces, kToleranceM);
-  is_contradicted_ = is_contradicted_ || contradicts(all);
+  is_contradicted_ = is_contradicted_ || all.is_contradicted();
   const PoseVector way = relative(agreed_odom_, step.odom);
   const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;
-  const bool is_known = position_sigma_m(history.newest().filter) <= parameters_.lost_sigma_m;
+  const bool is_known = history.newest().filter.position_sigma_m() <= parameters_.lost_sigma_m;
   if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !all.is_expected()) {
     uncovered_ns_.reset();
     return false;

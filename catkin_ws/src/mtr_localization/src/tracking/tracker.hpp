@@ -57,6 +57,9 @@ class ScanTracker {
   /// view there agrees; else only a search finds it
   void doubt(const mtr_core::Problem& reason, bool reckoned);
 
+  /// As `lose`, and there is no map to be found in until another begins.
+  void give_up(const mtr_core::Problem& reason);
+
   /// Whether the pose is the right one: so much of the expected view is seen. Knows from then on when it is lost.
   Judgement judge(const ScanSet& set, const FilterHistory& history);
   /// What a scan says about the pose of a step.

@@ -115,5 +115,63 @@ TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
       << robot.result->map.message.text;
 }
 
+/// A robot that goes half the way round, so that its map is refused.
+class RefusedMapTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    robot.drive(0.0, 0.0, 2.0);
+    robot.order(1, MapOrder::Phase::kCollect);
+    robot.drive(0.6, 0.0, 6.0);
+    robot.drive(0.0, M_PI_2 / 2.0, 2.0);
+    robot.drive(0.6, 0.0, 6.0);
+    ASSERT_TRUE(robot.newest.valid);
+    robot.order(1, MapOrder::Phase::kFreeze);
+    robot.drive(0.0, 0.0, 3.0);
+    ASSERT_TRUE(robot.result);
+    ASSERT_FALSE(robot.result->map.valid);
+  }
+
+  SceneDrive robot{scenes::lot(), Parameters{}};
+};
+
+TEST_F(RefusedMapTest, NoPoseInItIsValidAnyMore) {
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+  for (int tick = 0; tick < 300; ++tick) {
+    robot.tick(tick < 150 ? 0.3 : 0.0, tick < 150 ? 0.2 : 0.0);
+    ASSERT_FALSE(robot.newest.valid);
+  }
+  EXPECT_NE(robot.newest.message.text.find("was not closed"), std::string::npos) << robot.newest.message.text;
+  EXPECT_NE(robot.newest.message.text.find("map again"), std::string::npos) << robot.newest.message.text;
+}
+
+TEST_F(RefusedMapTest, SensorThatIsSilentForAMomentDoesNotMakeItValid) {
+  robot.hears = false;
+  robot.drive(0.3, 0.0, 1.0);
+  robot.hears = true;
+  EXPECT_FALSE(robot.drive(0.0, 0.0, 4.0).valid);
+}
+
+TEST_F(RefusedMapTest, NextMapBeginsWhereTheRobotStandsAndIsAsGoodAsAnyOther) {
+  robot.order(2, MapOrder::Phase::kCollect);
+  robot.drive(0.0, 0.0, 0.2);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message.text;
+  EXPECT_LT(robot.position_sigma_m(), 0.002);
+  const PoseVector begin_truth = robot.truth;
+  const PoseVector begin(robot.newest.x_m, robot.newest.y_m, robot.newest.heading_rad);
+  robot.drive(0.6, 0.0, 4.0);
+  robot.drive(0.0, M_PI_2 / 2.0, 2.0);
+  for (const double side_m : {5.6, 8.4, 5.6, 6.0}) {
+    robot.drive(0.6, 0.0, side_m / 0.6);
+    robot.drive(0.0, M_PI_2 / 2.0, 2.0);
+  }
+  robot.drive(0.0, 0.0, 0.5);
+  robot.order(2, MapOrder::Phase::kFreeze);
+  robot.drive(0.0, 0.0, 3.0);
+  ASSERT_TRUE(robot.result->map.valid) << robot.result->map.message.text;
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLocalized);
+  const PoseVector here(robot.newest.x_m, robot.newest.y_m, robot.newest.heading_rad);
+  EXPECT_LT((relative(begin, here) - relative(begin_truth, robot.truth)).head<2>().norm(), 0.01);
+}
+
 }  // namespace
 }  // namespace mtr_localization

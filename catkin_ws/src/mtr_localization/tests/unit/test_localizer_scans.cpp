@@ -119,7 +119,7 @@ TEST(LocalizerScans, SilentLidarLeavesDeadReckoningWithGrowingUncertainty) {
   EXPECT_LT(robot.position_error_m(), 0.03);
 }
 
-TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNoMapAndKeepsThePose) {
+TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNeitherMapNorPose) {
   SceneDrive robot(scenes::lot(), Parameters{});
   robot.drive(0.0, 0.0, 2.0);
   robot.order(1, MapOrder::Phase::kCollect);
@@ -129,8 +129,8 @@ TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNoMapAndKeepsThePose) {
   ASSERT_TRUE(robot.result.has_value());
   EXPECT_FALSE(robot.result->map.valid);
   EXPECT_NE(robot.result->map.message.text, "");
-  EXPECT_TRUE(robot.newest.valid);
-  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping);
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   EXPECT_EQ(robot.newest.map_revision, 0u);
 }
 
