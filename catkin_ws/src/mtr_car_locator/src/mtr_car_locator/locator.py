@@ -35,6 +35,8 @@ class CarLocator:
         self._located: Optional[LocatedCar] = None
         self._state = CarState.UNKNOWN
         self._was_mapping = False
+        # A survey that was ordered where the position is lost waits for that of its own map.
+        self._awaits_pose = False
         self._map_car_id = 0
         self._next_waypoint_id = 1
         self._revision = 0
@@ -80,25 +82,38 @@ class CarLocator:
 
     def _work(self, inputs: Inputs, poses: PoseHistory) -> None:
         task = inputs.task
-        survey = self._survey_for(task, inputs.now_s, poses.newest.pose) if task and task.mapping else None
-        if survey:
+        survey = self._survey_for(task, inputs.now_s, poses) if task and task.mapping else None
+        if survey and not self._awaits_pose:
             self._collect(survey, inputs, poses)
+        elif self._survey and self._state == CarState.COLLECTING:
+            # The robot has stopped because its position was lost with the map.
+            self._survey.judge(inputs.surfaces)
         elif self._located:
             self._located.step(inputs, poses, self._next_waypoint_id)
             if self._located.waypoint:
                 self._next_waypoint_id = self._located.waypoint.id + 1
             self._revision, self._message = self._located.revision, self._located.message
 
-    def _survey_for(self, task: LocatorTask, now_s: float, robot: Pose2) -> Optional[Survey]:
+    def _survey_for(self, task: LocatorTask, now_s: float, poses: PoseHistory) -> Optional[Survey]:
         """The survey that the task is about, a new one if need be; None when it has ended."""
         if self._is_new(task):
-            prior = (prior_at(self._located.fit.rectangle) if self._located
-                     else prior_from_start(robot, self._parameters))
+            self._awaits_pose = not poses.is_fresh(now_s)
             # The time at which it begins is a number that no survey has had, not even before this node was restarted.
-            self._survey = Survey(prior, round(now_s * 1000.0), self._next_waypoint_id, self._parameters)
+            self._survey = self._survey_at(poses.newest.pose, round(now_s * 1000.0))
             self._located = None
             self._state, self._map_car_id = CarState.COLLECTING, task.map_car_id
+        elif self._survey and self._awaits_pose and poses.is_fresh(now_s):
+            self._awaits_pose = False
+            self._survey = self._survey_at(poses.newest.pose, self._survey.map_id)
         return self._survey if self._state == CarState.COLLECTING else None
+
+    def _survey_at(self, robot: Pose2, map_id: int) -> Survey:
+        # Where the position is lost, so is the Car's.
+        if self._located and not self._awaits_pose:
+            prior = prior_at(self._located.fit.rectangle)
+        else:
+            prior = prior_from_start(robot, self._parameters)
+        return Survey(prior, map_id, self._next_waypoint_id, self._parameters)
 
     def _is_new(self, task: LocatorTask) -> bool:
         if self._state == CarState.UNKNOWN or task.map_car_id != self._map_car_id:

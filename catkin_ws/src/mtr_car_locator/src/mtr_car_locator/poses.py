@@ -14,6 +14,8 @@ from mtr_core.se2 import Pose2, wrap_angle
 # Localization gives a pose each 20 ms; over a longer gap nothing is interpolated.
 MAX_GAP_S = 0.1
 KEPT = 100
+# An older pose is not where the robot is: none has been valid since.
+FRESH_S = 0.5
 # Below these a robot stands.
 STANDING_MPS, STANDING_RADPS = 0.01, 0.01
 
@@ -84,6 +86,10 @@ class PoseHistory:
             self.stands_since_s = None
         elif self.stands_since_s is None or robot.time_s < self.stands_since_s:
             self.stands_since_s = robot.time_s
+
+    def is_fresh(self, now_s: float) -> bool:
+        """The robot's pose is known now."""
+        return now_s - self.newest.time_s <= FRESH_S
 
     def at(self, times_s: FloatArray) -> Optional[Tuple[FloatArray, FloatArray, FloatArray]]:
         """x, y and heading at the times, None when they are not covered."""

@@ -130,6 +130,7 @@ class World:
         car: true pose of the Car in map.
         checking: order to check the Car, 0 for none.
         pushed_mps: somebody pushes the robot ahead.
+        is_lost: localization gives no valid pose.
     """
 
     def __init__(self, scene: Scene):
@@ -139,6 +140,7 @@ class World:
         self.mode: Optional[PoseMode] = None
         self.checking = 0
         self.pushed_mps = 0.0
+        self.is_lost = False
         self.steps = 50
         self.drift = np.zeros(3)
         self.estimates: List[Estimate] = []
@@ -196,7 +198,9 @@ class World:
         self.pose = self.pose @ Pose2(self.pushed_mps * PERIOD_S, 0.0, 0.0)
         self._drift()
         self._trail = [*self._trail[-3:], (self.now, self.pose)]
-        self.locator.add_pose(self._localized(before))
+        localized = self._localized(before)
+        if not self.is_lost:
+            self.locator.add_pose(localized)
         self.mapper.add_pose(self.now, self.pose)
         if self.steps % (8 if self.pose == before else 16) == 0 and len(self._trail) == 4:
             for mount in shipped_geometry().lidars():

@@ -114,12 +114,16 @@ class Survey:
             # A localization of wheels and gyro alone makes no map: what the locator has seen itself must do.
             self._fit(self._grid.surfels(robot.position_sigma_m))
         elif surfaces is not None and surfaces.map_id == self.map_id:
-            if not surfaces.valid:
-                raise NotLocated(surfaces.message or problems.NO_MAP())
+            self.judge(surfaces)
             if robot.map_revision == surfaces.revision:
                 self._fit(surfaces.surfels, self._way.close_up(surfaces.key_frames, surfaces.range_bias))
         elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
             raise NotLocated(problems.MAP_LATE(limit_s=self._parameters.map_limit_s))
+
+    def judge(self, surfaces: Optional[SurfaceMap]) -> None:
+        """NotLocated when the map of this way round cannot be used."""
+        if surfaces is not None and surfaces.map_id == self.map_id and not surfaces.valid:
+            raise NotLocated(surfaces.message or problems.NO_MAP())
 
     def _go_on(self, ring: Ring, now_s: float, robot: RobotPose, result: Result) -> None:
         is_settled = result in (Result.REACHED, Result.REFUSED)
