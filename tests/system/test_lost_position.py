@@ -1,4 +1,4 @@
-"""A robot that was carried away in the middle of a test: driven by hand it finds itself again, and the test goes on."""
+"""A robot that was carried away: driven by hand it finds itself and its test goes on, or the Car is mapped anew."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math
@@ -6,17 +6,22 @@ import pathlib
 import signal
 import subprocess
 import sys
+import time
 
 import pytest
 
 from mtr_bringup.demo import read_rows
 from mtr_bringup.stack import Stack, StackOptions
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import Mode
+from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_proto import robot_link_pb2
 
 HERE = pathlib.Path(__file__).parent
 PARAMETERS = HERE / "parameters" / "autolock.yaml"
-# In the Car's frame, beside it, where the lot is free for a circle.
+# In the Car's frame: beside it, where the lot is free for a circle, and about where it started.
 CARRIED_TO = (0.5, 3.0, 2.0)
+STARTING_PLACE = (4.1, 2.5, -2.6)
 AXES = 8
 STANDING_MPS = 0.02
 NEAR_M = 0.05
@@ -48,6 +53,13 @@ def true_place(stack):
     return float(columns["field.x"]), float(columns["field.y"])
 
 
+def carry(stack, place):
+    """Lift the robot and put it down elsewhere in the Car's frame."""
+    pose = "{{x: {}, y: {}, theta: {}}}".format(*place)
+    subprocess.run(["rostopic", "pub", "-1", "/sim/kidnap", "geometry_msgs/Pose2D", pose], env=stack.environment(),
+                   check=True, capture_output=True)
+
+
 def test_robot_that_was_carried_away_is_driven_by_hand_finds_itself_and_the_test_goes_on(
         application, observer, out, stack, hand):
     folder = out / "autolock"
@@ -56,9 +68,7 @@ def test_robot_that_was_carried_away_is_driven_by_hand_finds_itself_and_the_test
     observer.wait_for(lambda status: progress.exists())
     measured = json.loads(progress.read_text(encoding="utf-8"))["results"]
     assert measured
-    pose = "{{x: {}, y: {}, theta: {}}}".format(*CARRIED_TO)
-    subprocess.run(["rostopic", "pub", "-1", "/sim/kidnap", "geometry_msgs/Pose2D", pose], env=stack.environment(),
-                   check=True, capture_output=True)
+    carry(stack, CARRIED_TO)
     lost = observer.wait_for(lambda status: not status.state.pose_valid)
     # It stands until somebody drives it.
     still_lost = observer.wait_for(lambda status: status.sent_time_s > lost.sent_time_s + 5.0)
@@ -81,3 +91,46 @@ def test_robot_that_was_carried_away_is_driven_by_hand_finds_itself_and_the_test
     place = true_place(stack)
     observer.wait_for(lambda status: status.state.pose_valid and math.dist((status.state.x, status.state.y), place)
                       < NEAR_M)
+
+
+class Controller:
+    """An application that wants the Car mapped, and nothing else."""
+
+    def __init__(self, stack):
+        self.link = ZmqRobotLink("127.0.0.1", stack.status_port, stack.command_port, is_unencrypted=True)
+        self.link.connect()
+
+    def order(self, map_car_id, until):
+        """Say so until the robot's Status is as wanted; that Status."""
+        deadline = time.monotonic() + WALL_LIMIT_S
+        while time.monotonic() < deadline:
+            status = self.link.next_status(0.5)
+            if status is not None:
+                self.link.send(DesiredState(map_car_id=map_car_id, max_speed_mps=0.8, resume_hold_id=status.hold_id))
+                if until(status):
+                    return status
+        pytest.fail(f"The robot's Status did not become as wanted; the last one was {status}")
+
+
+@pytest.fixture
+def controller(stack):
+    """The second application of this module."""
+    ordering = Controller(stack)
+    yield ordering
+    ordering.link.close()
+
+
+def is_beside_the_car(status):
+    """It knows where it stands beside the Car."""
+    return status.mode is Mode.FOLLOWING_WAYPOINT and status.pose_valid and status.car is not None
+
+
+def test_lost_robot_that_was_put_at_the_starting_place_maps_the_car_anew(controller, stack, hand):
+    assert hand.poll() is None
+    controller.order(1, is_beside_the_car)
+    carry(stack, CARRIED_TO)
+    controller.order(1, lambda status: status.mode is Mode.FAULT and not status.pose_valid)
+    carry(stack, STARTING_PLACE)
+    controller.order(2, lambda status: status.mode is Mode.MAPPING_CAR)
+    status = controller.order(2, is_beside_the_car)
+    assert math.dist((status.x, status.y), true_place(stack)) < NEAR_M

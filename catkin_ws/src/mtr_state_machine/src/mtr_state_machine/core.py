@@ -21,6 +21,9 @@ LOCKED_STATES = (State.STARTING, State.FAULT)
 # A lost position stops the robot like any fault. It is found again only on the way, so that after this time, in which
 # the robot has come to rest, it can be driven by hand; without a goal nothing else drives it.
 STANDS_AFTER_S = 1.0
+# A map that is ordered where the position is lost gives it a new one, once the Car locator and localization have heard
+# of it; until then the robot stands.
+POSITION_AWAITED_S = 3.0
 # States that rest on the Car's frame.
 FRAME_STATES = (State.FOLLOWING_WAYPOINT, State.CHECKING_CAR)
 
@@ -62,6 +65,7 @@ class StateMachine:
         self._is_map_lost = False
         self._failed_waypoint = (0, 0)
         self._lost_since_s: Optional[float] = None
+        self._awaits_position_since_s: Optional[float] = None
         self._failure_is_old = False
 
     @property
@@ -72,6 +76,8 @@ class StateMachine:
     def step(self, seen: Observation) -> Decision:
         """Decide at one tick."""
         self._failure_is_old = self._failure_is_old and seen.car.state is CarState.FAILED
+        if not self._awaits_position(seen):
+            self._awaits_position_since_s = None
         problem = self._problem(seen)
         for _ in range(MAX_EVENTS_PER_TICK):
             event = self._event(seen, problem)
@@ -89,9 +95,18 @@ class StateMachine:
     def _problem(self, seen: Observation) -> Problem:
         for part in Part:
             found = seen.part_problem(part, self._parameters.noticed_after_s)
-            if found:
+            if found and not (part is Part.LOCALIZATION and self._awaits_position(seen)):
                 return found
         return self._car_problem(seen)
+
+    def _only_position_is_lost(self, seen: Observation) -> bool:
+        return seen.only_position_is_lost(self._parameters.noticed_after_s)
+
+    def _awaits_position(self, seen: Observation) -> bool:
+        """A map has been ordered where the position is lost, and has not begun yet."""
+        since_s = self._awaits_position_since_s
+        return (since_s is not None and self.state is State.MAPPING_CAR and self._only_position_is_lost(seen)
+                and seen.now_s - since_s < POSITION_AWAITED_S)
 
     def _car_problem(self, seen: Observation) -> Problem:
         state = self._before_fault if self.state is State.FAULT else self.state
@@ -116,7 +131,7 @@ class StateMachine:
         if self.state is State.STARTING:
             return None if problem else Event.ALL_RUNNING
         may_order = not problem or self._car_problem(seen) == problem
-        if may_order and self._is_map_ordered(seen):
+        if (may_order or self._only_position_is_lost(seen)) and self._is_map_ordered(seen):
             return Event.MAP_ORDERED
         if may_order and self._is_check_ordered(seen):
             return Event.CHECK_ORDERED
@@ -150,6 +165,8 @@ class StateMachine:
             self._failure_is_old = seen.car.state is CarState.FAILED
         if event is Event.MAP_ORDERED:
             self._map_car_id = seen.desired.map_car_id
+        if event in (Event.MAP_ORDERED, Event.MAPPING_AGAIN):
+            self._awaits_position_since_s = seen.now_s if self._only_position_is_lost(seen) else None
         if event is Event.CAR_LOCATED:
             self._map_revision, self._is_map_lost = seen.map_revision, False
         if event is Event.CHECK_ORDERED:
@@ -170,7 +187,10 @@ class StateMachine:
 
     def _is_new_attempt(self, seen: Observation, problem: Problem) -> bool:
         """A waypoint that is not the one under which mapping failed tries again."""
-        failed = self._before_fault is State.MAPPING_CAR and problem == self._car_problem(seen)
+        of_car = self._car_problem(seen)
+        # A map that cannot be used leaves the robot without a position, too.
+        failed = self._before_fault is State.MAPPING_CAR and of_car and (problem == of_car
+                                                                        or self._only_position_is_lost(seen))
         new = seen.desired.waypoint.id and _waypoint_key(seen) != self._failed_waypoint
         return bool(failed and new and self._may_move(seen))
 
@@ -198,7 +218,7 @@ class StateMachine:
         desired, of_locator = seen.desired, seen.car.next_waypoint
         if self.state is State.FOLLOWING_WAYPOINT and desired.waypoint.id:
             return desired.waypoint, desired.session_id
-        if not of_locator.id:
+        if not of_locator.id or self._awaits_position(seen):
             return None
         if self.state is State.MAPPING_CAR and seen.car.state is CarState.COLLECTING:
             ordered = desired.waypoint.id or desired.map_car_id
@@ -216,7 +236,7 @@ class StateMachine:
                         self._hold.id)
 
     def _note_lost(self, seen: Observation) -> None:
-        is_lost = self.state is State.FAULT and seen.only_position_is_lost(self._parameters.noticed_after_s)
+        is_lost = self.state is State.FAULT and self._only_position_is_lost(seen)
         self._lost_since_s = (seen.now_s if self._lost_since_s is None else self._lost_since_s) if is_lost else None
 
     def _may_be_driven(self, seen: Observation) -> bool:
