@@ -136,8 +136,10 @@ void Localizer::take_up(const Memory& memory) {
 
 void Localizer::begin_map() {
   memory_.reset();
-  // The frame of a map is given by where it begins: a doubt about the one before does not last.
-  history().change_newest([](PoseFilter& filter) { filter.set_pose(filter.pose(), Eigen::Matrix3d::Zero()); });
+  if (tracker_.lost()) {
+    // The frame of a map is given by where it begins: a doubt about the one before does not last.
+    history().change_newest([](PoseFilter& filter) { filter.set_pose(filter.pose(), Eigen::Matrix3d::Zero()); });
+  }
   tracker_.begin_map(history().newest());
   history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
   history().forget_past();
