@@ -47,10 +47,11 @@ class Peripherals(unittest.TestCase):
         rospy.init_node("peripherals_test")
         cls.folder = tempfile.TemporaryDirectory()
         cls.truth = pathlib.Path(cls.folder.name) / FILE_NAME
-        # The manual controller is in no lock-step: at full speed a busy machine would make a short press of its stick.
+        # The peripherals wait for no word of the manual controller about the lift, which speaks only while it moves it:
+        # at full speed a busy machine would make a short way of it.
         cls.simulator = NodeProcess("mtr_simulation", "simulator_node", "simulator", real_time_factor=2.0,
                                     car_port_link=f"{cls.folder.name}/can", truth_dir=cls.folder.name,
-                                    hold_for=["peripherals", "peripherals_test"])
+                                    hold_for=["peripherals", "peripherals_test", "controller_input"])
         desired = DesiredState(session_id=SESSION_ID, link_alive=True, key_height_m=0.8)
         cls.desired = Speaker(names.DESIRED_STATE, desired, schedule.DISPATCHER)
         cls.mode = Speaker(names.ROBOT_MODE, RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT), schedule.STATE_MACHINE)

@@ -1,5 +1,6 @@
 """Simulated time for tests: /clock in lock-step with the nodes under test, and scripted nodes around them."""
 # SPDX-License-Identifier: Apache-2.0
+import copy
 import threading
 import time
 from typing import Any, Callable, Dict, Iterable, List
@@ -14,6 +15,7 @@ from mtr_core.lockstep.clock import stamp_of
 from mtr_core.lockstep.publishers import direct_publisher
 from mtr_core.lockstep.samples import Samples
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS, Slot
+from mtr_msgs.msg import MotionLock
 from mtr_simulation.clock.connections import wait_until_complete
 
 STEP_NS = CLOCK_STEP.period_ns
@@ -32,10 +34,12 @@ class Speaker:
         message: what it says; the stamp is set when it does.
         is_silent: True while it says nothing.
         heard_ns: tick at which it spoke last. spoken: messages so far.
+        under_way_wall_s: wall time for which what it says is under way, as on a busy machine.
     """
 
     def __init__(self, topic: str, message: Any, slot: Slot):
         self.message, self.is_silent, self.heard_ns, self.spoken = message, False, 0, 0
+        self.under_way_wall_s = 0.0
         self._slot = slot
         self._publisher = direct_publisher(topic, type(message))
 
@@ -44,8 +48,14 @@ class Speaker:
         if not self.is_silent and self._slot.last_at(tick_ns) == tick_ns:
             self.message.header.stamp = stamp_of(tick_ns)
             self.heard_ns = tick_ns
-            self._publisher.publish(self.message)
+            self._send()
             self.spoken += 1
+
+    def _send(self) -> None:
+        if self.under_way_wall_s:
+            threading.Timer(self.under_way_wall_s, self._publisher.publish, [copy.deepcopy(self.message)]).start()
+        else:
+            self._publisher.publish(self.message)
 
 
 class Listener:
@@ -67,6 +77,18 @@ class Listener:
 
     def _take(self, message: Any) -> None:
         self._samples.add(message.header.stamp.to_nsec(), message)
+
+
+class LockListener(Listener):
+    """The locks of one owner, on the topic that all of them share."""
+
+    def __init__(self, owner: str, slot: Slot):
+        self._owner = owner
+        super().__init__(names.MOTION_LOCK, MotionLock, slot)
+
+    def _take(self, message: Any) -> None:
+        if message.owner == self._owner:
+            super()._take(message)
 
 
 class Holds:

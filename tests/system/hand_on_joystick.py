@@ -1,12 +1,11 @@
 """A hand on the manual controller, as its driver would say it: it releases the emergency stop and then rests.
 
-SIGUSR1 has it drive in a circle, or rest again. It speaks every 40 ms of the robot's clock. On a machine that keeps it
-waiting the controller counts as lost; therefore it lets go and begins anew again and again, as a person would.
+SIGUSR1 has it drive in a circle, or rest again. It speaks every 40 ms of the robot's clock, and in lock-step the clock
+waits until it has been heard.
 """
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import signal
-import threading
 
 import rospy
 from rosgraph_msgs.msg import Clock
@@ -14,10 +13,13 @@ from sensor_msgs.msg import Joy
 
 from mtr_controller_input.parameters import Parameters
 from mtr_core import names
+from mtr_core.lockstep import direct_publisher
+from mtr_core.lockstep.clock import stamp_of
+from mtr_core.schedule import CONTROLLER_INPUT, MILLISECOND_NS
 
 AXES, BUTTONS = 8, 12
-RELEASE_S, REST_S, DRIVE_S = 1.4, 0.2, 12.0
-PERIOD_S = 0.04
+# It says the release for longer than it takes: what it says first is not waited for.
+RELEASE_NS = 1600 * MILLISECOND_NS
 # Of full deflection while slow: a circle of 0.8 m.
 FORWARD, TURN = 0.6, 0.5
 
@@ -27,33 +29,33 @@ class Hand:
 
     def __init__(self) -> None:
         self._parameters = Parameters()
-        self._publisher = rospy.Publisher(names.JOY, Joy, queue_size=1, tcp_nodelay=True)
-        self._begun_s = self._said_s = -PERIOD_S
+        # Without a queue: no word is left out.
+        self._publisher = direct_publisher(names.JOY, Joy)
+        self._begun_ns = self._said_ns = 0
         self._tremor = itertools.cycle((0.0, 0.01))
-        self._lock = threading.Lock()
         self._drives = False
         signal.signal(signal.SIGUSR1, self._change)
-        self._clock = rospy.Subscriber("/clock", Clock, self._take, queue_size=1, tcp_nodelay=True)
+        self._clock = rospy.Subscriber("/clock", Clock, self._take, queue_size=50, tcp_nodelay=True)
 
     def _change(self, *_: object) -> None:
         self._drives = not self._drives
 
     def _take(self, clock: Clock) -> None:
-        now_s = clock.clock.to_sec()
-        with self._lock:
-            if now_s - self._said_s < PERIOD_S:
-                return
-            self._said_s = now_s
-            self._begun_s = now_s if self._begun_s < 0.0 else self._begun_s
-            elapsed_s = (now_s - self._begun_s) % (RELEASE_S + REST_S + DRIVE_S)
-        self._publisher.publish(self._pressed(elapsed_s))
+        now_ns = clock.clock.to_nsec()
+        if now_ns - self._said_ns < CONTROLLER_INPUT.period_ns or not self._publisher.get_num_connections():
+            return
+        self._said_ns = now_ns
+        self._begun_ns = self._begun_ns or now_ns
+        joy = self._pressed(is_released=now_ns - self._begun_ns > RELEASE_NS)
+        joy.header.stamp = stamp_of(now_ns)
+        self._publisher.publish(joy)
 
-    def _pressed(self, elapsed_s: float) -> Joy:
+    def _pressed(self, is_released: bool) -> Joy:
         joy = Joy(axes=[0.0] * AXES, buttons=[0] * BUTTONS)
-        if elapsed_s < RELEASE_S:
+        if not is_released:
             for button in self._parameters.release_buttons:
                 joy.buttons[button] = 1
-        elif self._drives and elapsed_s > RELEASE_S + REST_S:
+        elif self._drives:
             joy.buttons[self._parameters.slow_button] = 1
             joy.axes[self._parameters.linear_axis] = FORWARD + next(self._tremor)
             joy.axes[self._parameters.angular_axis] = TURN

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import os
-from typing import Deque, Tuple
+from typing import Deque, List, Tuple
 
 import rospy
 import sensor_msgs.msg
 
 from mtr_core import names, schedule
-from mtr_core.lockstep import Ticker, clock, publisher, run_node
+from mtr_core.lockstep import StampedQueue, Ticker, clock, publisher, run_node
 from mtr_core.problems import NO_PROBLEM, messages_of
 from mtr_core.quiet_log import QuietStart
 from mtr_msgs.msg import LiftCommand, MotionLock, Problem, VelocityCommand
@@ -18,6 +18,43 @@ from .parameters import Parameters
 
 NS = 1e-9
 OWNER = "controller_input"
+KEPT = 100
+# A driver speaks in no slot of the schedule: within a period it has said something at any phase.
+LOCKSTEP_LAG_NS = schedule.CONTROLLER_INPUT.period_ns
+
+
+class ArrivedJoys:
+    """What the driver says, each message with the time at which it arrived.
+
+    A receiver whose clock is wrong must not keep an old deflection alive. On a clock that nobody sets: a controller in
+    the hand is not lost because the robot's clock was.
+    """
+
+    def __init__(self) -> None:
+        self._messages: Deque[Tuple[int, sensor_msgs.msg.Joy]] = collections.deque(maxlen=KEPT)
+        self._subscriber = rospy.Subscriber(names.JOY, sensor_msgs.msg.Joy, self._take_in, queue_size=50,
+                                            tcp_nodelay=True)
+
+    def take(self, _: int) -> List[Tuple[int, sensor_msgs.msg.Joy]]:
+        """Messages that have not been taken, oldest first, with their times in ns."""
+        return [self._messages.popleft() for _ in range(len(self._messages))]
+
+    def _take_in(self, message: sensor_msgs.msg.Joy) -> None:
+        self._messages.append((clock.steady_ns(), message))
+
+
+class DueJoys:
+    """The same in lock-step: the messages that are due at a tick, for which it waits, with their stamps.
+
+    How long they were under way on a busy machine does not count; a driver that is gone is not waited for.
+    """
+
+    def __init__(self) -> None:
+        self._queue = StampedQueue(names.JOY, sensor_msgs.msg.Joy, schedule.CONTROLLER_INPUT, LOCKSTEP_LAG_NS)
+
+    def take(self, tick_ns: int) -> List[Tuple[int, sensor_msgs.msg.Joy]]:
+        """Messages that are due and have not been taken, oldest first, with their times in ns."""
+        return [(message.header.stamp.to_nsec(), message) for message in self._queue.take(tick_ns)]
 
 
 class ControllerInputNode:
@@ -26,14 +63,12 @@ class ControllerInputNode:
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
         self._core = Controller(parameters)
-        self._messages: Deque[Tuple[int, sensor_msgs.msg.Joy]] = collections.deque(maxlen=100)
         self._before = Outcome()
         self._start, self._said = QuietStart(), (NO_PROBLEM, False)
         self._velocity = publisher(names.MANUAL_VELOCITY, VelocityCommand)
         self._lift = publisher(names.MANUAL_LIFT, LiftCommand)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
-        self._subscriber = rospy.Subscriber(names.JOY, sensor_msgs.msg.Joy, self._take, queue_size=50,
-                                            tcp_nodelay=True)
+        self._joys = DueJoys() if clock.is_lockstep() else ArrivedJoys()
         self._ticker = Ticker(schedule.CONTROLLER_INPUT)
 
     def spin(self) -> None:
@@ -42,8 +77,7 @@ class ControllerInputNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
-        while self._messages:
-            taken_ns, joy = self._messages.popleft()
+        for taken_ns, joy in self._joys.take(tick):
             self._core.take(Joy(tuple(joy.axes), tuple(joy.buttons)), taken_ns * NS)
         device = self._parameters.device
         outcome = self._core.step(clock.steady_at(tick) * NS, not device or os.path.exists(device))
@@ -75,11 +109,6 @@ class ControllerInputNode:
         self._said = said
         if outcome.velocity.active != self._before.velocity.active:
             rospy.loginfo("Manual control %s.", "ends" if outcome.velocity == RELEASED else "begins")
-
-    def _take(self, message: sensor_msgs.msg.Joy) -> None:
-        # The time of arrival: a receiver whose clock is wrong must not keep an old deflection alive. On a clock that
-        # nobody sets: a controller in the hand is not lost because the robot's clock was.
-        self._messages.append((clock.steady_ns(), message))
 
 
 def main() -> int:

@@ -7,15 +7,16 @@ from typing import Any, Deque, List, Optional
 
 import rospy
 
-from mtr_core.schedule import MILLISECOND_NS, Slot
+from mtr_core.schedule import MILLISECOND_NS, PRODUCER_LOST_AFTER_WALL_S, Slot
 
 from .clock import is_lockstep
+from .inputs import PATIENCE_PARAMETER
 from .samples import Samples
 
 # A publisher that has not answered by then (wall time) is not waited for any longer.
 CONNECT_WITHIN_WALL_S = 2.0
 CONNECT_CHECK_WALL_S = 0.005
-# The first messages after the connection may be missing.
+# The first messages after a connection was made may be missing.
 SETTLING_NS = 200 * MILLISECOND_NS
 KEPT = 100
 
@@ -32,17 +33,17 @@ class StampedQueue:
         self._samples: Samples[Any] = Samples(slot, lag_ns, waits=is_lockstep())
         self._queue: Deque[Any] = deque(maxlen=KEPT)
         self._changing = threading.Lock()
-        self._opened_ns: Optional[int] = None
+        # Tick at which it was not connected yet, newest; the first one where it was from the start.
+        self._connected_ns: Optional[int] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
         if is_lockstep():
+            self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
             self._connect(topic)
 
     def take(self, tick_ns: int) -> List[Any]:
         """Messages stamped not later than tick - lag that have not been taken, oldest first."""
-        if self._opened_ns is None:
-            self._opened_ns = tick_ns
-        if tick_ns - self._opened_ns >= SETTLING_NS and self._subscriber.get_num_connections():
-            self._samples.at(tick_ns)
+        if self._samples.waits:
+            self._wait_for_what_is_due(tick_ns)
         taken = []
         with self._changing:
             while self._queue and self._queue[0].header.stamp.to_nsec() <= tick_ns - self._lag_ns:
@@ -52,6 +53,12 @@ class StampedQueue:
     def close(self) -> None:
         """End the subscription."""
         self._subscriber.unregister()
+
+    def _wait_for_what_is_due(self, tick_ns: int) -> None:
+        if self._connected_ns is None or not self._subscriber.get_num_connections():
+            self._connected_ns = tick_ns
+        if tick_ns - self._connected_ns >= SETTLING_NS:
+            self._samples.at(tick_ns)
 
     def _connect(self, topic: str) -> None:
         deadline = time.monotonic() + CONNECT_WITHIN_WALL_S
