@@ -167,7 +167,7 @@ bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memo
 bench-can: setup build ## The Car's bus at full load, learning, replay; figures in out/bench/can.json; CAN_OPTIONS=--short or "--traffic LOGS"
 	@$(RUN) OPENBLAS_NUM_THREADS=1 python -m mtr_benchmarks.can_bus --out out/bench $(CAN_OPTIONS)
 
-# Parts: matrix soak fuzz kills link and two more; MATRIX_OPTIONS of the matrix alone: --only PATTERN, --robots, --short.
+# Parts: matrix soak fuzz kills link and two more; MATRIX_OPTIONS of the matrix alone: --only PATTERN, --robots, --short, --left.
 PROOFS ?=
 MATRIX_OPTIONS ?=
 bench-faults: setup build ## Matrix, an hour of soak, fuzz, kills and the link's cost, one table; figures in out/bench/faults.json; PROOFS="matrix soak"

@@ -33,6 +33,7 @@ from mtr_benchmarks.faults.matrix import (
     table,
 )
 from mtr_benchmarks.faults.proofs import LANES, Proof, Ran, run, together
+from mtr_benchmarks.faults.record import Run, right_of
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Interventions, Mode, Notification, Problem
 
@@ -194,3 +195,12 @@ def test_programs_of_the_proofs_are_there():
     for proof in (proof for lane in LANES for proof in lane):
         first, *others = proof.command
         assert (TOP / first).is_file() if first != "-m" else importlib.util.find_spec(f"{others[0]}.__main__")
+
+
+def test_cell_that_was_right_on_this_commit_when_it_was_run_last_is_not_left(tmp_path):
+    of_run = Run(tmp_path / "bench", 1, "abc")
+    assert right_of(of_run.folder, "abc") == set()
+    for cell, said in (("first", ["stands"]), ("second", []), ("first", []), ("second", ["stands"])):
+        of_run.keep(cell, said)
+    Run(of_run.folder, 1, "def").keep("first", ["stands"])
+    assert (right_of(of_run.folder, "abc"), right_of(of_run.folder, "def")) == ({"first"}, set())

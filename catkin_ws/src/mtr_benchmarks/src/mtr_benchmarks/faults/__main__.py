@@ -16,7 +16,8 @@ from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .campaign import Found, one_robot
 from .judge import first_told_s
-from .matrix import read_matrix, table
+from .matrix import Cell, read_matrix, table
+from .record import Run, present_commit, right_of
 from .robots import ROBOTS
 
 FAILED = Requirement("cells of the matrix that do something else than it says", "(count)", must=0.0)
@@ -32,6 +33,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--short", action="store_true", help="only the cells that are part of `make test`")
     parser.add_argument("--only", default="", metavar="PATTERN", help="cells whose name has it, e.g. 'imu .* driving'")
     parser.add_argument("--robots", nargs="*", default=list(ROBOTS), choices=list(ROBOTS), help="only cells of these")
+    parser.add_argument("--left", action="store_true", help="only cells that are not kept as right of this commit")
     parser.add_argument("--table", action="store_true", help="print the matrix for docs/faults.md and run nothing")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation")
     options = parser.parse_args(arguments)
@@ -39,17 +41,24 @@ def main(arguments: Optional[List[str]] = None) -> int:
     if options.table:
         print("\n".join(table(matrix)))
         return 0
+    of_run = Run(options.out, options.seed, present_commit())
+    right = right_of(options.out, of_run.commit) if options.left else frozenset()
+    courses = [[cell for cell in course if cell.name not in right] for course in
+               matrix.courses(options.short, options.only) if course[0].robot in options.robots]
+    return finish(report(run(courses, of_run)), options.out / "faults.json")
+
+
+def run(courses: List[List[Cell]], of_run: Run) -> List[Found]:
+    """What became of all cells, those of each course on robots of one kind."""
     found: List[Found] = []
-    for course in matrix.courses(options.short, options.only):
-        if course[0].robot not in options.robots:
-            continue
+    for course in courses:
         wanted = len(found) + len(course)
         while len(found) < wanted:
-            left, folder = course[len(found) - wanted:], options.out / "faults" / str(len(found))
+            left, folder = course[len(found) - wanted:], of_run.folder / "faults" / str(len(found))
             # A process is one node of one ROS graph only.
             with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
-                found += process.submit(one_robot, left, folder, options.seed).result()
-    return finish(report(found), options.out / "faults.json")
+                found += process.submit(one_robot, left, folder, of_run).result()
+    return found
 
 
 def report(found: List[Found]) -> BenchmarkReport:

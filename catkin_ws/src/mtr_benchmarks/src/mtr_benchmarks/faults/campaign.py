@@ -6,6 +6,7 @@ from typing import List, NamedTuple, Optional
 from .course import Course
 from .judge import Outcome, wrong
 from .matrix import LOST, Cell
+from .record import Run
 from .robot import FaultyRobot, FaultyRobotError
 from .robots import ROBOTS
 
@@ -18,10 +19,10 @@ class Found(NamedTuple):
     wrong: List[str]
 
 
-def one_robot(cells: List[Cell], folder: pathlib.Path, seed: int) -> List[Found]:
+def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
     """Cells of one kind of robot, in order, until one is over from which it does not come back, or all are."""
     ran: List[Found] = []
-    with FaultyRobot(folder, ROBOTS[cells[0].robot], seed) as robot:
+    with FaultyRobot(folder, ROBOTS[cells[0].robot], run.seed) as robot:
         course = Course(robot)
         for cell in cells:
             try:
@@ -29,8 +30,10 @@ def one_robot(cells: List[Cell], folder: pathlib.Path, seed: int) -> List[Found]
             except FaultyRobotError as error:
                 # The next robot begins with the cell after it; one that cannot be begun has failed.
                 ran.append(Found(cell, None, [str(error)]))
+                run.keep(cell.name, ran[-1].wrong)
                 break
             ran.append(Found(cell, outcome, wrong(cell, outcome)))
+            run.keep(cell.name, ran[-1].wrong)
             print(f"{cell.name}: {'; '.join(ran[-1].wrong) or 'as it must be'}", flush=True)
             if outcome.then == LOST:
                 break
