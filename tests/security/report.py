@@ -12,11 +12,11 @@ import sys
 from typing import Any, Dict, List
 
 from attacks import ALL, INSIDERS, STRANGERS
-from figures import Turn, percentile, ratio_of
 from robot_under_attack import Outcome, RobotUnderAttack
 
 from mtr_benchmarks.harness.report import BenchmarkReport, finish
 from mtr_benchmarks.harness.rows import Requirement, Row
+from mtr_benchmarks.harness.tails import Turn, percentile, ratio_of
 
 MOTIONS = Requirement("words to wheels and buttons that are not zero", "(count)", must=0.0)
 TWICE = Requirement("attacks of which a Status tells twice", "(count)", must=0.0)
@@ -81,13 +81,13 @@ def report(found: Dict[str, Attack], remarks: List[str]) -> BenchmarkReport:
         ratio = ratio_of(attack.turns)
         rows.append(Row(Requirement(f"p99 of a Command, {name}, against none", "(x)", must=MAX_RATIO), ratio.value,
                         details={"low_95": ratio.low, "high_95": ratio.high},
-                        remark=f"95 % {ratio.low:.2f} to {ratio.high:.2f}; {1e3 * ratio.beside_s:.1f} and "
-                               f"{1e3 * ratio.quiet_s:.1f} ms"))
+                        remark=f"95 % {ratio.low:.2f} to {ratio.high:.2f}; {1e3 * ratio.with_s:.1f} and "
+                               f"{1e3 * ratio.without_s:.1f} ms"))
         figures[name] = {"tries": attack.tries,
                          "codes": sorted({code for each in attack.outcomes for code in each.codes}),
                          "log_lines": sum(each.log_lines for each in attack.outcomes),
-                         "quiet": _times([delay for turn in attack.turns for delay in turn.quiet_s]),
-                         "beside": _times([delay for turn in attack.turns for delay in turn.beside_s])}
+                         "quiet": _times([delay for turn in attack.turns for delay in turn.without_s]),
+                         "beside": _times([delay for turn in attack.turns for delay in turn.with_s])}
     return BenchmarkReport(rows, {"attacks": figures}, remarks)
 
 

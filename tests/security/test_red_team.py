@@ -6,9 +6,9 @@ import time
 
 import pytest
 from attacks import INSIDERS, STRANGERS
-from figures import percentile
 from robot_under_attack import TOP, RobotUnderAttack
 
+from mtr_benchmarks.harness.tails import percentile
 from mtr_bringup.stack import free_port
 from mtr_dispatcher.access.command_line import NOT_PAIRED
 from mtr_dispatcher.access.pairing_window import FIRST_PAUSE_S, MAX_TRIES

@@ -1,4 +1,4 @@
-"""Figures of times that were measured. No robot inside."""
+"""The 99th percentile of what takes longer with something than without, measured in turns. No robot inside."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 from typing import List, NamedTuple, Sequence
@@ -9,20 +9,20 @@ RESAMPLED, TAIL = 2000, 0.025
 
 
 class Turn(NamedTuple):
-    """Delays without an attack and beside it, one after the other, s."""
+    """Delays without it (an attack, encryption) and with it, one after the other, s."""
 
-    quiet_s: List[float]
-    beside_s: List[float]
+    without_s: List[float]
+    with_s: List[float]
 
 
 class Ratio(NamedTuple):
-    """The 99th percentile beside an attack against that without, with its 95 % interval, and both, s."""
+    """The 99th percentile with it against that without, with its 95 % interval, and both, s."""
 
     value: float
     low: float
     high: float
-    beside_s: float
-    quiet_s: float
+    with_s: float
+    without_s: float
 
 
 def percentile(values: Sequence[float], share: float) -> float:
@@ -37,13 +37,13 @@ def ratio_of(turns: Sequence[Turn]) -> Ratio:
     """Over all turns; the interval by drawing whole turns again and again, for delays of one turn are alike."""
     chance = random.Random(1)
     drawn = [_ratio([chance.choice(turns) for _ in turns]) for _ in range(RESAMPLED)]
-    beside_s, quiet_s = _tails(turns)
-    return Ratio(beside_s / quiet_s, percentile(drawn, TAIL), percentile(drawn, 1.0 - TAIL), beside_s, quiet_s)
+    with_s, without_s = _tails(turns)
+    return Ratio(with_s / without_s, percentile(drawn, TAIL), percentile(drawn, 1.0 - TAIL), with_s, without_s)
 
 
 def _ratio(turns: Sequence[Turn]) -> float:
-    beside_s, quiet_s = _tails(turns)
-    return beside_s / quiet_s
+    with_s, without_s = _tails(turns)
+    return with_s / without_s
 
 
 def _tails(turns: Sequence[Turn]) -> List[float]:

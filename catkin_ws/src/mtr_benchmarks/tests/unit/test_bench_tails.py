@@ -1,9 +1,10 @@
-"""How the time of Commands beside an attack is held against that without one."""
+"""How what takes longer with something is held against the same without it."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 
 import pytest
-from figures import Turn, percentile, ratio_of
+
+from mtr_benchmarks.harness.tails import Turn, percentile, ratio_of
 
 
 def turns(factor, busy=lambda _: 1.0, count=10):
@@ -12,10 +13,10 @@ def turns(factor, busy=lambda _: 1.0, count=10):
                  [factor * busy(turn) * chance.uniform(1.0, 2.0) for _ in range(50)]) for turn in range(count)]
 
 
-def test_attack_that_costs_nothing_is_told_from_one_that_costs_three_times_as_much():
+def test_what_costs_nothing_is_told_from_one_that_costs_three_times_as_much():
     nothing, much = ratio_of(turns(1.0)), ratio_of(turns(3.0))
     assert nothing.low <= 1.0 <= nothing.high < 1.2 and much.value == pytest.approx(3.0, rel=0.1)
-    assert much.low > 2.5 and much.beside_s > 2.5 * much.quiet_s
+    assert much.low > 2.5 and much.with_s > 2.5 * much.without_s
 
 
 def test_busy_machine_falls_on_both_and_widens_the_interval():
