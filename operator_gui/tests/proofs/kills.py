@@ -31,9 +31,14 @@ PARAMETERS = {"autolock": {"measurements_distance_m": 0.2, "minimum_distance_m":
 MUST = ("lines lost", "points lost that the robot was ordered on after", "lines shown and not kept", "lines doubled",
         "points doubled", "good lines changed", "entries of the journal changed", "files that cannot be read",
         "lines missing at the end", "distances that are no point of the journal", "starts that failed")
-# A run uses the processor at most so long: from its start to some ten lines. Whatever else the machine does, the kills
-# fall on all parts of a run.
-LONGEST_LIFE_S = {"autolock": 0.8, "key_press": 0.4}
+# A run lives for as long as it takes, in time of the processor, from its start to so many lines, of which the first of
+# them is measured on this machine. Whatever else it does, the kills fall on all parts of a run.
+LINES_OF_LONGEST_LIFE = 10
+# Some live until they write reports, which takes the processor longer than all lines.
+SHARE_OF_LATE, LATEST_S = 0.1, 0.8
+# Of all kills; fewer with a line at hand and the proof has tried starts alone.
+MIN_SHARE_INSIDE = 0.1
+TOO_FEW_INSIDE = "scenarios of which fewer than a tenth of the kills had a line at hand"
 CLOCK_TICK_S = 1.0 / os.sysconf("SC_CLK_TCK")
 
 
@@ -44,8 +49,9 @@ class Chain:
         kills, inside: all, and those with a line at hand. found: what must not be, by name of MUST.
     """
 
-    def __init__(self, scenario, folder, chance):
+    def __init__(self, scenario, folder, chance, longest_life_s):
         self.scenario, self.folder, self.chance = SCENARIOS[scenario], folder, chance
+        self.longest_life_s = longest_life_s
         self.path = folder / "out" / FILE_NAME
         self.notes, self.said = folder / "notes", folder / "said"
         self.parameters = self.scenario.parameters_type.from_mapping(PARAMETERS[scenario])
@@ -57,7 +63,7 @@ class Chain:
     def run(self, wanted):
         """Kill it so many times at most, then let it end."""
         while self.kills < wanted:
-            if not self._live(self.chance.uniform(0.0, LONGEST_LIFE_S[self.scenario.name])):
+            if not self._live(self._life_s()):
                 break
             self.kills += 1
             self._check()
@@ -66,23 +72,33 @@ class Chain:
         self._check()
         self._check_end()
 
+    def _life_s(self):
+        is_late = self.chance.random() < SHARE_OF_LATE
+        return self.chance.uniform(0.0, LATEST_S if is_late else self.longest_life_s)
+
     def _live(self, life_s):
         """Start or go on; True when it was killed after life_s, False when it came to its end."""
-        self.starts += 1
-        # Another seed each time: else the substitutes repeat themselves, and so would what is measured.
-        arguments = ["run", self.scenario.name, "--params", self.folder / "parameters.json", "--out",
-                     self.folder / "out", "--simulated-robot", "--simulated-car", "--seed", self.starts]
-        if self._has_findings():
-            arguments += ["--continue", self.path]
-        process = witness.begin(arguments, self.said, self.notes)
+        process = self.begin()
         if life_s is not None:
-            wait_until_used(process, life_s)
+            used_s = wait_until(process, lambda used_s: used_s + CLOCK_TICK_S > life_s)
+            # The rest is less than the clock shows.
+            time.sleep(max(0.0, life_s - used_s))
             os.kill(process, signal.SIGKILL)
         _, status = os.waitpid(process, 0)
         if os.WIFSIGNALED(status):
             return True
         self.found["starts that failed"] += os.waitstatus_to_exitcode(status) != 0
         return False
+
+    def begin(self):
+        """Start or go on; the number of the process."""
+        self.starts += 1
+        # Another seed each time: else the substitutes repeat themselves, and so would what is measured.
+        arguments = ["run", self.scenario.name, "--params", self.folder / "parameters.json", "--out",
+                     self.folder / "out", "--simulated-robot", "--simulated-car", "--seed", self.starts]
+        if self._has_findings():
+            arguments += ["--continue", self.path]
+        return witness.begin(arguments, self.said, self.notes)
 
     def _has_findings(self):
         journal = journal_path(self.path)
@@ -154,26 +170,36 @@ class Chain:
                 distance.distance_m is not None and distance.distance_m not in points for distance in result.distances)
 
 
-def wait_until_used(process, life_s):
-    """Wait until a process has used the processor for so long, or has ended."""
+def wait_until(process, condition):
+    """Wait until a condition holds of the time for which a process has used the processor, or it has ended; that, s."""
     while True:
         fields = pathlib.Path(f"/proc/{process}/stat").read_text(encoding="ascii").rsplit(")", 1)[1].split()
         used_s = (int(fields[11]) + int(fields[12])) * CLOCK_TICK_S
-        if fields[0] == "Z":
-            return
-        if used_s + CLOCK_TICK_S > life_s:
-            # The rest is less than the clock shows.
-            time.sleep(max(0.0, life_s - used_s))
-            return
-        time.sleep(CLOCK_TICK_S / 2.0)
+        if fields[0] == "Z" or condition(used_s):
+            return used_s
+        time.sleep(CLOCK_TICK_S / 4.0)
+
+
+def longest_life_s(scenario, folder):
+    """Of a run that nobody kills before it has shown so many lines, s."""
+    first = Chain(scenario, pathlib.Path(tempfile.mkdtemp(dir=folder)), random.Random(0), 0.0)
+    process = first.begin()
+    shown = f'["{witness.SHOWN}"'
+    used_s = wait_until(process, lambda _: first.notes.exists() and first.notes.read_text(encoding="utf-8").count(
+        shown) >= LINES_OF_LONGEST_LIFE)
+    os.kill(process, signal.SIGKILL)
+    os.waitpid(process, 0)
+    return used_s
 
 
 def prove(scenario, kills, seed, folder):
     """Chains until there are so many kills; their sum."""
     chance, total = random.Random(f"{seed} {scenario}"), collections.Counter()
+    longest_s = longest_life_s(scenario, folder)
+    total["longest life, ms"] = round(1000.0 * longest_s)
     while total["kills"] < kills:
         place = pathlib.Path(tempfile.mkdtemp(dir=folder))
-        chain = Chain(scenario, place, chance)
+        chain = Chain(scenario, place, chance, longest_s)
         chain.run(min(kills - total["kills"], chance.randint(20, 60)))
         total.update({"kills": chain.kills, "chains": 1, "with a line at hand": chain.inside, **chain.found})
         if sum(chain.found.values()):
@@ -191,7 +217,9 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         totals = {name: prove(name, options.kills, options.seed, folder) for name in PARAMETERS}
     counts = {name: sum(total[name] for total in totals.values()) for name in MUST}
-    figures = {name: {key: total[key] for key in ("kills", "chains", "with a line at hand")}
+    counts[TOO_FEW_INSIDE] = sum(total["with a line at hand"] < MIN_SHARE_INSIDE * total["kills"]
+                                 for total in totals.values())
+    figures = {name: {key: total[key] for key in ("kills", "chains", "with a line at hand", "longest life, ms")}
                for name, total in totals.items()}
     return table.finish(options.out / "kills.json", figures, counts)
 
