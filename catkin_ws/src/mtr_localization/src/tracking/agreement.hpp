@@ -48,6 +48,8 @@ struct Agreement {
   bool is_expected() const;
   /// Surfaces are not where the map has them, of which no person can be the cause.
   bool is_contradicted() const;
+  /// The same of a map that grows: what it does not have yet says nothing.
+  bool is_expected_so_far() const;
 };
 
 /// How far base_link had turned against the pose of a sweep when its first and its last beam were taken.

@@ -284,7 +284,8 @@ bool ScanTracker::is_uncovered(const View& view, const PoseVector& pose, const F
   const PoseVector way = relative(agreed_odom_, step.odom);
   const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;
   const bool is_known = history.newest().filter.position_sigma_m() <= parameters_.lost_sigma_m;
-  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !all.is_expected()) {
+  const bool is_expected = all.is_expected() || (state_ == State::kMapping && all.is_expected_so_far());
+  if (!is_reckoned_ || is_contradicted_ || !is_near || !is_known || !is_expected) {
     uncovered_ns_.reset();
     return false;
   }

@@ -55,6 +55,42 @@ TEST_P(InterruptedMapTest, IsAsGoodAsOneThatWasNot) {
 // The wheels turn 1.4 times as far as the robot: of the 0.3 s their way is wrong by 0.1 rad.
 INSTANTIATE_TEST_SUITE_P(Gaps, InterruptedMapTest, testing::Values(Gap{0.8, 0.0}, Gap{0.0, 0.3}, Gap{0.8, 0.3}));
 
+/// A map of the Car alone begins; then there is much round it that the map does not have, and for a moment no word.
+class SilenceAmongNewThingsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    robot.drive(0.0, 0.0, 2.0);
+    robot.order(1, MapOrder::Phase::kCollect);
+    robot.drive(0.6, 0.0, 1.5);
+    robot.world = scenes::lot();
+    robot.hears = false;
+    robot.drive(0.6, 0.0, 0.8);
+  }
+
+  void hear_again() {
+    robot.hears = true;
+    robot.drive(0.0, 0.0, 0.5);
+    ASSERT_EQ(robot.newest.mode, PoseMode::kLost);
+    robot.drive(0.0, 0.0, 2.5);
+  }
+
+  SceneDrive robot{scenes::open(), Parameters{}};
+};
+
+TEST_F(SilenceAmongNewThingsTest, PlaceIsProvedByWhatTheGrowingMapHas) {
+  hear_again();
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping);
+  EXPECT_LT(robot.position_error_m(), 0.05);
+}
+
+TEST_F(SilenceAmongNewThingsTest, RobotThatWasCarriedMeanwhileStaysLost) {
+  robot.carry(-0.5, 0.5, 0.2);
+  hear_again();
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
+}
+
 class LocalizerLostWhileMappingTest : public ::testing::Test {
  protected:
   void SetUp() override {
