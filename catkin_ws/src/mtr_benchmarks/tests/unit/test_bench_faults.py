@@ -1,5 +1,6 @@
 """How an outcome of the matrix of states and faults is judged."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import importlib.util
 import pathlib
 from dataclasses import replace
@@ -7,6 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 
+from mtr_benchmarks.faults import campaign
 from mtr_benchmarks.faults.judge import (
     CarSeen,
     Outcome,
@@ -34,6 +36,7 @@ from mtr_benchmarks.faults.matrix import (
 )
 from mtr_benchmarks.faults.proofs import LANES, Proof, Ran, run, together
 from mtr_benchmarks.faults.record import Run, right_of
+from mtr_benchmarks.faults.robot import PutBackError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Interventions, Mode, Notification, Problem
 
@@ -204,3 +207,25 @@ def test_cell_that_was_right_on_this_commit_when_it_was_run_last_is_not_left(tmp
         of_run.keep(cell, said)
     Run(of_run.folder, 1, "def").keep("first", ["stands"])
     assert (right_of(of_run.folder, "abc"), right_of(of_run.folder, "def")) == ({"first"}, set())
+
+
+def test_cell_before_which_a_robot_asks_to_be_put_back_is_begun_on_another_robot_and_only_once(monkeypatch, tmp_path):
+    asked = []
+
+    class Asking:
+        def __init__(self, _):
+            pass
+
+        def run(self, cell):
+            asked.append(cell.state)
+            if cell.state == "driving":
+                raise PutBackError("Put it back.")
+            return SEEN
+
+    monkeypatch.setattr(campaign, "FaultyRobot", lambda *_: contextlib.nullcontext())
+    monkeypatch.setattr(campaign, "Course", Asking)
+    cells = [replace(CELL, state="mapping"), CELL, replace(CELL, state="waiting")]
+    first = campaign.one_robot(cells, tmp_path, Run(tmp_path, 1, "abc"))
+    second = campaign.one_robot(cells[len(first):], tmp_path, Run(tmp_path, 1, "abc"))
+    assert [found.cell.state for found in (*first, *second)] == ["mapping", "driving"]
+    assert asked == ["mapping", "driving", "driving"] and second[0].wrong == ["Put it back."]

@@ -54,7 +54,9 @@ def run(courses: List[List[Cell]], of_run: Run) -> List[Found]:
     for course in courses:
         wanted = len(found) + len(course)
         while len(found) < wanted:
-            left, folder = course[len(found) - wanted:], of_run.folder / "faults" / str(len(found))
+            left = course[len(found) - wanted:]
+            # By its cell: the log of a robot that failed outlives runs of others.
+            folder = of_run.folder / "faults" / left[0].name.replace(" ", "_")
             # A process is one node of one ROS graph only.
             with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
                 found += process.submit(one_robot, left, folder, of_run).result()

@@ -7,7 +7,7 @@ from .course import Course
 from .judge import Outcome, wrong
 from .matrix import LOST, Cell
 from .record import Run
-from .robot import FaultyRobot, FaultyRobotError
+from .robot import FaultyRobot, FaultyRobotError, PutBackError
 from .robots import ROBOTS
 
 
@@ -28,6 +28,9 @@ def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
             try:
                 outcome = course.run(cell)
             except FaultyRobotError as error:
+                if isinstance(error, PutBackError) and ran:
+                    # The next robot stands at the starting place, and begins with this cell.
+                    break
                 # The next robot begins with the cell after it; one that cannot be begun has failed.
                 ran.append(Found(cell, None, [str(error)]))
                 run.keep(cell.name, ran[-1].wrong)

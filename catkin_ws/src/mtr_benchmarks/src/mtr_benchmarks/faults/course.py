@@ -6,7 +6,7 @@ from mtr_proto import robot_link_pb2 as link
 
 from .judge import LIFT_STANDS_MPS, Outcome, invalid_because, modes_during, standstill_s, told_since
 from .matrix import GOES_ON, HELD, LOST, Cell
-from .robot import MOVES_MPS, FaultyRobot
+from .robot import MOVES_MPS, FaultyRobot, PutBackError
 
 # After a fault what follows is seen for that long, s of the robot's time.
 SEEN_AFTER_S = 3.0
@@ -15,6 +15,8 @@ REST_S = 1.5
 # Speed at which the lift is under way, m/s; it reaches 0.15.
 LIFTS_MPS = 0.12
 READY, MAPPING, DRIVING, WAITING, LIFTING = "ready", "mapping", "driving", "waiting", "lifting"
+# Maps in a row in which the Car was not found, after which an Operator does what the robot asks.
+ENOUGH_TRIES = 3
 OUT_OF_ORDER = (link.MODE_FAULT, link.MODE_STARTING, link.MODE_UNSPECIFIED)
 
 
@@ -23,6 +25,7 @@ class Course:
 
     def __init__(self, robot: FaultyRobot):
         self._robot = robot
+        self._not_found = 0
         self._ways: Dict[str, Callable[[], None]] = {
             READY: self._to_ready, MAPPING: self._to_mapping, DRIVING: self._to_driving, WAITING: self._to_waiting,
             LIFTING: self._to_lifting}
@@ -62,19 +65,34 @@ class Course:
 
         def go_on() -> None:
             robot.release_hold()
-            if robot.knows_car or robot.has_not_found_car or not robot.maps_car:
+            self._map_again_if_not_found()
+            if robot.knows_car or not robot.maps_car:
                 robot.map_car()
         if not robot.maps_car:
             robot.wait_until(lambda: robot.status.mode not in OUT_OF_ORDER, "a robot that is well")
         robot.wait_until(lambda: robot.status.mode == link.MODE_MAPPING_CAR and robot.speed_mps > MOVES_MPS,
                          "a drive round the Car", go_on)
+        self._not_found = 0
 
     def _to_mapped(self) -> None:
         robot = self._robot
         if not robot.has_mapped:
             robot.wait_until(lambda: robot.status.mode not in OUT_OF_ORDER, "a robot that is well")
             robot.map_car()
-        robot.wait_until(lambda: robot.knows_car, "a map of the Car", robot.release_hold)
+        def go_on() -> None:
+            robot.release_hold()
+            self._map_again_if_not_found()
+        robot.wait_until(lambda: robot.knows_car, "a map of the Car", go_on)
+        self._not_found = 0
+
+    def _map_again_if_not_found(self) -> None:
+        robot = self._robot
+        if not robot.has_not_found_car:
+            return
+        self._not_found += 1
+        if self._not_found >= ENOUGH_TRIES:
+            raise PutBackError("The robot has not found the Car again and again, and asks to be put back.")
+        robot.map_car()
 
     def _to_driving(self) -> None:
         robot = self._robot

@@ -47,6 +47,10 @@ class FaultyRobotError(Exception):
     """The robot does not come into the state that a cell needs; the text says what it does instead."""
 
 
+class PutBackError(FaultyRobotError):
+    """The robot asks to be put at its starting place: a Car locator that began anew on the way does not know it."""
+
+
 class Speed(NamedTuple):
     """True speed of the robot, or of its lift upwards, at a time of the robot's steady clock, s, m/s."""
 
