@@ -24,6 +24,8 @@ HANDLE_HEADER = ("axis,side,key_height_m,status,requests,inside,outside,border_m
 ZONE_HEADER = ("zone,side,height_m,status,presses,distance_m,low_m,high_m,uncertainty_m,coverage,coverage_low,"
                "coverage_high")
 
+PRESS_HEADER = "radial,angle_deg,status,distance_m,uncertainty_m,robot_time_s"
+
 
 def handle(border_m=1.5, height_m=1.2):
     """An axis of Handle request."""
@@ -152,3 +154,14 @@ def test_zones_are_compared_without_an_event_of_their_own(compared):
     covered = true_coverage(event, SIZE, expected_model("honest_button"), ZoneGrid(0.5, 5.0, 0.5, 15.0, 0.3))
     assert 0.0 < covered < 1.0 and float(rows[0]["true_coverage"]) == pytest.approx(covered, abs=1e-4)
     assert "zone_map: reach, area: " in told.out and "distances are ok" not in told.out
+
+
+@pytest.mark.parametrize("angle_deg", [60, 90, 180, 360])
+def test_radials_of_key_press_may_lie_farther_apart_than_a_zone_is_wide(compared, tmp_path, angle_deg):
+    log = TruthLog(tmp_path)
+    log.press(10_000_000_000, (5.0, 0.0, 1.0), True)
+    log.close()
+    results = f"# parameter angle_between_radials_deg: {angle_deg} deg\n{PRESS_HEADER}\n1,0,ok,5.01,0.003,10.1\n"
+    status, (row,), told = compared(results, "honest_button")
+    assert status == 0 and told.err == ""
+    assert (row["scenario"], row["true_distance_m"], row["true_coverage"]) == ("key_press", "5.0000", "")

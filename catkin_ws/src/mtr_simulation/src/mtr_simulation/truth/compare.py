@@ -92,11 +92,13 @@ def guess_scenario(results: pathlib.Path) -> str:
 def with_expected(comparisons: List[Comparison], size: CarSize, model: ReactionModel,
                   results: pathlib.Path) -> List[Comparison]:
     """With what a perfect measurement of each line would say."""
-    height_m, grid = key_height_m(results), ZoneGrid.of_results(results)
+    height_m = key_height_m(results)
+    # Only zones have a grid: radials of other scenarios may lie farther apart than a zone is wide.
+    grid = ZoneGrid.of_results(results) if any(each.measured.event == "reach" for each in comparisons) else None
 
     def of_line(measured: MeasuredEvent) -> Expected:
         likely = expected(measured, size, model, height_m)
-        if measured.event != "reach":
+        if measured.event != "reach" or grid is None:
             return likely
         return likely._replace(coverage=true_coverage(measured, size, model, grid))
 
