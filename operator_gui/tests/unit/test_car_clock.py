@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
+import statistics
 
 import pytest
 
@@ -149,3 +150,25 @@ def test_arrival_map_starts_again_when_the_robot_does():
 
 def test_sigma_of_a_new_map_is_unknown():
     assert math.isnan(AdapterClockMap().sigma_s) and math.isnan(ArrivalClockMap().sigma_s)
+
+
+def test_offset_and_sigma_are_those_of_all_pairs_that_are_kept_also_after_a_jump():
+    chance, pairs, clocks, local_s = random.Random(4), [], AdapterClockMap(), 10.0
+    clocks.frame(local_s)
+    for number in range(900):
+        offset_s = OFFSET_S + (50.0 if number >= 500 else 0.0)
+        stamp_s = local_s + offset_s + chance.uniform(0.0, 0.02)
+        clocks.status(stamp_s, stamp_s)
+        before_s, local_s = local_s, local_s + chance.choice((0.02, 0.04, 0.1))
+        clocks.frame(local_s)
+        pairs = [*pairs, (stamp_s, stamp_s - (before_s + local_s) / 2, local_s - before_s)][-300:]
+        # Ten pairs in a row tell that a clock was set: those before are of no use.
+        pairs = pairs[-10:] if number == 509 else pairs
+        if 20 < number < 500 or number > 530:
+            offsets = [offset_s for _, offset_s, _ in pairs]
+            tiles = statistics.quantiles(offsets, n=6)
+            drift_s = 200e-6 * (pairs[-1][0] - pairs[0][0]) / 2
+            gap_s = statistics.median(gap_s for _, _, gap_s in pairs)
+            assert clocks.to_robot(0.0) == statistics.median(offsets), number
+            assert clocks.sigma_s == math.hypot((tiles[-1] - tiles[0]) / 2, gap_s / math.sqrt(12.0),
+                                                drift_s / math.sqrt(3.0)), number

@@ -12,7 +12,7 @@ from mtr_car_locator.poses import RobotPose
 from mtr_car_locator.scan import Scan as LocatorScan
 from mtr_car_locator.steps import SCAN_LAG_NS, LocatorSteps, ScanWindow, is_map_due
 from mtr_car_locator.survey.surface_map import SurfaceMap
-from mtr_core.conversions import goal_report_from, stamp_of
+from mtr_core.conversions import goal_report_from
 from mtr_core.executors import InlineExecutor
 from mtr_core.liveness import NS
 from mtr_core.schedule import CAR_LOCATOR
@@ -21,6 +21,7 @@ from mtr_description.mounts import LidarMounts
 from mtr_msgs.msg import LocalizedPose, MappingOrder
 from mtr_simulation.sensors.readings import Scan, Sensors
 
+from . import wire
 from .topics import Topics
 
 
@@ -63,7 +64,7 @@ class CarLocatorPart:
         inputs = Inputs(tick_ns * NS, task_from(self._mode.at(tick_ns)), goal_report_from(self._drive.at(tick_ns)))
         scans = self._new_scans(tick_ns, self._steps.wants_scans(inputs, poses))
         estimate = self._steps.estimate(replace(inputs, scans=scans, surfaces=self._surfaces(tick_ns)))
-        stamp = stamp_of(tick_ns)
+        stamp = wire.stamp(tick_ns)
         self._topics.car.publish(estimate_message(estimate, stamp))
         self._topics.check.publish(check_message(estimate, self._parameters.refinement, stamp))
         self._order(mapping_message(estimate, stamp))

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Deque
 
-from mtr_core.conversions import stamp_of
 from mtr_core.liveness import NS
 from mtr_core.schedule import DISPATCHER
 from mtr_dispatcher.conversions import desired_message, lock_message
@@ -43,6 +42,6 @@ class DispatcherPart:
         """The application's answers to the Status of that tick; the robot goes on with what they ask for."""
         while commands:
             self._core.receive(commands.popleft(), tick_ns * NS)
-        desired, stamp = self._core.desired(tick_ns * NS), stamp_of(tick_ns)
+        desired, stamp = self._core.desired(tick_ns * NS), wire.stamp(tick_ns)
         self._lock(lock_message(desired, stamp))
         self._topics.desired.publish(wire.desired(desired_message(desired, stamp, self._parameters.default_speed_mps)))

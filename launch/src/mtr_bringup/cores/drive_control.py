@@ -3,9 +3,9 @@
 from typing import Callable, List, Optional, Tuple
 
 from mtr_drive_control_core import Decision, RobotDrive
+from std_msgs.msg import Header
 
 from mtr_core import names
-from mtr_core.conversions import stamp_of
 from mtr_core.schedule import DRIVE_CONTROL
 from mtr_msgs.msg import DriveStatus, MotionLock
 from mtr_simulation.sensors.readings import Sensors
@@ -65,10 +65,9 @@ def _tuples(lock: MotionLock) -> List[wire.ProblemTuple]:
 
 def _status(decision: Decision, tick_ns: int, counted: Tuple[int, int, int]) -> DriveStatus:
     manual_drives, blockages, lock_stops = counted
-    message = DriveStatus(
+    return DriveStatus(
+        header=Header(0, wire.stamp(tick_ns), names.BASE),
         source=decision.source, linear_mps=decision.linear_mps, angular_radps=decision.angular_radps,
         engaged_locks=decision.engaged_locks, message=decision.message, problems=wire.problems(decision.problems),
         zone=decision.zone, obstacle_m=decision.obstacle_m, obstacle_bearing=decision.obstacle_bearing,
         manual_drives=manual_drives, blockages=blockages, lock_stops=lock_stops)
-    message.header.stamp, message.header.frame_id = stamp_of(tick_ns), names.BASE
-    return message

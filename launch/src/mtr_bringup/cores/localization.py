@@ -4,12 +4,12 @@ from typing import Any, Callable, List
 
 import numpy as np
 from mtr_localization_core import Estimate, Localizer, MapResult
+from std_msgs.msg import Header
 
 from mtr_car_locator.scan import RangeBias
 from mtr_car_locator.surfels import surfels_from
 from mtr_car_locator.survey.surface_map import SurfaceMap
 from mtr_core import names
-from mtr_core.conversions import stamp_of
 from mtr_core.liveness import NS
 from mtr_core.problems import problem_of
 from mtr_msgs.msg import LocalizedPose, MappingOrder
@@ -53,13 +53,12 @@ class LocalizationPart:
 
 def pose_message(estimate: Estimate) -> LocalizedPose:
     """As message_of of mtr_localization."""
-    message = LocalizedPose(
+    return LocalizedPose(
+        header=Header(0, wire.stamp(estimate.stamp_ns), names.MAP),
         valid=estimate.valid, x=estimate.x_m, y=estimate.y_m, heading=estimate.heading_rad,
         covariance=estimate.covariance, speed_mps=estimate.speed_mps, yaw_rate_radps=estimate.yaw_rate_radps,
         message=estimate.message, problems=wire.problems(estimate.problems), mode=estimate.mode,
         degenerate=estimate.degenerate, map_revision=estimate.map_revision)
-    message.header.stamp, message.header.frame_id = stamp_of(estimate.stamp_ns), names.MAP
-    return message
 
 
 def surface_map(made: MapResult) -> SurfaceMap:

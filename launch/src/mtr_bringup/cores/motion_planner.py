@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from std_msgs.msg import Header
 
-from mtr_core.conversions import stamp_of
 from mtr_core.executors import InlineExecutor
 from mtr_core.liveness import NS
 from mtr_core.schedule import MOTION_PLANNER
@@ -19,6 +18,7 @@ from mtr_motion_planner.inputs import Inputs
 from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.planner import MotionPlanner
 
+from . import wire
 from .topics import Topics
 
 
@@ -38,6 +38,6 @@ class MotionPlannerPart:
         output = self._core.step(Inputs(
             tick_ns * NS, desired_from(mode, self._mode.stamp_s), robot_from(pose, self._pose.stamp_s),
             car_from(car, self._car.stamp_s), collision_stop_from(drive, self._drive.stamp_s)))
-        stamp = stamp_of(tick_ns)
+        stamp = wire.stamp(tick_ns)
         self._topics.velocity.publish(velocity_message(output, Header(stamp=stamp)))
         self._topics.motion.publish(status_message(output, Header(stamp=stamp)))

@@ -3,7 +3,6 @@
 from dataclasses import replace
 from typing import Any, Optional
 
-from mtr_core.conversions import stamp_of
 from mtr_core.liveness import Instant
 from mtr_core.schedule import FIRMWARE, PERIPHERALS, slot
 from mtr_description.mounts import KeyMount
@@ -56,7 +55,7 @@ class PeripheralsPart:
                                   self._reports.until(tick_ns), tick_ns)
         self._orders.send(outcome, tick_ns)
         self._robot_clock.update(Instant(tick_ns, tick_ns))
-        self._topics.peripherals.publish(state_message(outcome, battery_charge(self._charge), stamp_of(tick_ns),
+        self._topics.peripherals.publish(state_message(outcome, battery_charge(self._charge), wire.stamp(tick_ns),
                                                        self._robot_clock, self._times.restarts))
 
     def _command(self, message: Any) -> None:

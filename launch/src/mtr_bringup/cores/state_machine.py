@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable
 
-from mtr_core.conversions import stamp_of
 from mtr_core.liveness import NS
 from mtr_core.schedule import STATE_MACHINE
 from mtr_msgs.msg import MotionLock
@@ -11,6 +10,7 @@ from mtr_state_machine.core import StateMachine
 from mtr_state_machine.observation import Part
 from mtr_state_machine.parameters import Parameters
 
+from . import wire
 from .topics import Topics
 
 
@@ -33,6 +33,6 @@ class StateMachinePart:
         messages = {part: each.at(tick_ns) for part, each in self._inputs.items()}
         ages_s = {part: each.age_s(tick_ns) for part, each in self._inputs.items()}
         decision = self._core.step(observation(messages, self._check.at(tick_ns), ages_s, tick_ns * NS))
-        stamp = stamp_of(tick_ns)
+        stamp = wire.stamp(tick_ns)
         self._lock(lock_message(decision, stamp))
         self._topics.mode.publish(mode_message(decision, stamp))

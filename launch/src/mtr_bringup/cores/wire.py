@@ -7,6 +7,7 @@ from typing import List, Sequence, Tuple
 import numpy as np
 
 from mtr_core.arrays import FloatArray
+from mtr_core.conversions import stamp_of
 from mtr_msgs.msg import DesiredState, Problem
 from mtr_simulation.sensors.readings import Scan, WheelOdometry
 
@@ -23,12 +24,19 @@ def single(value: float) -> float:
     return float(np.float32(value))
 
 
+# All messages of a tick have its stamp, which nobody changes.
+stamp = functools.lru_cache(maxsize=8)(stamp_of)
+
+
 def scan(made: Scan) -> Scan:
     """A sweep that was a LaserScan."""
-    return made._replace(
-        angle_min_rad=single(made.angle_min_rad), angle_increment_rad=single(made.angle_increment_rad),
-        time_increment_s=single(made.time_increment_s), scan_time_s=single(made.scan_time_s),
-        range_min_m=single(made.range_min_m), range_max_m=single(made.range_max_m))
+    return _as_sent(made[1:-1])._replace(stamp_ns=made.stamp_ns, ranges_m=made.ranges_m)
+
+
+@functools.lru_cache(maxsize=8)
+def _as_sent(numbers: Tuple[float, ...]) -> Scan:
+    """What all sweeps of a LiDAR say alike; without stamp and ranges."""
+    return Scan._make((0, *map(single, numbers), np.empty(0)))
 
 
 def odometry(made: WheelOdometry) -> WheelOdometry:

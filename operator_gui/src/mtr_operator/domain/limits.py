@@ -35,7 +35,10 @@ class Limit:
 
 def first_violation(values: Iterable[tuple[Limit, object]], of: str = "") -> str:
     """Sentence about the first number beyond its limit, empty when there is none."""
-    return next((sentence for limit, value in values for sentence in [limit.violation(value, of)] if sentence), "")
+    for limit, value in values:
+        if not limit.allows(value):
+            return limit.violation(value, of)
+    return ""
 
 
 def _shown(value: object) -> str:

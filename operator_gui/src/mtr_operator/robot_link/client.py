@@ -158,7 +158,7 @@ class ZmqRobotLink(RobotLink):
 
     def _own_view(self, status: RobotStatus) -> RobotStatus:
         """The Status without confirmations that are another session's: its ids count from 1 as ours do."""
-        if not self.is_secret:
+        if status.controller_name and not self.is_secret:
             # Nobody vouches for a name on such a link.
             status = dataclasses.replace(status, controller_name="")
         if self._is_viewer:

@@ -1,6 +1,7 @@
 """What the motion planner receives at a tick, and the check that it may be used."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
+import itertools
 import math
 from dataclasses import dataclass
 from typing import Optional, Tuple, TypeVar
@@ -127,7 +128,7 @@ def _value_fault(desired: DesiredMotion, robot: RobotState, car: EstimatedCar) -
         return problems.POSITION_UNKNOWN_BECAUSE(cause=cause) if cause else problems.POSITION_UNKNOWN()
     if not (robot.pose.is_finite() and math.isfinite(robot.speed_mps) and math.isfinite(robot.yaw_rate_radps)):
         return problems.POSE_NOT_A_NUMBER()
-    if not (car.pose.is_finite() and all(math.isfinite(c) for point in car.outline for c in point)):
+    if not (car.pose.is_finite() and all(map(math.isfinite, itertools.chain.from_iterable(car.outline)))):
         return problems.CAR_NOT_A_NUMBER()
     if not 0.0 < desired.max_speed_mps <= MAX_SPEED_MPS:
         return problems.MAXIMUM_SPEED(value=desired.max_speed_mps, high=MAX_SPEED_MPS)

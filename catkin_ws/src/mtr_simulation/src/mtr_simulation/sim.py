@@ -91,6 +91,7 @@ class Sim:
         self._lift_servo = self._model.actuator("lift").id
         self._car_from_world = scenario.world_from_car.inverse()
         self._has_cast, self._sweep_is_whole = False, True
+        self._state: Optional[BaseState] = None
         self._settle()
 
     def command(self, linear_mps: float, angular_radps: float) -> None:
@@ -112,6 +113,7 @@ class Sim:
         data.qvel[0:6] = 0.0
         self._tyres.lift_off()
         mujoco.mj_forward(self._model, data)
+        self._state = None
 
     def step(self) -> Sensors:
         """Advance one tick of 20 ms; what the sensors say at its end."""
@@ -164,8 +166,11 @@ class Sim:
         return (self.time_ns - SIMULATION_START_NS) * 1e-9
 
     def _base(self) -> BaseState:
-        position, speed = self._data.qpos[0:7].tolist(), self._data.qvel[0:6].tolist()
-        return base_state(position[:3], position[3:], speed[:3], speed[3:])
+        """Asked for more often than it changes."""
+        if self._state is None:
+            position, speed = self._data.qpos[0:7].tolist(), self._data.qvel[0:6].tolist()
+            self._state = base_state(position[:3], position[3:], speed[:3], speed[3:])
+        return self._state
 
     def _cast(self, base: BaseState, step: int) -> None:
         """Cast the beams that belong to a physics step of this tick."""
@@ -180,6 +185,7 @@ class Sim:
         self._tyres.apply(base)
         self._wheels.drive()
         mujoco.mj_step(self._model, self._data)
+        self._state = None
 
     def _settle(self) -> None:
         self.set_lift(0.0)

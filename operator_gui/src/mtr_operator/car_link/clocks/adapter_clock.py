@@ -8,6 +8,7 @@ the median over many pairs is taken.
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import bisect
 import collections
 import math
 import statistics
@@ -54,12 +55,29 @@ class _Pair(NamedTuple):
     gap_s: float
 
 
+class _Ordered:
+    """Attributes: values: in ascending order; sorting them all anew for each Status costs more than all else here."""
+
+    def __init__(self) -> None:
+        self.values: list[float] = []
+
+    def add(self, value: float) -> None:
+        """One more."""
+        bisect.insort(self.values, value)
+
+    def remove(self, value: float) -> None:
+        """One that was added."""
+        del self.values[bisect.bisect_left(self.values, value)]
+
+
 class AdapterClockMap(ClockMap):
     """robot = adapter + offset."""
 
     def __init__(self) -> None:
         self.sigma_s = math.nan
-        self._pairs: collections.deque[_Pair] = collections.deque(maxlen=_WINDOW)
+        self._pairs: collections.deque[_Pair] = collections.deque()
+        self._offsets_s = _Ordered()
+        self._gaps_s = _Ordered()
         self._strays = 0
         self._newest_s: float | None = None
         self._pending: tuple[float, float] | None = None
@@ -93,22 +111,33 @@ class AdapterClockMap(ClockMap):
 
     def _add(self, pair: _Pair) -> None:
         self._strays = self._strays + 1 if abs(pair.offset_s - self._offset_s) > _JUMP_S else 0
-        self._pairs.append(pair)
+        self._keep(pair)
         if self._strays >= _JUMP_PAIRS:
-            newest = list(self._pairs)[-_JUMP_PAIRS:]
-            self._pairs.clear()
-            self._pairs.extend(newest)
+            self._forget(len(self._pairs) - _JUMP_PAIRS)
             self._strays, self._offset_s = 0, math.nan
         if len(self._pairs) >= MIN_PAIRS:
             self._estimate()
 
+    def _keep(self, pair: _Pair) -> None:
+        self._pairs.append(pair)
+        self._offsets_s.add(pair.offset_s)
+        self._gaps_s.add(pair.gap_s)
+        self._forget(len(self._pairs) - _WINDOW)
+
+    def _forget(self, count: int) -> None:
+        """The oldest ones."""
+        for _ in range(count):
+            oldest = self._pairs.popleft()
+            self._offsets_s.remove(oldest.offset_s)
+            self._gaps_s.remove(oldest.gap_s)
+
     def _estimate(self) -> None:
-        offsets = sorted(pair.offset_s for pair in self._pairs)
+        offsets = self._offsets_s.values
         self._offset_s = statistics.median(offsets)
         # Delays are one-sided, so their scatter is also the size of the error that all pairs may share; it is not
         # divided by the square root of their number.
         quantiles = statistics.quantiles(offsets, n=_QUANTILES)
         scatter_s = (quantiles[-1] - quantiles[0]) / 2
-        gap_s = statistics.median(pair.gap_s for pair in self._pairs)
+        gap_s = statistics.median(self._gaps_s.values)
         drift_s = _RATE_TOLERANCE * (self._pairs[-1].stamp_s - self._pairs[0].stamp_s) / 2
         self.sigma_s = math.hypot(scatter_s, gap_s / math.sqrt(12.0), drift_s / math.sqrt(3.0))

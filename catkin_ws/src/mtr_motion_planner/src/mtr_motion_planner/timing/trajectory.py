@@ -52,8 +52,8 @@ class Trajectory:
         place = min(max(time_s, 0.0) / SAMPLE_S, len(self._rows) - 1.0)
         index = min(int(place), len(self._rows) - 2)
         share = place - index
-        way, x, y, heading, linear, angular = (
-            a + share * (b - a) for a, b in zip(self._rows[index], self._rows[index + 1]))
+        way, x, y, heading, linear, angular = [
+            a + share * (b - a) for a, b in zip(self._rows[index], self._rows[index + 1])]
         if time_s >= self.duration_s:
             linear = angular = 0.0
         return Reference(Pose2(x, y, wrap_angle(heading)), linear, angular, way)

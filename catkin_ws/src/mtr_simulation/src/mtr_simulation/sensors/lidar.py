@@ -75,24 +75,27 @@ class Lidar:
         self._noise, self._error_noise = stream(seed, name), stream(seed, f"{name}_errors")
         self._place, self._is_rear = mount.position, mount.frame == names.REAR_LIDAR
         self._rays = _rays(parameters, mount)
-        self._slices, delays = _slices(parameters, model.opt.timestep)
+        slices, delays = _slices(parameters, model.opt.timestep)
         # How a ray turns by the time of its beam for each rad/s that the robot turns.
-        self._turns = delays[:, np.newaxis] * np.stack(
+        turns = delays[:, np.newaxis] * np.stack(
             [-self._rays[:, 1], self._rays[:, 0], np.zeros(parameters.beams)], axis=1)
         self._distances = np.zeros(parameters.beams)
-        self._geoms = np.zeros(parameters.beams, dtype=np.int32)
+        geoms = np.zeros(parameters.beams, dtype=np.int32)
+        # By the physics step that casts them: rays, how they turn, and where geoms and distances go.
+        self._slices = {step: tuple(each[first:last] for each in (self._rays, turns, geoms, self._distances))
+                        for step, (first, last) in slices.items()}
         self._excluded = model.body("base_link").id
 
     def cast(self, base: BaseState, step: int) -> None:
         """Cast the beams of one physics step of the sweep; step counts from the sweep's start."""
-        if step not in self._slices:
+        due = self._slices.get(step)
+        if due is None:
             return
-        first, last = self._slices[step]
-        rays = self._rays[first:last] + base.angular_velocity[2] * self._turns[first:last]
+        at_rest, turns, geoms, distances = due
+        rays = at_rest + base.angular_velocity[2] * turns
         directions = (rays @ np.array(base.rotation).T).reshape(-1)
         mujoco.mj_multiRay(self._model, self._data, base.point(*self._place), directions, SEEN_GROUPS, 1,
-                           self._excluded, self._geoms[first:last], self._distances[first:last], last - first,
-                           self._parameters.range_max_m)
+                           self._excluded, geoms, distances, len(distances), self._parameters.range_max_m)
 
     def scan(self, stamp_ns: int) -> Scan:
         """The completed sweep that began at stamp_ns."""

@@ -32,15 +32,16 @@ class HonestFrames:
         self._database = database()
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
         self._ids = {message.name: message.frame_id for message in self._database.messages}
-        self._cycles = dict(self._cycles_ns())
-        self._phases = {name: phase_ns(seed, name, cycle_ns) for name, cycle_ns in self._cycles.items()}
+        self._cycles = [(name, cycle_ns, phase_ns(seed, name, cycle_ns)) for name, cycle_ns in self._cycles_ns()]
         self._sent: Dict[str, int] = {}
         self._told_ns: Optional[int] = None
 
     def due(self, after_ns: int, until_ns: int) -> Iterator[Frame]:
         """Frames later than after_ns and not later than until_ns, in the order of the bus."""
-        times = [(time_ns, self._ids[name], name) for name in self._cycles
-                 for time_ns in self._cyclic(name, after_ns, until_ns)]
+        times = []
+        for name, cycle_ns, phase_ns in self._cycles:
+            first, last = (after_ns - phase_ns) // cycle_ns, (until_ns - phase_ns) // cycle_ns
+            times += [(number * cycle_ns + phase_ns, self._ids[name], name) for number in range(first + 1, last + 1)]
         for time_ns, can_id, name in sorted(times + self._on_change(after_ns, until_ns)):
             yield Frame(can_id, self._encode(name, *self._values(name)), time_ns)
 
@@ -51,12 +52,6 @@ class HonestFrames:
             if message.name != CAUSE_MESSAGE or self._bus.cause_in == "other":
                 yield message.name, own.get(message.name, message.cycle_time) * _MS
 
-    def _cyclic(self, name: str, after_ns: int, until_ns: int) -> Iterator[int]:
-        cycle_ns, phase_ns = self._cycles[name], self._phases[name]
-        first = (after_ns - phase_ns) // cycle_ns + 1
-        last = (until_ns - phase_ns) // cycle_ns
-        return (number * cycle_ns + phase_ns for number in range(first, last + 1))
-
     def _on_change(self, after_ns: int, until_ns: int) -> List[Tuple[int, int, str]]:
         changed_ns = self._locks.changed_ns
         if not self._bus.sent_on_change or changed_ns is None or changed_ns == self._told_ns:
@@ -65,7 +60,7 @@ class HonestFrames:
         if not after_ns < time_ns <= until_ns:
             return []
         self._told_ns = changed_ns
-        names = [name for name in (LOCK_MESSAGE, CAUSE_MESSAGE) if name in self._cycles]
+        names = [name for name, _, _ in self._cycles if name in (LOCK_MESSAGE, CAUSE_MESSAGE)]
         return [(time_ns, self._ids[name], name) for name in names]
 
     def _values(self, name: str) -> Tuple[float, ...]:
