@@ -124,3 +124,18 @@ def test_a_wrong_antenna_is_a_sentence(antennas, sentence):
     with pytest.raises(ConfigurationError, match="Car weak.yaml: .*" + sentence.split(";")[0]) as caught:
         car_from(content, WEAK)
     assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize("car", ["honest", "honest_868", "honest_slow"])
+def test_the_next_poll_is_the_first_of_the_next_ones(car):
+    instants = HonestInstants(5, chosen_car(car).honest)
+    first_ns, *others_ns = instants.next_polls_ns(START_NS, 40)
+    for time_ns in (START_NS, first_ns - 1, first_ns, first_ns + STEP_NS, others_ns[3] - 1, others_ns[3]):
+        later_ns = min(each for each in (first_ns, *others_ns) if each > time_ns)
+        assert instants.next_poll_ns(time_ns) == later_ns == instants.next_polls_ns(time_ns, 1)[0]
+
+
+def test_a_car_without_passive_entry_never_polls():
+    silent = dataclasses.replace(CALM.passive_entry, enabled=False)
+    instants = HonestInstants(5, dataclasses.replace(CALM, passive_entry=silent))
+    assert instants.next_poll_ns(START_NS) is None and instants.next_polls_ns(START_NS, 3) == []

@@ -15,8 +15,9 @@ from mtr_simulation.car.honest.radio.key_antenna import Attitude
 from .carried_key import NS, CarriedKey
 from .errors import Point
 
-# So many polls are looked at once the key has turned, and twice as many each time as long as it goes straight on.
-_FEWEST, _MOST = 2, 128
+# So many polls are looked at once the key has turned, and so many times as many each time as long as it goes straight
+# on: a look costs as much as some ten places in it, and a key that has gone straight for two polls mostly goes on.
+_FEWEST, _MORE, _MOST = 2, 8, 128
 # So far from where it was expected the margin of the radio is another one; fading changes within decimetres.
 _SAME_PLACE_M = 1e-3
 _SAME_HEADING_RAD = 1e-3
@@ -41,7 +42,7 @@ class Foresight:
         number = self._numbers.get(time_ns)
         if number is None or math.dist(self._expected[number], place) > _SAME_PLACE_M or abs(
                 self._heading - key.heading) > _SAME_HEADING_RAD:
-            self._count = min(2 * self._count, _MOST) if number is None else _FEWEST
+            self._count = min(_MORE * self._count, _MOST) if number is None else _FEWEST
             self._look(time_ns, place, key)
             number = 0
         return self._field_db[number], functools.partial(self._answer, number)

@@ -90,8 +90,8 @@ class RadioWorld:
         if self._waiting or self._press is not None or self._handle or (
                 due_ns is not None and due_ns <= self.time_ns + round(most * TICK_S * NS)):
             return 1
-        polls_ns = self._car.next_polls_ns(self.time_ns, 1)
-        return min(math.ceil((polls_ns[0] - self.time_ns) / (TICK_S * NS)), most) if polls_ns else most
+        poll_ns = self._car.next_poll_ns(self.time_ns)
+        return most if poll_ns is None else min(math.ceil((poll_ns - self.time_ns) / (TICK_S * NS)), most)
 
     def _pass(self, ticks: int) -> None:
         self._key.go(ticks)

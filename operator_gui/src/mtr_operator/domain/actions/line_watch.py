@@ -131,6 +131,8 @@ class LineWatch:
         return events[known + 1:]
 
     def _check_interventions(self, status: RobotStatus) -> None:
+        if status.interventions == self._before:
+            return
         for name, sentence in INTERVENTIONS.items():
             if getattr(status.interventions, name) != getattr(self._before, name):
                 raise LineInvalid(sentence, since_s=status.stamp_s - _TOLD_LATE_S)

@@ -34,8 +34,10 @@ class RobotEvents:
             self._newest_log_id = 0
             before = None
             yield EventEntry(time, status.stamp_s, EventKind.FAULT, WARNING, ROBOT, "The robot has started anew.")
-        yield from self._log(status, time)
-        yield from self._notified(status, time)
+        if status.log:
+            yield from self._log(status, time)
+        if status.notifications or self._notices:
+            yield from self._notified(status, time)
         for said in changes(before, status) if before is not None else ():
             yield EventEntry(time, status.stamp_s, said.kind, said.severity, ROBOT, said.text)
         yield from self._control(status, time)

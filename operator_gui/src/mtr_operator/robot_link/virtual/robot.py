@@ -147,7 +147,7 @@ class VirtualRobot:
         """The next Status message."""
         self._status_id += 1
         mapped = self._mapping_left_s <= 0
-        world = self._world
+        world, mode = self._world, self._mode()
         stamp_s = round(self._time_s, 6)
         return RobotStatus(
             id=self._status_id, robot_session_id=self._robot_session_id, stamp_s=stamp_s, sent_s=stamp_s,
@@ -157,7 +157,7 @@ class VirtualRobot:
             heading_sigma_rad=world.heading_sigma_rad, key_x=world.key_x_m, key_y=0.0, key_height_m=self._key.height_m,
             pressed_buttons=self._key.pressed_buttons(self._time_s),
             localization_accuracy_cm=round(world.position_sigma_m * 100), battery_percent=80,
-            is_mapping_car=self._mode() is Mode.MAPPING_CAR, mode=self._mode(),
+            is_mapping_car=mode is Mode.MAPPING_CAR, mode=mode,
             car=self._car if mapped else None,
             car_frame=CarFrame(revision=1) if mapped else CarFrame(), car_check=self._check.report,
             session_id=self._session_id, command_id=self._command_id,

@@ -79,12 +79,14 @@ def _log(each: Pass, depth_m: FloatArray, given: Circumstances, timings: FloatAr
     reactions_s = np.array(given.reactions_s)[:, None]
     if each.steps is None:
         number = round(math.log(each.speed_mps) / math.log(_SPEED_RATIO))
-        late_m = (depth_m - each.speed_mps * reactions_s) * (_SPEED_RATIO ** number / each.speed_mps)
-        found = _pass_table(number, given.cycle_s, given.sigma_m, False)[timings][:, _bins(late_m)]
-        is_timer = has_timer(np.array(given.reactions_s))[timings]
-        if np.any(is_timer):
-            again = _pass_table(number, given.cycle_s, given.sigma_m, True)[timings][:, _bins(late_m)]
-            found = np.where(is_timer[:, :, None], again, found)
+        bins = _bins((depth_m - each.speed_mps * reactions_s) * (_SPEED_RATIO ** number / each.speed_mps))
+        table = _pass_table(number, given.cycle_s, given.sigma_m, False)[timings]
+        rows, columns = np.nonzero(has_timer(np.array(given.reactions_s))[timings])
+        if not len(rows):
+            return np.asarray(table[:, bins])
+        # Another table where a timer starts again, looked up there alone: elsewhere it would be half of all work.
+        found, again = table.take(bins, axis=1), _pass_table(number, given.cycle_s, given.sigma_m, True)
+        found[rows, columns] = again[timings[rows][:, None], bins[columns]]
         return np.asarray(found)
     return np.asarray(_steps_table(each.steps, given.sigma_m)[timings][:, _bins(depth_m - np.zeros_like(reactions_s))])
 

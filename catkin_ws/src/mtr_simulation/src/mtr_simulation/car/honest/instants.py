@@ -72,8 +72,14 @@ class HonestInstants:
         first, last = self._polls_until(after_ns) + 1, self._polls_until(until_ns)
         return [_on_grid(number * self._poll_ns + self._poll_phase_ns) for number in range(first, last + 1)]
 
+    def next_poll_ns(self, after_ns: int) -> Optional[int]:
+        """The first one later than an instant; None where it never looks."""
+        if not self._is_polling:
+            return None
+        return _on_grid((self._polls_until(after_ns) + 1) * self._poll_ns + self._poll_phase_ns)
+
     def next_polls_ns(self, after_ns: int, count: int) -> List[int]:
-        """The first ones of them; none where it never looks."""
+        """The first ones; none where it never looks."""
         if not self._is_polling:
             return []
         first_ns = (self._polls_until(after_ns) + 1) * self._poll_ns + self._poll_phase_ns
