@@ -23,6 +23,8 @@ from mtr_bringup.demo import (
     run_scenario,
 )
 from mtr_core.errors import ConfigurationError
+from mtr_dispatcher.parameters import Parameters as DispatcherParameters
+from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
@@ -155,3 +157,20 @@ def test_record_of_a_test_names_the_simulated_car(tmp_path, monkeypatch):
     (command,) = commands
     identity = yaml.safe_load(pathlib.Path(command[command.index("--identity") + 1]).read_text(encoding="utf-8"))
     assert identity == {"car_model": "simulated honest"}
+
+
+def test_nodes_of_the_demo_wait_for_each_other_and_for_the_application_on_a_busy_machine(monkeypatch, tmp_path):
+    started = []
+
+    def stack(options):
+        started.append(yaml.safe_load(pathlib.Path(options.arguments["node_parameters"]).read_text(encoding="utf-8")))
+        raise demo.StackError("enough")
+
+    monkeypatch.setattr(demo, "Stack", stack)
+    with pytest.raises(demo.StackError, match="enough"):
+        run_demo(DemoOptions(tmp_path / "demo", car="honest", scenarios=("autolock",)))
+    (parameters,) = started
+    operator_s = parameters["/dispatcher/operator_lost_after_wall_s"]
+    assert DispatcherParameters(operator_lost_after_wall_s=operator_s).operator_lost_after_wall_s == operator_s
+    # Before the application gives the robot up, and longer than anything of it takes on a busy machine.
+    assert 10.0 <= operator_s == parameters["/lockstep_patience_s"] < SILENCE_LIMIT_S

@@ -11,6 +11,7 @@ from sensor_msgs.msg import LaserScan
 from mtr_core import names, schedule
 from mtr_core.lockstep import StampedQueue
 from mtr_core.lockstep.clock import is_lockstep
+from mtr_core.lockstep.patience import patience_at_least_s
 from mtr_description.mounts import LidarMounts
 from mtr_msgs.msg import LocalizedPose
 from mtr_msgs.msg import SurfaceMap as SurfaceMapMessage
@@ -80,11 +81,12 @@ class MapSource:
         self._changed = threading.Condition()
         self._message: Optional[SurfaceMapMessage] = None
         self._map: Optional[SurfaceMap] = None
+        self._patience_s = patience_at_least_s(MAP_WAIT_WALL_S) if is_lockstep() else 0.0
         self._subscriber = rospy.Subscriber(names.SURFACE_MAP, SurfaceMapMessage, self._take, queue_size=2)
 
     def at(self, tick_ns: int, pose_revision: int) -> Optional[SurfaceMap]:
         """The map at a tick; in lock-step it waits for the one that the poses are in."""
-        deadline = time.monotonic() + (MAP_WAIT_WALL_S if is_lockstep() else 0.0)
+        deadline = time.monotonic() + self._patience_s
         with self._changed:
             while self._revision() < pose_revision and time.monotonic() < deadline:
                 self._changed.wait(deadline - time.monotonic())

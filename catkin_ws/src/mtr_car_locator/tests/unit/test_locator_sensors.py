@@ -85,6 +85,7 @@ def test_map_counts_when_the_pose_is_in_it_or_some_time_after_its_stamp(monkeypa
 
 def test_simulated_tick_waits_for_the_map_that_the_pose_speaks_of(monkeypatch):
     monkeypatch.setattr(sensors, "is_lockstep", lambda: True)
+    monkeypatch.setattr(sensors, "patience_at_least_s", lambda usual_s: usual_s)
     source = sensors.MapSource()
     sender = threading.Timer(0.05, source._take, [stamped(SurfaceMap(map_car_id=7, revision=1, valid=True), 1040)])
     sender.start()
@@ -94,5 +95,5 @@ def test_simulated_tick_waits_for_the_map_that_the_pose_speaks_of(monkeypatch):
 
 def test_simulated_tick_does_not_wait_for_ever(monkeypatch):
     monkeypatch.setattr(sensors, "is_lockstep", lambda: True)
-    monkeypatch.setattr(sensors, "MAP_WAIT_WALL_S", 0.01)
+    monkeypatch.setattr(sensors, "patience_at_least_s", lambda usual_s: 0.01)
     assert sensors.MapSource().at(1060 * MILLISECOND_NS, 1) is None

@@ -3,7 +3,7 @@
 import pathlib
 import secrets
 import time
-from typing import Counter, List, Mapping, Optional
+from typing import Callable, Counter, List, Mapping, Optional
 
 import rospkg
 import rospy
@@ -37,7 +37,7 @@ from .core import Dispatcher
 from .link_server import LinkError, LinkServer, Ports, Received
 from .master_watch import MasterWatch
 from .memory import end_beyond, give_back, resident_mib
-from .operator_wait import OperatorWait
+from .operator_wait import OperatorWait, Unread
 from .parameters import Parameters
 from .sensors import Eyes, mounted_lidars
 from .session import CommandResult, SessionState, is_same
@@ -69,6 +69,7 @@ class DispatcherNode:
         self._cut_off: Counter[str] = Counter()
         self._logged = Rates(LOGGED_PER_S, MAX_LOGGED_BURST)
         self._wait = OperatorWait(parameters.operator_lost_after_wall_s)
+        self._unread: Unread[Received] = Unread(server.receive)
         self._published: Optional[SessionState] = None
         self._confirmed: Optional[List[object]] = None
         self._status = b""
@@ -112,14 +113,17 @@ class DispatcherNode:
     def _await_answer(self, tick: int) -> None:
         patient = not self._wait.operator_gone
         self._wait.begin()
-        self._receive(tick, 0.0)
+        self._receive(tick, 0.0, self._is_answered)
         while not self._wait.is_over(self._core.session, self._core.status_id) and not rospy.is_shutdown():
-            if not self._receive(tick, STATUS_AGAIN_WALL_S):
+            if not self._receive(tick, STATUS_AGAIN_WALL_S, self._is_answered):
                 self._server.publish(self._status)
                 # Renewed, so that the simulator does not take a patient dispatcher for a dead one.
                 self._ticker.renew()
         if patient and self._wait.operator_gone:
             rospy.logwarn("The application has not answered; time goes on until it is heard again.")
+
+    def _is_answered(self) -> bool:
+        return self._core.session.answered_status_id >= self._core.status_id
 
     def _real_turn(self) -> None:
         """One period by the steady clock, so that nobody waits when the robot's clock is set."""
@@ -139,16 +143,17 @@ class DispatcherNode:
         self._publish_status(now)
         self._publish_desired(now)
 
-    def _receive(self, now_ns: int, timeout_s: float) -> bool:
+    def _receive(self, now_ns: int, timeout_s: float, is_enough: Callable[[], bool] = lambda: False) -> bool:
+        """True when something came; what comes after it is enough is left for the next time."""
         self._watch_connections(self._steady_s(now_ns))
         if self._gate is not None:
             self._watch_keys(self._gate, self._steady_s(now_ns))
-        messages = self._server.receive(timeout_s)
+        has_come = self._unread.come(timeout_s)
         # The time after waiting: what came while this process was stopped is as old as it is.
         now_s = self._steady_s(now_ns)
-        for message in messages:
+        for message in self._unread.until(is_enough):
             self._take(message, now_s)
-        return bool(messages)
+        return has_come
 
     def _take(self, message: Received, now_s: float) -> None:
         sender = ANYBODY if self._gate is None else self._gate.sender(message.key, time.monotonic())

@@ -18,6 +18,7 @@ from std_msgs.msg import Bool, Header
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
 from mtr_core.lockstep.clock import reading, steady_ns
+from mtr_core.lockstep.patience import patience_at_least_s
 from mtr_core.schedule import CLOCK_STEP, LIDAR, SIMULATION_START_NS, slot
 from mtr_core.se2 import Pose2
 from mtr_description.base_controller import CONTROLLER, base_controller_of
@@ -26,7 +27,7 @@ from mtr_msgs.msg import ActiveFaults
 
 from . import conversions
 from .clock import connections
-from .clock.barrier import Barrier, Watcher
+from .clock.barrier import SILENT_AFTER_WALL_S, Barrier, Watcher
 from .clock.machine import MADE_UP_S, StampOffset, stamped, take_precedence
 from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
@@ -56,7 +57,8 @@ class SimulatorNode:
                             loaded_base())
         self._firmware = firmware_topics(self._world.firmware)
         self._output = Output(parameters.rear_lidar, self._firmware.publishers)
-        self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output), has_ended=self._has_ended)
+        self._barrier = Barrier(parameters.held_by, NodeWatcher(self._output), has_ended=self._has_ended,
+                                silent_after_s=patience_at_least_s(SILENT_AFTER_WALL_S))
         self._holds: Optional[rospy.Subscriber] = None
         is_simulated = rospy.get_param("/use_sim_time", False)
         self._pace = Pace(parameters.real_time_factor, lambda: steady_ns() * 1e-9,

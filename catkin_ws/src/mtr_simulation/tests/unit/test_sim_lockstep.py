@@ -5,7 +5,7 @@ import threading
 import pytest
 
 from mtr_simulation.clock import connections
-from mtr_simulation.clock.barrier import SILENT_AFTER_WALL_S, Barrier, Watcher
+from mtr_simulation.clock.barrier import LOOK_WALL_S, SILENT_AFTER_WALL_S, Barrier, Watcher
 from mtr_simulation.clock.pacing import Pace
 
 STEP = 20_000_000
@@ -83,6 +83,18 @@ def test_dropped_node_is_not_asleep(barrier, clock):
     clock.hurry_s = SILENT_AFTER_WALL_S + 1.0
     barrier.wait(2 * STEP)
     assert barrier.asleep(0) == set()
+
+
+def test_silent_node_is_dropped_later_where_there_is_more_patience(clock, log):
+    patient = Barrier(["/a"], Diary(log), clock, silent_after_s=20.0)
+    patient.hold("/a", STEP, 0)
+    thread, results = wait_in_thread(patient, 2 * STEP)
+    clock.now_s += 19.0
+    thread.join(3.0 * LOOK_WALL_S)
+    assert results == [] and log == []
+    clock.now_s += 2.0
+    thread.join(10.0)
+    assert results == [True] and "/a has been silent for 20 s" in log[0]
 
 
 def test_wait_is_counted_for_the_node_that_came_last(barrier, clock):

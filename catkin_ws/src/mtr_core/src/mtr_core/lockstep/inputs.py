@@ -6,13 +6,11 @@ from typing import Any, NamedTuple, Optional
 import rospy
 
 from mtr_core.liveness import NS, Instant, is_fresh, steady_stamp_ns
-from mtr_core.schedule import CLOCK_STEP, PRODUCER_LOST_AFTER_WALL_S, Slot
+from mtr_core.schedule import CLOCK_STEP, Slot
 
 from . import clock
+from .patience import patience_s
 from .samples import Samples
-
-# Tests that silence many producers set less patience; the C++ nodes read the same parameter.
-PATIENCE_PARAMETER = "/lockstep_patience_s"
 
 
 class Arrived(NamedTuple):
@@ -31,7 +29,7 @@ class TickInput:
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns):
         self._samples: Samples[Arrived] = Samples(slot, lag_ns, waits=clock.is_lockstep())
-        self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
+        self._samples.patience_s = patience_s()
         self._before: Optional[Instant] = None
         self._used: Optional[Arrived] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=50, tcp_nodelay=True)

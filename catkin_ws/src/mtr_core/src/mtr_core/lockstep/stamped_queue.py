@@ -7,10 +7,10 @@ from typing import Any, Deque, List, Optional
 
 import rospy
 
-from mtr_core.schedule import MILLISECOND_NS, PRODUCER_LOST_AFTER_WALL_S, Slot
+from mtr_core.schedule import MILLISECOND_NS, Slot
 
 from .clock import is_lockstep
-from .inputs import PATIENCE_PARAMETER
+from .patience import patience_at_least_s, patience_s
 from .samples import Samples
 
 # A publisher that has not answered by then (wall time) is not waited for any longer.
@@ -37,7 +37,7 @@ class StampedQueue:
         self._connected_ns: Optional[int] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
         if is_lockstep():
-            self._samples.patience_s = rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S)
+            self._samples.patience_s = patience_s()
             self._connect(topic)
 
     def take(self, tick_ns: int) -> List[Any]:
@@ -61,7 +61,7 @@ class StampedQueue:
             self._samples.at(tick_ns)
 
     def _connect(self, topic: str) -> None:
-        deadline = time.monotonic() + CONNECT_WITHIN_WALL_S
+        deadline = time.monotonic() + patience_at_least_s(CONNECT_WITHIN_WALL_S)
         is_published = any(name == topic for name, _ in rospy.get_published_topics())
         while is_published and not self._subscriber.get_num_connections() and time.monotonic() < deadline:
             time.sleep(CONNECT_CHECK_WALL_S)

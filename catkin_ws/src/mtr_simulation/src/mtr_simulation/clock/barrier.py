@@ -51,11 +51,12 @@ class Barrier:
     """
 
     def __init__(self, expected: Iterable[str], watcher: Watcher, wall_clock: Callable[[], float] = time.monotonic,
-                 has_ended: Callable[[str], bool] = lambda name: False):
-        """has_ended: tells of a node that has said a hold whether its process is gone."""
+                 has_ended: Callable[[str], bool] = lambda name: False, silent_after_s: float = SILENT_AFTER_WALL_S):
+        """has_ended: tells of a node that has said a hold whether its process is gone. silent_after_s: of wall time."""
         self.waited_s: Dict[str, float] = {}
         self._expected = sorted(expected)
         self._watcher, self._wall_clock, self._has_ended = watcher, wall_clock, has_ended
+        self._silent_after_s = silent_after_s
         self._changed = threading.Condition()
         self._nodes: Dict[str, _Node] = {}
         self._awaited_ns: Optional[int] = None
@@ -111,7 +112,7 @@ class Barrier:
                     del self._nodes[name]
                     continue
                 now_s = self._wall_clock()
-                left_s = max(self._nodes[name].received_s, begun_s) + SILENT_AFTER_WALL_S - now_s
+                left_s = max(self._nodes[name].received_s, begun_s) + self._silent_after_s - now_s
                 if left_s <= 0.0:
                     self._give_up(name, time_ns)
                     continue
@@ -149,6 +150,6 @@ class Barrier:
                                "simulator; time goes on without them.")
             node.received = node.sent
         else:
-            self._watcher.warn(f"Node {name} has been silent for {SILENT_AFTER_WALL_S:g} s; time goes on without it.")
+            self._watcher.warn(f"Node {name} has been silent for {self._silent_after_s:g} s; time goes on without it.")
             node.stamp_ns, node.dropped = None, True
             self._watcher.dropped(name)
