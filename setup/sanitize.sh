@@ -14,7 +14,7 @@ read -r -a packages <<<"${PACKAGES:-mtr_core mtr_surfel_map mtr_drive_control mt
 export ASAN_OPTIONS=exitcode=66:detect_stack_use_after_return=1 UBSAN_OPTIONS=print_stacktrace=1 TSAN_OPTIONS=exitcode=66:halt_on_error=1
 # OpenMP's library is not built with a sanitizer, which so does not see its barriers; who uses it is CHOLMOD, below the
 # Ceres of a test's oracle. No code of this project does.
-export OMP_NUM_THREADS=1
+export OMP_NUM_THREADS=1 OMP_THREAD_LIMIT=1
 unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH PYTHONPATH LD_LIBRARY_PATH
 export PATH="/usr/bin:$PATH"
 
