@@ -88,7 +88,7 @@ TEST_F(MatcherTest, PosteriorOfTheFilterIsThePoseFound) {
   PoseFilter filter{SensorParameters{}};
   filter.set_pose(kTruth + offset, covariance);
   ScanMatch found = match(offset);
-  filter.consider_sources(map.sources.count + 1);
+  filter.consider_sources(map.error_sources());
   filter.correct(found.correction);
   EXPECT_LT((filter.pose() - found.pose).norm(), 1e-6);
 }
@@ -185,7 +185,7 @@ TEST_F(MatcherTest, ErrorOfAWallMovesTheFilterAsFarAsItSays) {
   for (int i = 0; i < 100; ++i) {
     const ScanMatch found = match({0.0, 0.0, 0.0}, 0.1, 0.1);
     if (i == 0) {
-      filter.consider_sources(map.sources.count + 1);
+      filter.consider_sources(map.error_sources());
     }
     filter.correct(found.correction);
   }
