@@ -103,13 +103,21 @@ def test_other_frames_are_not_the_lock_message(tmp_path):
     (("1: locked", "1: unknown"), "must name a value for locked and one for unlocked"),
     (("{0: unlocked, 1: locked}", "locked"), "must be a table"),
     (("description: another car", "colour: red"), "unknown entry colour"),
+    (("other.dbc", 300 * "a" + ".dbc"), "File name too long"),
+    (("other.dbc", 5000 * "a"), "has a text of more than 1000 characters"),
+    (("1: locked", "1: " + 5000 * "a"), "has a text of more than 1000 characters"),
     (("description: another car", "{"), "is not valid YAML in line 3; a profile is"),
     ((OTHER_PROFILE, "just words"), "no table")])
 def test_wrong_profile_is_refused_with_a_sentence(tmp_path, change, words):
     with pytest.raises(ConnectionFailed) as raised:
         load_profile(write(tmp_path, OTHER_PROFILE.replace(*change)))
     assert words in str(raised.value)
-    assert "\n" not in str(raised.value)
+    assert "\n" not in str(raised.value) and len(str(raised.value)) < 2000
+
+
+def test_profile_by_a_name_that_no_file_can_have_is_refused_with_a_sentence():
+    with pytest.raises(ConnectionFailed, match="There is no car profile"):
+        load_profile(300 * "a")
 
 
 def with_handle(entry):

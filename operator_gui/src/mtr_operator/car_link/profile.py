@@ -14,7 +14,7 @@ from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 from .further.declared import KEYS, SOURCES, Further, is_elsewhere, read_further
-from .further.entries import DRIVER_ONLY, FIRST_BUS, Entries, one_line
+from .further.entries import DRIVER_ONLY, FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file, one_line
 from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, DeclaredOutput, read_output
 from .phone.address import FeedAddress
 from .phone.car_signal import KEY as PHONE
@@ -259,10 +259,10 @@ def profile_names() -> tuple[str, ...]:
 
 def _find(name_or_path: str) -> pathlib.Path:
     shipped = PROFILE_FOLDER / f"{name_or_path}.yaml"
-    if shipped.parent == PROFILE_FOLDER and shipped.is_file():
+    if shipped.parent == PROFILE_FOLDER and is_file(shipped):
         return shipped
     path = pathlib.Path(name_or_path)
-    if path.is_file():
+    if is_file(path):
         return path
     names = ", ".join(profile_names())
     raise ConnectionFailed(f"There is no car profile {name_or_path}; shipped are: {names}; "
@@ -279,6 +279,8 @@ def _read(path: pathlib.Path) -> dict[str, Any]:
                                "database.") from None
     if not isinstance(content, dict):
         raise ConnectionFailed(f"Car profile {path} is no table of names and values.")
+    if has_long_text(content):
+        raise ConnectionFailed(f"Car profile {path} has a text of more than {MAX_TEXT} characters.")
     for key in content:
         if key not in _REQUIRED + _OPTIONAL:
             raise ConnectionFailed(f"Car profile {path}: unknown entry {key}; allowed are "

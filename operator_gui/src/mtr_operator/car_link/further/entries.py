@@ -18,6 +18,8 @@ from .sizes import MAX_SIZE, too_large
 _MAX_DATABASE_BYTES = 16 * 1024 * 1024
 # Of a library's sentence, characters.
 _MAX_SAID = 300
+# Of a text of a profile, which sentences quote: longer than any name, description or path to a database.
+MAX_TEXT = 1000
 # The bus of the profile's own database; further ones have names.
 FIRST_BUS = ""
 # A state of some cars' signal: all but the driver's door are still locked.
@@ -92,7 +94,7 @@ class Entries:
         """Of a bus that is declared."""
         name = str(self.content["database"] if bus == FIRST_BUS else self.content["buses"][bus])
         paths = [folder / name for folder in self._folders]
-        return next((path for path in paths if path.is_file()), paths[0])
+        return next((path for path in paths if is_file(path)), paths[0])
 
     def database(self, bus: str = FIRST_BUS) -> Any:
         """Of CAN messages; for one of another kind an empty one, in which no message is found."""
@@ -113,6 +115,23 @@ class Entries:
             raise ConnectionFailed(f"Message {message.name} of CAN database {self.database_path(bus)} has no signal "
                                    f"{name}.")
         return str(name)
+
+
+def is_file(path: pathlib.Path) -> bool:
+    """True for a file that is there; whatever the system cannot even look for is not."""
+    try:
+        return path.is_file()
+    except OSError:
+        return False
+
+
+def has_long_text(value: Any) -> bool:
+    """True when a value of a profile has a text, in tables and lists too, that is longer than MAX_TEXT."""
+    if isinstance(value, dict):
+        return any(has_long_text(each) for pair in value.items() for each in pair)
+    if isinstance(value, list):
+        return any(has_long_text(each) for each in value)
+    return isinstance(value, (str, bytes)) and len(value) > MAX_TEXT
 
 
 def is_whole(value: Any) -> bool:
