@@ -176,7 +176,7 @@ class FaultMatrix(unittest.TestCase):
         self.drive_by_hand()
         self.push(False)
         self.go_on(RobotMode.FOLLOWING_WAYPOINT)
-        self.joystick.under_way_wall_s = 0.0
+        self.joystick.arrive()
 
     def test_6_checking_car(self):
         self.desired.message.check_car_id = 1

@@ -40,6 +40,7 @@ class Speaker:
     def __init__(self, topic: str, message: Any, slot: Slot):
         self.message, self.is_silent, self.heard_ns, self.spoken = message, False, 0, 0
         self.under_way_wall_s = 0.0
+        self._under_way: List[threading.Timer] = []
         self._slot = slot
         self._publisher = direct_publisher(topic, type(message))
 
@@ -53,9 +54,18 @@ class Speaker:
 
     def _send(self) -> None:
         if self.under_way_wall_s:
-            threading.Timer(self.under_way_wall_s, self._publisher.publish, [copy.deepcopy(self.message)]).start()
+            self._under_way.append(threading.Timer(self.under_way_wall_s, self._publisher.publish,
+                                                   [copy.deepcopy(self.message)]))
+            self._under_way[-1].start()
         else:
             self._publisher.publish(self.message)
+
+    def arrive(self) -> None:
+        """From now on nothing is under way: a later word does not overtake an earlier one."""
+        for timer in self._under_way:
+            timer.join()
+        self._under_way.clear()
+        self.under_way_wall_s = 0.0
 
 
 class Listener:
