@@ -3,7 +3,8 @@
 A quantity is called different only where the whole 95 % interval of its difference lies on one side of zero, and
 different among all only where it also remains after Holm's correction. All quantities of a comparison are one family:
 where nothing differs, nothing is called different in at least 95 % of the comparisons. What an antenna moves it moves
-along a whole side, so that half of the 5 % belongs to the few means over the lines of a side, all words together.
+on lines beside each other, so that three fifths of the 5 % belong to them where all tests have passes at the same
+speeds (neighbours.py); elsewhere half of it belongs to the few means over the lines of a side, all words together.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -21,12 +22,14 @@ from mtr_operator.report.table import line_name
 from .areas import area, rings
 from .change import Change, change
 from .multiplicity import ALPHA, holm
-from .side_means import side_mean
-from .sides import sides_of
+from .side_means import neighbours, side_mean
+from .sides import SideLines, sides_of
 
+# Of the 5 % of a family the part that belongs to neighbouring lines where they are known, and to means of sides else.
+_NEIGHBOURS_SHARE, _SIDES_SHARE = 0.6, 0.5
 FARTHER, NEARER, NOT_SHOWN, NOT_KNOWN = "farther", "nearer", "no difference shown", "not known"
-DISTANCE, SIDE, AREA, COVERAGE = "distance", "side", "area", "coverage"
-UNITS = {DISTANCE: "m", SIDE: "m", AREA: "m\N{SUPERSCRIPT TWO}", COVERAGE: ""}
+DISTANCE, NEIGHBOURS, SIDE, AREA, COVERAGE = "distance", "neighbours", "side", "area", "coverage"
+UNITS = {DISTANCE: "m", NEIGHBOURS: "m", SIDE: "m", AREA: "m\N{SUPERSCRIPT TWO}", COVERAGE: ""}
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,7 @@ class Row:
     Attributes:
         quantity: DISTANCE, SIDE, AREA or COVERAGE. line: number in the first test, None for several. name: for a
             person. word: what the distance is called; of a mean over all of them it names all. is_leading: one of the
-            means to which half of the family's chance belongs. adjusted: the chance of the difference among all rows.
+            means to which most of the family's chance belongs. adjusted: the chance of the difference among all rows.
     """
 
     quantity: str
@@ -155,22 +158,39 @@ def _coverages(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
 
 def _sides(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
     """Means over the lines of each side: of all words together, and of each one."""
-    rows = []
+    sides = list(sides_of(lines, tests.first.progress.measured_car))
+    rows = _neighbours(tests, split, sides)
+    is_leading = not rows
     choices = [tests.words, *([(word,) for word in tests.words] if len(tests.words) > 1 else [])]
-    for side in sides_of(lines, tests.first.progress.measured_car):
+    for side in sides:
         for words in choices:
             found = side_mean(tests, split, side, words)
             if found is not None:
                 rows.append(Row(SIDE, None, f"{side.name} ({found.distances} distances)", " and ".join(words),
-                                found.first, found.second, found.change, is_leading=words == tests.words))
+                                found.first, found.second, found.change,
+                                is_leading=is_leading and words == tests.words))
     return rows
 
 
+def _neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> list[Row]:
+    """Lines beside each other that have moved together most; none where not all tests have the same passes."""
+    found = neighbours(tests, split, sides)
+    if found is None:
+        return []
+    first, last = (_name(tests, number) for number in (found.numbers[0], found.numbers[-1]))
+    count = len(found.numbers) * len(tests.words)
+    return [Row(NEIGHBOURS, None, f"most moved together: {first} to {last} ({count} distances)",
+                " and ".join(tests.words), found.first, found.second, found.change, is_leading=True)]
+
+
 def _adjusted(rows: Sequence[Row]) -> list[Row]:
-    """Half of the family belongs to the leading rows, if there are any and others."""
+    """Much of the family's chance belongs to the leading rows, if there are any and others."""
     known = [row for row in rows if not row.change.reason]
     numbers = collections.Counter(row.is_leading for row in known)
-    adjusted = holm([row.change.chance for row in known], [1.0 / numbers[row.is_leading] for row in known])
+    leading = _NEIGHBOURS_SHARE if any(row.quantity == NEIGHBOURS for row in known) else _SIDES_SHARE
+    parts = {True: leading, False: 1.0 - leading}
+    adjusted = holm([row.change.chance for row in known],
+                    [parts[row.is_leading] / numbers[row.is_leading] for row in known])
     of_known = dict(zip(map(id, known), adjusted))
     return [replace(row, adjusted=of_known.get(id(row), 1.0)) for row in rows]
 

@@ -87,12 +87,12 @@ def moved(words: Sequence[Sequence[Events]], split: int, lasting: float) -> tupl
     means = np.sum([each.means_m for lines in words for each in lines], axis=0) / count
     sides = means[:split], means[split:]
     noise, freedom = _variance_of_test(words, count)
-    spread, of_spread = _spread(sides)
+    spread, of_spread = spread_of(sides)
     if of_spread and noise > 0.0 and float(fdtrc(of_spread, freedom, spread / noise)) < ALPHA:
         noise, freedom = spread, float(of_spread)
-    first, second = (_estimate(side, _summed(noise / len(side), freedom, lasting ** 2)) for side in sides)
+    first, second = (estimate_of(side, summed(noise / len(side), freedom, lasting ** 2)) for side in sides)
     value = float(np.mean(sides[1]) - np.mean(sides[0]))
-    sigma, freedom = _summed(sum(noise / len(side) for side in sides), freedom, 2.0 * lasting ** 2)
+    sigma, freedom = summed(sum(noise / len(side) for side in sides), freedom, 2.0 * lasting ** 2)
     reach = quantile(freedom) * sigma
     return first, second, Change(value, value - reach, value + reach,
                                  chance(value, value - reach, value + reach, freedom))
@@ -110,20 +110,20 @@ def _variance_of_test(words: Sequence[Sequence[Events]], count: int) -> tuple[fl
     return total, total ** 2 / bound if bound > 0.0 else math.inf
 
 
-def _summed(variance: float, freedom: float, known: float) -> tuple[float, float]:
+def summed(variance: float, freedom: float, known: float) -> tuple[float, float]:
     """Sigma with a variance that is known besides, and degrees of freedom of both."""
     total = variance + known
     return math.sqrt(total), freedom * (total / variance) ** 2 if variance > 0.0 else math.inf
 
 
-def _spread(sides: Sequence[Floats]) -> tuple[float, int]:
+def spread_of(sides: Sequence[Floats]) -> tuple[float, int]:
     """Variance of a test's mean among the tests of its own side, with degrees of freedom, 0 for single tests."""
     freedom = sum(len(side) - 1 for side in sides)
     squares = sum(float(np.sum((side - np.mean(side)) ** 2)) for side in sides)
     return (squares / freedom if freedom else 0.0), freedom
 
 
-def _estimate(means_m: Floats, known: tuple[float, float]) -> Estimate:
+def estimate_of(means_m: Floats, known: tuple[float, float]) -> Estimate:
     value, count, (sigma, freedom) = float(np.mean(means_m)), len(means_m), known
     reach = quantile(freedom) * sigma
     return Estimate(value, value - reach, value + reach, count, freedom,

@@ -17,6 +17,7 @@ from mtr_operator.history.estimate import Estimate, Known, estimate
 from mtr_operator.history.same_lines import Tests
 
 from .change import Change, change
+from .neighbours import Neighbours, moved_most
 from .same_passes import Events, events_of, moved
 from .sides import SideLines
 
@@ -45,13 +46,28 @@ def side_mean(tests: Tests, split: int, side: SideLines, words: Sequence[str]) -
     return SideMean(len(parts), first, second, change(first, second))
 
 
+def neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> Neighbours | None:
+    """Lines beside each other that have moved together most; sides: those with a place, and all lines."""
+    found = {line: [_events_on(tests, line, word) for word in tests.words] for side in sides for line in side.numbers}
+    events = {line: [each for each in of_words if each] for line, of_words in sorted(found.items())
+              if None not in of_words}
+    named = [side for side in sides if side.is_one_side]
+    lasting_m = max((_lasting_m(tests, side, tests.words) for side in sides), default=0.0)
+    return moved_most(events, [side.numbers for side in named], split, lasting_m)
+
+
 def _events(tests: Tests, side: SideLines, word: str) -> list[Events]:
     """Of each line on which all tests have the same passes."""
-    number = tests.words.index(word)
-    found = (events_of([results[line] for results in tests.results], word) for line in side.numbers
-             if all(line in results and results[line].distances[number].status is LineStatus.OK
-                    for results in tests.results))
+    found = (_events_on(tests, line, word) for line in side.numbers)
     return [each for each in found if each is not None]
+
+
+def _events_on(tests: Tests, line: int, word: str) -> Events | None:
+    number = tests.words.index(word)
+    if not all(line in results and results[line].distances[number].status is LineStatus.OK
+               for results in tests.results):
+        return None
+    return events_of([results[line] for results in tests.results], word)
 
 
 def _lasting_m(tests: Tests, side: SideLines, words: Sequence[str]) -> float:

@@ -15,10 +15,11 @@ _CORNER_M = 1e-6
 
 
 class SideLines(NamedTuple):
-    """name: for a person. numbers: of its lines."""
+    """name: for a person. numbers: of its lines, in their order. is_one_side: not all lines together."""
 
     name: str
     numbers: tuple[int, ...]
+    is_one_side: bool = True
 
 
 def sides_of(lines: Sequence[Any], car: CarDimensions) -> Iterator[SideLines]:
@@ -32,7 +33,7 @@ def sides_of(lines: Sequence[Any], car: CarDimensions) -> Iterator[SideLines]:
         if len(numbers) >= _MIN_LINES:
             yield SideLines(f"{name} side", tuple(numbers))
     if len(lines) >= _MIN_LINES:
-        yield SideLines("all lines", tuple(line.number for line in lines))
+        yield SideLines("all lines", tuple(line.number for line in lines), is_one_side=False)
 
 
 def _side(ray: Ray, car: CarDimensions) -> str:
