@@ -64,8 +64,22 @@ void InputGate::add_wheels(const WheelSample& sample) {
     emitted_ns_.reset();
     restart_ = problems::kWheelsWentBack();
   }
+  if (is_frozen(sample)) {
+    // As if they were silent: scans would lead the pose on meanwhile, and the wheels once more when they go on.
+    return;
+  }
   newest_wheels_ns_ = sample.stamp_ns;
   pending_.push_back(sample);
+}
+
+bool InputGate::is_frozen(const WheelSample& sample) {
+  const bool repeats = newest_wheels_ && sample.x_m == newest_wheels_->x_m && sample.y_m == newest_wheels_->y_m &&
+                       sample.heading_rad == newest_wheels_->heading_rad &&
+                       sample.linear_mps == newest_wheels_->linear_mps &&
+                       sample.angular_radps == newest_wheels_->angular_radps;
+  wheel_repeats_ = repeats ? wheel_repeats_ + 1 : 0;
+  newest_wheels_ = sample;
+  return wheel_repeats_ >= kFrozenSamples && is_moving(sample);
 }
 
 std::optional<GatedSample> InputGate::next() {

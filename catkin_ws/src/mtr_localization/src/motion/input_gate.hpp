@@ -49,6 +49,8 @@ class InputGate {
  private:
   /// The sensor, or its driver, says the same again and again although the wheels move.
   bool is_frozen(const ImuSample& sample);
+  /// The base's driver says the same again and again: a place that does not change at a speed.
+  bool is_frozen(const WheelSample& sample);
   mtr_core::Problem problem_with(const WheelSample& wheels) const;
   mtr_core::Problem interruption_before(const WheelSample& wheels);
 
@@ -56,6 +58,8 @@ class InputGate {
   YawRateHistory gyro_;
   std::optional<ImuSample> newest_imu_;
   int imu_repeats_ = 0;
+  std::optional<WheelSample> newest_wheels_;
+  int wheel_repeats_ = 0;
   std::deque<WheelSample> pending_;
   std::optional<WheelSample> last_used_;
   std::optional<std::int64_t> newest_wheels_ns_;

@@ -156,6 +156,7 @@ class SceneDrive {
   bool lidar_works = true;
   /// The driver repeats what it said last.
   bool imu_is_frozen = false;
+  bool wheels_are_frozen = false;
   bool lidar_is_frozen = false;
   /// What the accelerometer shows; 0: there is none.
   double gravity_mps2 = 0.0;
@@ -192,7 +193,12 @@ class SceneDrive {
     }
     imu_.stamp_ns = now_ns;
     take(source_->add_imu(imu_));
-    take(source_->add_wheels(wheels_));
+    if (!wheels_are_frozen) {
+      said_ = wheels_;
+    }
+    said_.stamp_ns = now_ns;
+    take(source_->add_wheels(said_));
+    take(source_->check_silence(now_ns));
   }
 
   void take(const std::vector<Estimate>& estimates) {
@@ -258,6 +264,8 @@ class SceneDrive {
   std::vector<float> ranges_;
   ImuSample imu_{0, 0.0};
   WheelSample wheels_{0, 0.0, 0.0, 0.0, 0.0, 0.0};
+  /// What the driver says of them.
+  WheelSample said_ = wheels_;
 };
 
 }  // namespace mtr_localization

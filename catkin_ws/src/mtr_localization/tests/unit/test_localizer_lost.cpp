@@ -211,6 +211,24 @@ TEST_F(LocalizerLostTest, ImuThatIsFrozenForASecondInMotionIsOverWhenTheRobotHas
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
+TEST_F(LocalizerLostTest, WheelsThatRepeatAPlaceAtASpeedAreSilentUntilTheRobotHasSeenWhereItIs) {
+  robot.drive(-0.4, 0.0, 1.0);
+  robot.wheels_are_frozen = true;
+  EXPECT_FALSE(robot.drive(-0.4, 0.0, 0.7).valid);
+  EXPECT_NE(robot.newest.message.text.find("silent"), std::string::npos) << robot.newest.message.text;
+  EXPECT_FALSE(robot.drive(0.0, 0.0, 0.8).valid);
+  robot.wheels_are_frozen = false;
+  robot.drive(0.0, 0.0, 2.0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(LocalizerLostTest, WheelsThatRepeatAPlaceAtRestStand) {
+  robot.drive(0.0, 0.0, 1.0);
+  robot.wheels_are_frozen = true;
+  EXPECT_TRUE(robot.drive(0.0, 0.0, 3.0).valid) << robot.newest.message.text;
+}
+
 TEST_F(LocalizerLostTest, RobotThatWasCarriedInAGapOfItsSensorsStaysLostWhileItStands) {
   robot.drive(-0.5, 0.0, 1.0);
   robot.hears = false;

@@ -129,6 +129,16 @@ TEST_F(LocalizerLostWhileMappingTest, LongStretchIsLostAndGoesOnWhereTheViewAgre
   EXPECT_LT(robot.position_error_m(), 0.05);
 }
 
+TEST_F(LocalizerLostWhileMappingTest, WheelsThatRepeatAPlaceAtASpeedDoNotLeadItOnTwice) {
+  robot.wheels_are_frozen = true;
+  robot.drive(0.4, 0.0, 0.7);
+  robot.drive(0.0, 0.0, 0.8);
+  robot.wheels_are_frozen = false;
+  robot.drive(0.0, 0.0, 3.0);
+  EXPECT_EQ(robot.newest.mode, PoseMode::kMapping) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.03);
+}
+
 TEST_F(LocalizerLostWhileMappingTest, CarriedRobotStaysLostAndGuessesNothing) {
   robot.drive(0.0, 0.0, 1.0);
   robot.carry(-1.0, -1.7, 0.6);
