@@ -176,6 +176,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "There is no car profile {}; shipped are: {}; a path to a YAML file works too."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: states must name a value for locked and one for unlocked."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} is no table of names and values."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {} has a text of more than {} characters."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: source_signal and sources belong together; give both or none."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} must be a table from raw value to {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} is {}; allowed is {} to {} s."),

@@ -278,92 +278,92 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="58"/>
+        <location filename="../windows/calibration_window.py" line="60"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="66"/>
+        <location filename="../windows/calibration_window.py" line="68"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="66"/>
+        <location filename="../windows/calibration_window.py" line="68"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="74"/>
+        <location filename="../windows/calibration_window.py" line="76"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="115"/>
+        <location filename="../windows/calibration_window.py" line="117"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="118"/>
+        <location filename="../windows/calibration_window.py" line="120"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="130"/>
+        <location filename="../windows/calibration_window.py" line="132"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="130"/>
+        <location filename="../windows/calibration_window.py" line="132"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="91"/>
+        <location filename="../windows/calibration_window.py" line="93"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="168"/>
+        <location filename="../windows/calibration_window.py" line="172"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="185"/>
+        <location filename="../windows/calibration_window.py" line="189"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="203"/>
+        <location filename="../windows/calibration_window.py" line="207"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="129"/>
+        <location filename="../windows/calibration_window.py" line="131"/>
         <source>Reported by robot and Car</source>
         <translation>Hlásí robot a auto</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="131"/>
+        <location filename="../windows/calibration_window.py" line="133"/>
         <source>The Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="186"/>
+        <location filename="../windows/calibration_window.py" line="190"/>
         <source>The Car has answered: {locks}.</source>
         <translation>Auto odpovědělo: {locks}.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="187"/>
+        <location filename="../windows/calibration_window.py" line="191"/>
         <source>The Car has not answered.</source>
         <translation>Auto neodpovědělo.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="71"/>
+        <location filename="../windows/calibration_window.py" line="73"/>
         <source>Guided calibration</source>
         <translation>Kalibrace krok za krokem</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="72"/>
+        <location filename="../windows/calibration_window.py" line="74"/>
         <source>Press strength, key height and key&apos;s lever, kept with their date.</source>
         <translation>Síla stisku, výška klíče a rameno klíče; uchovají se s datem.</translation>
     </message>
@@ -6823,6 +6823,11 @@
         <location filename="../sentences.py" line="54"/>
         <source>“{title}”</source>
         <translation>„{title}“</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>Car profile {} has a text of more than {} characters.</source>
+        <translation>Profil auta {} obsahuje text delší než {} znaků.</translation>
     </message>
 </context>
 <context>
