@@ -46,7 +46,7 @@ Estimate Localizer::step(const GatedSample& sample) {
   const RememberedPose before{filter().pose(), filter().pose_covariance(), odometry().wheel_odom()};
   const PoseVector odom_before = history().newest().odom;
   if (const mtr_core::Problem loss = odometry().predict(sample, gyro(), tracker_.has_map())) {
-    bridge(before, odom_before, loss);
+    bridge(before, odom_before, sample, loss);
   }
   mapper().travel(history().newest().input, tracker_.lost());
 
@@ -165,15 +165,19 @@ void Localizer::leave(const AdjustedMap& refused) {
   history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
 }
 
-void Localizer::bridge(const RememberedPose& before, const PoseVector& odom_before, const mtr_core::Problem& loss) {
-  const auto way = led_by_wheels({odom_before, Eigen::Matrix3d::Zero(), before.wheel_odom}, odometry().wheel_odom());
+void Localizer::bridge(const RememberedPose& before, const PoseVector& odom_before, const GatedSample& sample,
+                       const mtr_core::Problem& loss) {
+  const std::optional<double> turn_rad = turn_of(sample);
+  const auto way =
+      led_by_wheels({odom_before, Eigen::Matrix3d::Zero(), before.wheel_odom}, odometry().wheel_odom(), turn_rad);
   if (way) {
     odometry().lead(way->pose);
   }
   mapper().lead(way ? way->covariance : kUnseenWay);
-  const auto led = tracker_.is_reckoned() ? led_by_wheels(before, odometry().wheel_odom()) : std::nullopt;
+  const auto led = tracker_.is_reckoned() ? led_by_wheels(before, odometry().wheel_odom(), turn_rad) : std::nullopt;
   if (led) {
     history().change_newest([&led](PoseFilter& filter) { filter.set_pose(led->pose, led->covariance); });
+    tracker_.lead(history().newest());
   }
   if (tracker_.state() == ScanTracker::State::kMapping) {
     tracker_.lose(problems::kLost({{"cause", loss}}));
@@ -182,6 +186,14 @@ void Localizer::bridge(const RememberedPose& before, const PoseVector& odom_befo
   } else {
     tracker_.lose(problems::kSearching({{"cause", loss}}));
   }
+}
+
+std::optional<double> Localizer::turn_of(const GatedSample& sample) const {
+  if (!sample.turn_meanwhile) {
+    return std::nullopt;
+  }
+  const auto& [duration_s, angle_rad] = *sample.turn_meanwhile;
+  return duration_s * filter().corrected_rate(angle_rad / duration_s);
 }
 
 PoseVector Localizer::map_from_odom() const {

@@ -44,7 +44,10 @@ class Localizer : public PoseSource {
   void take_up(const Memory& memory);
   void enter(const AdjustedMap& map);
   void leave(const AdjustedMap& refused);
-  void bridge(const RememberedPose& before, const PoseVector& odom_before, const mtr_core::Problem& loss);
+  void bridge(const RememberedPose& before, const PoseVector& odom_before, const GatedSample& sample,
+              const mtr_core::Problem& loss);
+  /// How the robot turned while the wheels alone were silent, rad.
+  std::optional<double> turn_of(const GatedSample& sample) const;
   Estimate estimate() const;
   PoseMode mode() const;
 

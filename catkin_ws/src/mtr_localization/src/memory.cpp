@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "memory.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace mtr_localization {
@@ -21,20 +22,30 @@ double square(double value) { return value * value; }
 
 }  // namespace
 
-std::optional<RememberedPose> led_by_wheels(const RememberedPose& from, const std::array<double, 3>& wheel_odom) {
+std::optional<RememberedPose> led_by_wheels(const RememberedPose& from, const std::array<double, 3>& wheel_odom,
+                                            std::optional<double> seen_turn_rad) {
   const Eigen::Map<const PoseVector> before(from.wheel_odom.data());
   const Eigen::Map<const PoseVector> now(wheel_odom.data());
-  const PoseVector way = relative(before, now);
+  PoseVector way = relative(before, now);
   const double distance_m = way.head<2>().norm();
-  const double turn_rad = std::abs(wrapped(way.z()));
+  // What of the turn rests on the wheels alone: all of it, or what they say beyond the gyro.
+  const double slipped_rad = wrapped(way.z() - seen_turn_rad.value_or(0.0));
   // Written so that what is no number is no way either.
-  if (!(distance_m <= kMaxLedM && turn_rad <= kMaxLedRad)) {
+  if (!(distance_m <= kMaxLedM && std::abs(slipped_rad) <= kMaxLedRad)) {
     return std::nullopt;
   }
+  double aside_m = 0.0;
+  double heading_sigma_rad = kHeadingSigmaRad + kHeadingSigmaPerRad * std::abs(slipped_rad);
+  if (seen_turn_rad) {
+    // An arc's chord points half of its turn aside: by so much less than the wheels say, give or take as much.
+    way.head<2>() = Eigen::Rotation2Dd(-0.5 * slipped_rad) * way.head<2>().eval();
+    way.z() = wrapped(*seen_turn_rad);
+    aside_m = 0.5 * std::abs(slipped_rad) * distance_m;
+    heading_sigma_rad = kHeadingSigmaRad;
+  }
   RememberedPose led{compose(from.pose, way), from.covariance, wheel_odom};
-  const double position = square(kPositionSigmaM + kPositionSigmaPerM * distance_m);
-  const double heading = square(kHeadingSigmaRad + kHeadingSigmaPerRad * turn_rad);
-  led.covariance.diagonal() += Eigen::Vector3d(position, position, heading);
+  const double position = square(kPositionSigmaM + kPositionSigmaPerM * distance_m) + square(aside_m);
+  led.covariance.diagonal() += Eigen::Vector3d(position, position, square(heading_sigma_rad));
   return led;
 }
 

@@ -29,8 +29,10 @@ struct Memory {
   std::optional<RememberedPose> pose;
 };
 
-/// Where wheels alone have led from a remembered pose to where their odometry is now; none when they went farther than
-/// they can be trusted, or their odometry began anew.
-std::optional<RememberedPose> led_by_wheels(const RememberedPose& from, const std::array<double, 3>& wheel_odom);
+/// Where wheels have led from a remembered pose to where their odometry is now; none when they went farther than they
+/// can be trusted, or their odometry began anew.
+/// @param seen_turn_rad how the robot turned meanwhile, where the gyro saw it; none: the wheels' turn
+std::optional<RememberedPose> led_by_wheels(const RememberedPose& from, const std::array<double, 3>& wheel_odom,
+                                            std::optional<double> seen_turn_rad = std::nullopt);
 
 }  // namespace mtr_localization

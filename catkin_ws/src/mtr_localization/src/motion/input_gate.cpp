@@ -78,8 +78,10 @@ bool InputGate::is_frozen(const WheelSample& sample) {
                        sample.linear_mps == newest_wheels_->linear_mps &&
                        sample.angular_radps == newest_wheels_->angular_radps;
   wheel_repeats_ = repeats ? wheel_repeats_ + 1 : 0;
+  fresh_wheels_ns_ = repeats ? fresh_wheels_ns_ : sample.stamp_ns;
   newest_wheels_ = sample;
-  return wheel_repeats_ >= kFrozenSamples && is_moving(sample);
+  wheels_are_frozen_ = wheel_repeats_ >= kFrozenSamples && is_moving(sample);
+  return wheels_are_frozen_;
 }
 
 std::optional<GatedSample> InputGate::next() {
@@ -94,10 +96,23 @@ std::optional<GatedSample> InputGate::next() {
   pending_.pop_front();
   GatedSample sample{wheels, has_imu ? problem_with(wheels) : problems::kImuSilent(), {}};
   if (!sample.problem) {
+    const bool is_restart = static_cast<bool>(restart_);
     sample.interruption = interruption_before(wheels);
+    if (sample.interruption && !is_restart) {
+      sample.turn_meanwhile = turn_before(wheels);
+    }
     last_used_ = wheels;
   }
   return sample;
+}
+
+std::optional<GyroTurn> InputGate::turn_before(const WheelSample& wheels) const {
+  const std::int64_t from_ns = last_used_->stamp_ns;
+  if (from_ns >= wheels.stamp_ns || !gyro_.covers(from_ns) ||
+      gyro_.max_gap_ns(from_ns, wheels.stamp_ns) > gap_limit_ns_) {
+    return std::nullopt;
+  }
+  return GyroTurn{seconds(wheels.stamp_ns - from_ns), gyro_.integral(from_ns, wheels.stamp_ns)};
 }
 
 mtr_core::Problem InputGate::problem_with(const WheelSample& wheels) const {
@@ -137,7 +152,9 @@ mtr_core::Problem InputGate::silence(std::int64_t now_ns) const {
   if (!newest_wheels_ns_) {
     return problems::kWaitingForWheels();
   }
-  return now_ns - *newest_wheels_ns_ > gap_limit_ns_ ? problems::kWheelsSilent() : mtr_core::Problem{};
+  // What was repeated before it was seen to be frozen had said nothing either.
+  const std::int64_t since_ns = wheels_are_frozen_ ? fresh_wheels_ns_ : *newest_wheels_ns_;
+  return now_ns - since_ns > gap_limit_ns_ ? problems::kWheelsSilent() : mtr_core::Problem{};
 }
 
 std::vector<Estimate> InputGate::in_order(std::vector<Estimate> estimates) {

@@ -14,6 +14,12 @@
 
 namespace mtr_localization {
 
+/// What the gyro saw over a time: integral of its rate, without its bias taken off.
+struct GyroTurn {
+  double duration_s = 0.0;
+  double angle_rad = 0.0;
+};
+
 /// A wheel sample whose turn has come.
 struct GatedSample {
   WheelSample wheels;
@@ -21,6 +27,8 @@ struct GatedSample {
   mtr_core::Problem problem;
   /// Wheels or gyro were silent or jumped since the last sample that could be used.
   mtr_core::Problem interruption;
+  /// Of an interruption of the wheels alone: how the robot turned meanwhile.
+  std::optional<GyroTurn> turn_meanwhile = {};
 };
 
 /// Gives each wheel sample as soon as IMU data reaches its stamp; the order in which the two arrive does not matter.
@@ -53,6 +61,8 @@ class InputGate {
   bool is_frozen(const WheelSample& sample);
   mtr_core::Problem problem_with(const WheelSample& wheels) const;
   mtr_core::Problem interruption_before(const WheelSample& wheels);
+  /// None where the gyro was silent, too.
+  std::optional<GyroTurn> turn_before(const WheelSample& wheels) const;
 
   std::int64_t gap_limit_ns_;
   YawRateHistory gyro_;
@@ -60,6 +70,9 @@ class InputGate {
   int imu_repeats_ = 0;
   std::optional<WheelSample> newest_wheels_;
   int wheel_repeats_ = 0;
+  bool wheels_are_frozen_ = false;
+  /// Stamp of the newest wheel sample that did not say what the one before it said.
+  std::int64_t fresh_wheels_ns_ = 0;
   std::deque<WheelSample> pending_;
   std::optional<WheelSample> last_used_;
   std::optional<std::int64_t> newest_wheels_ns_;

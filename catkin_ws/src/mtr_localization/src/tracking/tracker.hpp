@@ -57,6 +57,9 @@ class ScanTracker {
   /// view there agrees; else only a search finds it
   void doubt(const mtr_core::Problem& reason, bool reckoned);
 
+  /// Something else than predictions has led the pose here: what is near counts from here.
+  void lead(const FilterStep& here) { agreed_odom_ = here.odom; }
+
   /// As `lose`, and there is no map to be found in until another begins.
   void give_up(const mtr_core::Problem& reason);
 

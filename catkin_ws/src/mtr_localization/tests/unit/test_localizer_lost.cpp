@@ -223,6 +223,23 @@ TEST_F(LocalizerLostTest, WheelsThatRepeatAPlaceAtASpeedAreSilentUntilTheRobotHa
   EXPECT_LT(robot.position_error_m(), 0.02);
 }
 
+TEST_F(LocalizerLostTest, TurnThatTheWheelsDidNotTellIsTheGyros) {
+  robot.drive(-0.4, 0.5, 1.0);
+  robot.wheels_are_frozen = true;
+  EXPECT_FALSE(robot.drive(-0.3, 0.9, 1.0).valid);
+  robot.drive(0.0, 0.0, 0.5);
+  robot.wheels_are_frozen = false;
+  robot.drive(0.0, 0.0, 2.0);
+  EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_LT(robot.position_error_m(), 0.02);
+}
+
+TEST_F(LocalizerLostTest, FrozenWheelsAreSilentAFifthOfASecondAfterTheyFroze) {
+  robot.drive(-0.4, 0.0, 1.0);
+  robot.wheels_are_frozen = true;
+  EXPECT_FALSE(robot.drive(-0.4, 0.0, 0.24).valid);
+}
+
 TEST_F(LocalizerLostTest, WheelsThatRepeatAPlaceAtRestStand) {
   robot.drive(0.0, 0.0, 1.0);
   robot.wheels_are_frozen = true;

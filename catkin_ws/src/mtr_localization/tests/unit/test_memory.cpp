@@ -101,6 +101,22 @@ TEST(LedByWheels, AddsTheWayAndItsUncertainty) {
   EXPECT_NEAR(std::sqrt(led->covariance(2, 2)), 0.06, 1e-9);
 }
 
+TEST(LedByWheels, TurnsAsTheGyroSawItWhereItDid) {
+  RememberedPose from;
+  from.pose << 1.0, 2.0, 0.0;
+  // An arc of 1.2 rad, of which the wheels tell 1.0: half of what is missing is missing of the chord's direction.
+  const std::array<double, 3> wheels{0.4 * std::cos(0.5), 0.4 * std::sin(0.5), 1.0};
+  const auto led = led_by_wheels(from, wheels, 1.2);
+  ASSERT_TRUE(led);
+  EXPECT_NEAR(led->pose.x(), 1.0 + 0.4 * std::cos(0.6), 1e-12);
+  EXPECT_NEAR(led->pose.y(), 2.0 + 0.4 * std::sin(0.6), 1e-12);
+  EXPECT_NEAR(led->pose.z(), 1.2, 1e-12);
+  EXPECT_NEAR(std::sqrt(led->covariance(0, 0)), std::hypot(0.06, 0.04), 1e-9);
+  EXPECT_NEAR(std::sqrt(led->covariance(2, 2)), 0.01, 1e-9);
+  EXPECT_FALSE(led_by_wheels(from, wheels));
+  EXPECT_FALSE(led_by_wheels(from, wheels, 1.6));
+}
+
 TEST(LedByWheels, NowhereWhenTheirOdometryBeganAnewOrTheyWentFar) {
   RememberedPose from;
   from.wheel_odom = {5.0, 5.0, 0.0};
