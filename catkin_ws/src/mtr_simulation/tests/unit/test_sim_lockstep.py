@@ -4,33 +4,14 @@ import threading
 
 import pytest
 
-from mtr_simulation.clock import connections
 from mtr_simulation.clock.barrier import LOOK_WALL_S, SILENT_AFTER_WALL_S, Barrier, Watcher
-from mtr_simulation.clock.pacing import Pace
 
 STEP = 20_000_000
-
-
-class Clock:
-    """Wall clock that jumps far ahead at each look when it is in a hurry."""
-
-    def __init__(self):
-        self.now_s = 0.0
-        self.hurry_s = 0.0
-
-    def __call__(self):
-        self.now_s += self.hurry_s
-        return self.now_s
 
 
 @pytest.fixture
 def log():
     return []
-
-
-@pytest.fixture
-def clock():
-    return Clock()
 
 
 class Diary(Watcher):
@@ -239,62 +220,3 @@ def test_longest_waits_are_named_longest_first(barrier):
     assert barrier.longest_waits() == "waited so far for nobody"
     barrier.waited_s = {"/a": 1.0, "/b": 2.0}
     assert barrier.longest_waits() == "waited so far for /b 2.0 s, /a 1.0 s"
-
-
-def test_unlimited_pace_never_delays(clock):
-    pace = Pace(0.0, clock)
-    pace.start(1.0)
-    assert pace.delay(100.0) == 0.0
-
-
-def test_pace_delays_to_the_wanted_factor(clock):
-    pace = Pace(2.0, clock)
-    pace.start(1.0)
-    assert pace.delay(2.0) == pytest.approx(0.5)
-
-
-def test_pace_does_not_make_up_for_lost_time(clock):
-    pace = Pace(1.0, clock)
-    pace.start(0.0)
-    clock.now_s = 10.0
-    assert pace.delay(1.0) == 0.0
-    assert pace.delay(2.0) == pytest.approx(1.0)
-
-
-def test_pace_makes_up_for_so_much_lost_time_and_says_when_a_tick_was_due(clock):
-    pace = Pace(1.0, clock, made_up_s=0.5)
-    pace.start(0.0)
-    clock.now_s = 1.3
-    assert (pace.delay(1.0), pace.due_s) == (0.0, 1.0)
-    assert (pace.delay(1.25), pace.due_s) == (0.0, 1.25)
-    assert (pace.delay(1.5), pace.due_s) == (pytest.approx(0.2), 1.5)
-    clock.now_s = 10.0
-    assert (pace.delay(1.75), pace.due_s) == (0.0, 9.5)
-
-
-def test_pace_reports_the_factor_each_30_s(clock):
-    pace = Pace(0.0, clock)
-    pace.start(1.0)
-    clock.now_s = 5.0
-    assert pace.report(30.0) is None
-    assert pace.report(31.0) == "Simulated 30.0 s in 5.0 s: 6.0 x real time"
-    assert pace.report(32.0) is None
-    assert pace.total(41.0) == "Simulated 40.0 s in 5.0 s: 8.0 x real time"
-
-
-STATE = [[["/scan", ["/sim"]], ["/rosout", ["/sim", "/a"]]], [["/scan", ["/a", "/sim"]], ["/rosout", ["/log"]],
-                                                              ["/nobody", ["/a"]]], []]
-
-
-def test_wanted_connections_join_publishers_and_other_subscribers():
-    assert connections.wanted(STATE) == {connections.Connection("/scan", "/sim", "/a")}
-
-
-def test_outgoing_connections_are_read_from_bus_info():
-    info = [[1, "/a", "o", "TCPROS", "/scan", True, "..."], [2, "http://host:1/", "i", "TCPROS", "/hold", True, "..."]]
-    assert connections.outgoing("/sim", info) == {connections.Connection("/scan", "/sim", "/a")}
-
-
-def test_missing_connections_are_named():
-    text = connections.sentence([connections.Connection("/scan", "/sim", "/a")])
-    assert text == "/scan from /sim to /a"
