@@ -1,0 +1,6 @@
+"""Makes the drives with chosen errors importable by the tests beside them."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
