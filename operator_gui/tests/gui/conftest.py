@@ -8,6 +8,7 @@ import threading
 os.environ["QT_QPA_PLATFORM"] = "offscreen"
 
 import pytest
+from earlier_tests import lab  # noqa: F401
 from fit_checks import application_in_a_language, main_window, show_for_a_test  # noqa: F401
 from PyQt5 import sip
 from PyQt5.QtCore import QCoreApplication, QEvent, Qt, QTimer
