@@ -7,6 +7,8 @@ import sys
 import pytest
 
 FIRMWARE = pathlib.Path(__file__).resolve().parents[2]
+# How far from where it was sent the lift may come to rest.
+HEIGHT_TOLERANCE_M = 0.002
 sys.path[:0] = [str(FIRMWARE / "emulator" / "python"), str(FIRMWARE / "tests" / "emulated")]
 
 from serial_host import NEGOTIATE, Host, frame  # noqa: E402

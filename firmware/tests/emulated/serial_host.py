@@ -20,6 +20,8 @@ COMMAND_PERIOD_US = 100_000
 # The firmware's clock at power on; an order of the host may begin so long after it leaves.
 CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
 LEAD_US = 500_000
+# What became of a press.
+DONE, REFUSED, CUT_SHORT = 2, 3, 4
 
 
 class State(NamedTuple):

@@ -4,9 +4,9 @@ import binascii
 
 import pytest
 from conftest import running_host
+from serial_host import CUT_SHORT, DONE
 
 SAFE_WITHIN_S, WORKING_WITHIN_S = 1.2, 2.0
-DONE, CUT_SHORT = 2, 4
 JAMMED, SENSOR_BROKEN, LINK_LOST = 1, 2, 3
 LED_LINK_LOST = 8
 PRESSES = 200
