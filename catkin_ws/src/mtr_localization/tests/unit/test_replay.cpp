@@ -1,5 +1,5 @@
 /// @file
-/// Command line, bags and results of the offline replay.
+/// Bags and results of the offline replay.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -9,32 +9,19 @@
 #include <cstdint>
 #include <fstream>
 #include <sstream>
-#include <stdexcept>
 #include <string>
 #include <variant>
+#include <vector>
 
-#include "map_names.hpp"
 #include "replay/bag_reader.hpp"
-#include "replay/loop_detector.hpp"
 #include "replay/options.hpp"
 #include "replay/replay.hpp"
 #include "replay/result_files.hpp"
-#include "ros/map_messages.hpp"
-#include "ros/saved_map.hpp"
+#include "sentence.hpp"
 #include "synthetic_bag.hpp"
 
 namespace mtr_localization::replay {
 namespace {
-
-template <typename Action>
-void expect_sentence(Action action, const std::string& part) {
-  try {
-    action();
-    ADD_FAILURE() << "accepted";
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
-  }
-}
 
 /// A bag in the tests' folder; `truth` gets its true poses.
 std::string bag_of(const std::string& name, const BagOptions& options, std::vector<PoseVector>* truth = nullptr) {
@@ -85,48 +72,6 @@ TEST(BagReader, ScansWithoutAScanTimeComeAfterTheirLastBeam) {
     }
   }
   EXPECT_GT(sweeps, 1000);
-}
-
-TEST(ReplayOptions, EverythingIsUnderstood) {
-  const Options options = parse({"a.bag", "--out", "there", "--front-only", "--parameter", "surface_sigma_m=0.006",
-                                 "--parameter", "rear_lidar_x_m=-0.3", "--loop-end", "12.5"});
-  EXPECT_EQ(options.bag, "a.bag");
-  EXPECT_EQ(options.folder, "there");
-  EXPECT_TRUE(options.front_only);
-  EXPECT_TRUE(options.parameters.lockstep);
-  EXPECT_EQ(options.parameters.adjustment.surface_sigma_m, 0.006);
-  EXPECT_EQ(options.mounting.rear_lidar_x_m, -0.3);
-  EXPECT_EQ(options.loop_end_ns, 12'500'000'000);
-}
-
-TEST(ReplayOptions, WhatIsNotUnderstoodIsASentence) {
-  expect_sentence([] { parse({}); }, "Usage");
-  expect_sentence([] { parse({"a.bag", "--out"}); }, "--out needs a value");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--fast"}); }, "'--fast' is not understood");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "colour=1"}); }, "colour is unknown");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "surface_sigma_m=7"}); }, "allowed is");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--parameter", "surface_sigma_m=x"}); }, "no number");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--loop-end", "nan"}); }, "no number");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--loop-end", "9", "--map", "m"}); }, "give one of them");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--begin-at", "1", "2", "3"}); }, "give --map");
-  expect_sentence([] { parse({"a.bag", "--out", "b", "--map", "m", "--begin-at", "1", "2"}); }, "needs a value");
-}
-
-TEST(ReplayOptions, HelpTellsEachParameterOnceWithItsDefaultAndRange) {
-  EXPECT_TRUE(asks_for_help({"a.bag", "--help"}));
-  EXPECT_TRUE(asks_for_help({"-h"}));
-  EXPECT_FALSE(asks_for_help({"a.bag", "--out", "there"}));
-  const std::string text = help();
-  EXPECT_NE(text.find("  range_noise_m=0.015  0.001 to 0.1 m\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("  rear_lidar_x_m=-0.2  -2 to 2 m\n"), std::string::npos) << text;
-  const Options options;
-  for_each_group(options.parameters, [&](const auto& rows, const auto&) {
-    for (const auto& row : rows) {
-      const std::string line = std::string("\n  ") + row.name + "=";
-      EXPECT_EQ(text.find(line), text.rfind(line)) << row.name;
-      EXPECT_NE(text.find(line), std::string::npos) << row.name;
-    }
-  });
 }
 
 TEST(Replay, PersonWhoWaitsIsToldEachPercentOnce) {
@@ -226,51 +171,6 @@ TEST(Replay, BagThatBeginsInMotionIsTrackedFromItsFirstPose) {
   EXPECT_TRUE(replayed(bag, {"--in-motion"}).trajectory.front().valid);
 }
 
-TEST(SavedMap, ComesBackFromItsFileAsItWas) {
-  MapResult result;
-  result.map_car_id = 7;
-  result.revision = 3;
-  result.map.surfels.push_back({{1.0, -2.0}, {0.6, 0.8}, 0.25, 0.003, 12, -0.1, 0.2, 0.05, 0.01});
-  result.map.range_bias.value_m << 0.01, -0.02;
-  result.map.range_bias.covariance << 1e-6, 2e-7, 2e-7, 3e-6;
-  const std::string path = ::testing::TempDir() + "saved/map.bag";
-  write_bag(saved_map_of(result, message_of(result), grid_message_of(result)), path);
-  const auto saved = read_map(path);
-  ASSERT_TRUE(saved);
-  const Memory memory = memory_of(saved->map);
-  EXPECT_EQ(memory.map_car_id, 7U);
-  EXPECT_EQ(memory.revision, 3U);
-  ASSERT_EQ(memory.map.surfels.size(), 1U);
-  const Surfel& surfel = memory.map.surfels.front();
-  EXPECT_EQ(surfel.position, Eigen::Vector2d(1.0, -2.0));
-  EXPECT_EQ(surfel.normal, Eigen::Vector2d(0.6, 0.8));
-  EXPECT_EQ(surfel.hits, 12);
-  EXPECT_EQ(surfel.lean_sigma, 0.01);
-  EXPECT_EQ(memory.map.range_bias.value_m, result.map.range_bias.value_m);
-  EXPECT_EQ(memory.map.range_bias.covariance, result.map.range_bias.covariance);
-}
-
-TEST(SavedMap, WhatCannotBeUsedIsASentence) {
-  mtr_msgs::SavedMap map;
-  expect_sentence([&] { memory_of(map); }, "damaged");
-  map.surfels.assign(mtr_msgs::SavedMap::COLUMNS + 1, 1.0);
-  expect_sentence([&] { memory_of(map); }, "damaged");
-  map.surfels.assign(mtr_msgs::SavedMap::COLUMNS, std::nan(""));
-  expect_sentence([&] { memory_of(map); }, "damaged");
-  const std::string damaged = ::testing::TempDir() + "damaged.bag";
-  write_bag(SavedMap{map, {}}, damaged);
-  expect_sentence([&] { read_map(damaged); }, "cannot be used: the saved map is damaged");
-  const std::string torn = ::testing::TempDir() + "torn.bag";
-  std::ofstream(torn) << "#ROSBAG V2.0\n";
-  expect_sentence([&] { read_map(torn); }, "cannot be used");
-  EXPECT_FALSE(read_map("/nowhere/map.bag"));
-  expect_sentence([&] { write_bag(mtr_msgs::SavedPose(), torn + "/below/pose.bag"); }, "cannot be written");
-  const std::string pose = ::testing::TempDir() + "pose.bag";
-  write_bag(mtr_msgs::SavedPose(), pose);
-  EXPECT_TRUE(read_pose(pose));
-  expect_sentence([&] { read_map(pose); }, "it has no /localization/saved_map");
-}
-
 TEST(Replay, AnotherDriveIsLocalizedOnTheMapOfAReplay) {
   std::vector<PoseVector> truth;
   const std::string bag = bag_of("on_map", {}, &truth);
@@ -302,35 +202,6 @@ TEST(Replay, PlaceOnTheMapThatIsToldIsTakenUpWhenTheLidarsAgree) {
   const auto right = valid({"0.03", "-0.03", "0.01"});
   EXPECT_GT(right, 9 * static_cast<std::ptrdiff_t>(mapped.trajectory.size()) / 10);
   EXPECT_LT(valid({"2.0", "2.0", "1.0"}), right);
-}
-
-std::vector<KeyFrame> frames_at(const std::vector<Eigen::Vector2d>& places) {
-  std::vector<KeyFrame> frames;
-  for (const Eigen::Vector2d& place : places) {
-    KeyFrame frame;
-    frame.pose.head<2>() = place;
-    frames.push_back(frame);
-  }
-  return frames;
-}
-
-TEST(LoopDetector, WayRoundClosesWhenItComesBack) {
-  LoopDetector watch;
-  std::vector<Eigen::Vector2d> places;
-  for (int degrees = 0; degrees <= 355; degrees += 5) {
-    places.emplace_back(4.0 * std::cos(degrees * M_PI / 180.0), 3.0 * std::sin(degrees * M_PI / 180.0));
-    // 15 degrees before its end the way is 0.8 m from its beginning.
-    EXPECT_EQ(watch.closes(frames_at(places)), degrees >= 345) << degrees;
-  }
-}
-
-TEST(LoopDetector, WayOutAndBackIsNoLoop) {
-  LoopDetector watch;
-  std::vector<Eigen::Vector2d> places;
-  for (int i = 0; i <= 40; ++i) {
-    places.emplace_back(0.3 * std::min(i, 40 - i), 0.0);
-    EXPECT_FALSE(watch.closes(frames_at(places))) << i;
-  }
 }
 
 }  // namespace
