@@ -3,6 +3,7 @@
 import math
 import re
 from pathlib import Path
+from types import SimpleNamespace
 from xml.etree import ElementTree
 
 import mtr_drive_control_core as core
@@ -57,8 +58,23 @@ def centre_of_mass(key_height_m):
     return x, z + BASE_HEIGHT_M
 
 
+def sent_ahead(range_m):
+    """The first decision of drive control that is to drive ahead while both LiDARs see something all round them."""
+    now_ns, beams = 1_000_000_000, 720
+    sweep = SimpleNamespace(
+        stamp_ns=now_ns, angle_min_rad=-0.75 * math.pi, angle_increment_rad=1.5 * math.pi / (beams - 1),
+        time_increment_s=0.0, range_min_m=0.1, range_max_m=30.0, ranges_m=[range_m] * beams)
+    standing = SimpleNamespace(x_m=0.0, y_m=0.0, heading_rad=0.0, linear_mps=0.0, angular_radps=0.0)
+    control = core.DriveControl(shipped_urdf())
+    return control.step(now_ns, planner=(0.2, 0.0), front=sweep, rear=sweep, odometry=standing)
+
+
 def test_robot_of_mtr_description_is_served():
-    core.DriveControl(shipped_urdf())
+    free = sent_ahead(5.0)
+    assert (free.source, free.message) == ("planner", "") and free.linear_mps > 0.0
+    # From where the description has the LiDARs, that is too near to the footprint to set off.
+    blocked = sent_ahead(0.3)
+    assert blocked.linear_mps == 0.0 and "obstacle" in blocked.message
 
 
 @pytest.mark.parametrize("wrong, sentence", [
