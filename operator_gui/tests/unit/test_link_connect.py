@@ -7,7 +7,10 @@ import time
 import pytest
 
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, OperatorError
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.robot_link.client import ZmqRobotLink
+from mtr_operator.robot_link.conversions import decode_command, status_message_from
 from mtr_operator.robot_link.server import ConnectionServer
 
 HOSTS = ("127.0.0.1", "127.0.0.2", "256.0.0.1")
@@ -35,17 +38,28 @@ def server_fixture():
     pytest.fail("no free neighbouring ports")
 
 
-def connect(server, host, subscriber_shift, publisher_shift):
-    """Connect with the good ports shifted; close at once."""
+def connected(server, host, subscriber_shift, publisher_shift):
+    """A link to the good ports, shifted."""
     subscriber = -1 if subscriber_shift is None else server.subscriber_port + subscriber_shift
     publisher = -1 if publisher_shift is None else server.publisher_port + publisher_shift
     link = ZmqRobotLink(host, subscriber, publisher)
     link.connect()
-    link.close()
+    return link
 
 
 def test_good_parameters_connect(server):
-    connect(server, *GOOD)
+    link = connected(server, *GOOD)
+    until_s = time.monotonic() + LIMIT_S
+    # What is sent before the other side's subscription has come into force is lost.
+    while (status := link.next_status(0.01)) is None:
+        assert time.monotonic() < until_s
+        server.status_socket.send(status_message_from(RobotStatus(7, 1, 0.1)).SerializeToString())
+    while not server.command_socket.poll(10):
+        assert time.monotonic() < until_s
+        link.send(DesiredState())
+    command = decode_command(server.command_socket.recv())
+    link.close()
+    assert (status.id, command.session_id, command.seen_status_id) == (7, link.session_id, 7)
 
 
 @pytest.mark.timeout(LIMIT_S)
@@ -53,7 +67,7 @@ def test_good_parameters_connect(server):
 def test_other_parameters_fail_with_a_sentence_in_time(server, host, subscriber_shift, publisher_shift):
     started = time.monotonic()
     with pytest.raises((ConnectionFailed, InvalidParameter), match=r"\.$"):
-        connect(server, host, subscriber_shift, publisher_shift)
+        connected(server, host, subscriber_shift, publisher_shift)
     assert time.monotonic() - started < LIMIT_S
 
 
