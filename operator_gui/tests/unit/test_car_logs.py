@@ -5,9 +5,11 @@ import pytest
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.log.bus_log import BusLog
+from mtr_operator.car_link.log.kept_log import KeptLog
 from mtr_operator.car_link.log.log_car import LogCarLink
 from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.domain.errors import ConnectionFailed, OutputError
+from mtr_operator.domain.ports import BusMark
 from mtr_operator.domain.robot_status import RobotStatus
 
 
@@ -34,6 +36,22 @@ def test_fd_frames_are_kept_as_such(tmp_path):
     log.close()
     frame, = ReadLog(tmp_path / "bus.blf")
     assert (frame.can_id, frame.is_extended, frame.is_fd, frame.data) == (0x1ABCDEF, True, True, bytes(range(48)))
+
+
+def test_mark_says_how_far_the_kept_log_had_come_and_is_none_without_a_log(tmp_path):
+    kept, log, frame = KeptLog(), BusLog(tmp_path / "bus.blf"), CanFrame(0x100, False, b"", 5.0)
+    kept.frame(frame, 4.0)
+    kept.restart()
+    kept.status(0, 6.0, 6.1, "adapter")
+    assert kept.change(log) is None and (kept.frames, kept.mark, kept.problem) == (0, None, "")
+    kept.frame(frame, 5.0)
+    kept.restart()
+    kept.frame(frame, 0.5)
+    kept.status(1, 7.0, 7.2, "adapter")
+    assert kept.mark == BusMark(1, 2, 7.0, 7.2, 5.0, "adapter", 1)
+    assert kept.change(None) is log and (kept.frames, kept.mark) == (0, None)
+    log.close()
+    assert len(list(ReadLog(tmp_path / "bus.blf"))) == 2
 
 
 def test_log_that_is_cut_off_is_read_up_to_there_and_says_so(tmp_path):

@@ -24,6 +24,7 @@ from .further.buses import FurtherBuses
 from .further.cycles import CycleCheck
 from .lock_watch import LockWatch
 from .log.bus_log import BusLog
+from .log.kept_log import KeptLog
 from .message_table import MessageTable
 from .outputs.outputs import Outputs
 from .phone.car_signal import CarSignalFeed, feed_of
@@ -78,9 +79,7 @@ class CanCarLink(CarLink, FrameSink):
         self._reader: CanReader | None = None
         self._changed = threading.Condition()
         self._trouble = BusTrouble(self._settings)
-        self._log: BusLog | None = None
-        self._mark: BusMark | None = None
-        self._restarts = 0
+        self._log = KeptLog()
         self._traffic = TrafficMeter(bitrate, data_bitrate)
         self._table = MessageTable()
         self._outputs: Outputs | None = None
@@ -122,14 +121,11 @@ class CanCarLink(CarLink, FrameSink):
             raise ConnectionFailed(_NOT_CONNECTED)
         with self._changed:
             watch.status(status, arrival_s)
-            logged = 0 if self._log is None else self._log.frames
+            logged = self._log.frames
             self._changed.wait_for(lambda: bool(self._trouble.fault) or watch.has_caught_up(), CATCH_UP_LIMIT_S)
             self._trouble.status(status.stamp_s)
             told_s = self._clock()
-            if self._log is not None:
-                stamps = "" if watch.stamps is None else watch.stamps.name
-                self._mark = BusMark(logged, self._log.frames, arrival_s, told_s, self._log.origin_s, stamps,
-                                     self._restarts)
+            self._log.status(logged, arrival_s, told_s, "" if watch.stamps is None else watch.stamps.name)
             return watch.release(told_s)
 
     @property
@@ -186,19 +182,19 @@ class CanCarLink(CarLink, FrameSink):
         """See CarLink."""
         log = None if path is None else BusLog(path)
         with self._changed:
-            former, self._log, self._mark, self._restarts = self._log, log, None, 0
+            former = self._log.change(log)
         if former is not None:
             former.close()
 
     @property
     def log_problem(self) -> str:
         """See CarLink."""
-        return "" if self._log is None else self._log.problem
+        return self._log.problem
 
     @property
     def mark(self) -> BusMark | None:
         """See CarLink."""
-        return self._mark
+        return self._log.mark
 
     @property
     def messages(self) -> BusMessages | None:
@@ -251,8 +247,7 @@ class CanCarLink(CarLink, FrameSink):
             if self._watch is not None:
                 self._watch.frame(frame)
                 self._traffic.frame(frame, self._watch.is_lock_message)
-                if self._log is not None:
-                    self._log.frame(frame, self._watch.local_s)
+                self._log.frame(frame, self._watch.local_s)
             self._table.frame(frame)
             self.frames_received += 1
             self._changed.notify_all()
@@ -262,7 +257,7 @@ class CanCarLink(CarLink, FrameSink):
         self.frames_received += 1
         if watch is not None:
             watch.frame(frame)
-            if self._log is not None and watch.has_time:
+            if watch.has_time:
                 self._log.frame(frame, watch.local_s, self._further.channel(frame.bus))
 
     def tick(self, now_s: float) -> None:
@@ -275,8 +270,7 @@ class CanCarLink(CarLink, FrameSink):
         """See FrameSink."""
         with self._changed:
             self._trouble.error_frame()
-            if self._log is not None:
-                self._log.error_frame()
+            self._log.error_frame()
 
     def frames_lost(self) -> None:
         """See FrameSink."""
@@ -296,6 +290,4 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             if self._watch is not None:
                 self._watch.restart()
-            if self._log is not None:
-                self._log.restart()
-                self._restarts += 1
+            self._log.restart()
