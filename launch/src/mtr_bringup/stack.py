@@ -9,7 +9,7 @@ import socket
 import subprocess
 import time
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Set, Tuple
 
 START_LIMIT_S = 60.0
 STOP_LIMIT_S = 20.0
@@ -47,16 +47,23 @@ class StackOptions:
     launch: Tuple[str, str] = SIM_LAUNCH
 
 
+# A port that was given is not listened on at once.
+_GIVEN: Set[int] = set()
+
+
 def free_port() -> int:
-    """A TCP port of the loopback interface that nobody listens on now.
+    """A TCP port of the loopback interface that nobody listens on now, and that this process was not given before.
 
     Below the range from which the system takes ports for outgoing connections: the nodes' own connections could
     otherwise take it before the node that is to listen there.
     """
     while True:
         port = secrets.choice(LISTENING_PORTS)
+        if port in _GIVEN:
+            continue
         with socket.socket() as probe, contextlib.suppress(OSError):
             probe.bind(("127.0.0.1", port))
+            _GIVEN.add(port)
             return port
 
 

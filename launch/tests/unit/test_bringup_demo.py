@@ -1,5 +1,6 @@
 """The demo says what is wrong or missing in its results."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 import pathlib
 import subprocess
 import types
@@ -7,7 +8,7 @@ import types
 import pytest
 import yaml
 
-from mtr_bringup import demo
+from mtr_bringup import demo, stack
 from mtr_bringup.demo import (
     MIN_LINES,
     OUTPUTS,
@@ -34,6 +35,13 @@ HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
 def agrees(monkeypatch):
     """Measured and true events are the same."""
     monkeypatch.setattr(demo, "compare", lambda events, folder: 0)
+
+
+def test_port_is_given_once(monkeypatch):
+    first, other = stack.free_port(), stack.free_port()
+    wanted = itertools.chain([first, other, first, other], stack.LISTENING_PORTS)
+    monkeypatch.setattr(stack, "secrets", types.SimpleNamespace(choice=lambda _: next(wanted)))
+    assert stack.free_port() not in (first, other)
 
 
 def results(folder, lines):

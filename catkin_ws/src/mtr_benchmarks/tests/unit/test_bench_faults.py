@@ -37,6 +37,7 @@ from mtr_benchmarks.faults.matrix import (
 from mtr_benchmarks.faults.proofs import LANES, Proof, Ran, run, together
 from mtr_benchmarks.faults.record import Run, right_of
 from mtr_benchmarks.faults.robot import PutBackError
+from mtr_bringup.stack import StackError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Interventions, Mode, Notification, Problem
 
@@ -229,3 +230,13 @@ def test_cell_before_which_a_robot_asks_to_be_put_back_is_begun_on_another_robot
     second = campaign.one_robot(cells[len(first):], tmp_path, Run(tmp_path, 1, "abc"))
     assert [found.cell.state for found in (*first, *second)] == ["mapping", "driving"]
     assert asked == ["mapping", "driving", "driving"] and second[0].wrong == ["Put it back."]
+
+
+def test_robot_that_does_not_start_costs_one_cell(monkeypatch, tmp_path):
+    def broken(*_):
+        raise StackError("It ended while starting.")
+
+    monkeypatch.setattr(campaign, "FaultyRobot", broken)
+    found, = campaign.one_robot([CELL, replace(CELL, state="waiting")], tmp_path, Run(tmp_path, 1, "abc"))
+    assert (found.cell, found.wrong) == (CELL, ["It ended while starting."])
+    assert CELL.name not in right_of(tmp_path, "abc")

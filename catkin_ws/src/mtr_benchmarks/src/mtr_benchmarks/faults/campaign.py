@@ -1,7 +1,10 @@
 """Cells of the matrix one after the other on one robot, in a process of its own."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import pathlib
 from typing import List, NamedTuple, Optional
+
+from mtr_bringup.stack import StackError
 
 from .course import Course
 from .judge import Outcome, wrong
@@ -22,7 +25,12 @@ class Found(NamedTuple):
 def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
     """Cells of one kind of robot, in order, until one is over from which it does not come back, or all are."""
     ran: List[Found] = []
-    with FaultyRobot(folder, ROBOTS[cells[0].robot], run.seed) as robot:
+    with contextlib.ExitStack() as opened:
+        try:
+            robot = opened.enter_context(FaultyRobot(folder, ROBOTS[cells[0].robot], run.seed))
+        except StackError as error:
+            # Whatever it was: the next robot begins with the cell after it.
+            return [_failed(cells[0], error, run)]
         course = Course(robot)
         for cell in cells:
             try:
@@ -32,8 +40,7 @@ def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
                     # The next robot stands at the starting place, and begins with this cell.
                     break
                 # The next robot begins with the cell after it; one that cannot be begun has failed.
-                ran.append(Found(cell, None, [str(error)]))
-                run.keep(cell.name, ran[-1].wrong)
+                ran.append(_failed(cell, error, run))
                 break
             ran.append(Found(cell, outcome, wrong(cell, outcome)))
             run.keep(cell.name, ran[-1].wrong)
@@ -41,3 +48,9 @@ def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
             if outcome.then == LOST:
                 break
     return ran
+
+
+def _failed(cell: Cell, error: Exception, run: Run) -> Found:
+    found = Found(cell, None, [str(error)])
+    run.keep(cell.name, found.wrong)
+    return found
