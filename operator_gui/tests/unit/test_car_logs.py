@@ -1,5 +1,9 @@
 """Logs of a Car's bus: written and read again in each format, damaged ones, and one that is played as the Car."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
+import signal
+
+import can
 import pytest
 
 from mtr_operator.car_link.can_frame import CanFrame
@@ -11,6 +15,20 @@ from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.domain.errors import ConnectionFailed, OutputError
 from mtr_operator.domain.ports import BusMark
 from mtr_operator.domain.robot_status import RobotStatus
+
+
+@contextlib.contextmanager
+def ended_in_time():
+    """What takes more than a second of processor time is ended."""
+    def end(*_):
+        raise TimeoutError
+    before = signal.signal(signal.SIGPROF, end)
+    signal.setitimer(signal.ITIMER_PROF, 1.0)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0.0)
+        signal.signal(signal.SIGPROF, before)
 
 
 @pytest.mark.parametrize("suffix", ["blf", "asc", "trc"])
@@ -66,6 +84,20 @@ def test_log_that_is_cut_off_is_read_up_to_there_and_says_so(tmp_path):
     frames = list(read)
     assert 0 < len(frames) < 4000
     assert "is cut off after" in read.notice or "is damaged after" in read.notice
+
+
+@pytest.mark.parametrize("length", [0, 1, 15])
+def test_object_of_a_blf_that_is_shorter_than_its_header_ends_the_log(tmp_path, length):
+    path = tmp_path / "bus.blf"
+    with can.BLFWriter(str(path), compression_level=0) as log:
+        for index in range(3):
+            log.on_message_received(can.Message(timestamp=1.7e9 + index, arbitration_id=0x100, data=bytes(8)))
+    whole = path.read_bytes()
+    # The container's own header is before those of its three objects.
+    last = whole.rindex(b"LOBJ")
+    path.write_bytes(whole[:last + 6] + b"\x07\x07" + length.to_bytes(4, "little") + whole[last + 12:])
+    with ended_in_time(), pytest.raises(ConnectionFailed, match="holds no frame"):
+        list(ReadLog(path))
 
 
 @pytest.mark.parametrize(("times_s", "words"), [

@@ -7,15 +7,19 @@ import pathlib
 from typing import Iterator, NamedTuple
 
 import can
-from can.io.blf import FILE_HEADER_SIZE, BLFReader
+from can.io.blf import FILE_HEADER_SIZE, BLFParseError, BLFReader
 
 from mtr_operator.domain.errors import ConnectionFailed
 
-SUFFIXES = (".blf", ".asc", ".trc", ".mf4", ".log", ".csv", ".db")
+BLF_SUFFIX = ".blf"
+SUFFIXES = (BLF_SUFFIX, ".asc", ".trc", ".mf4", ".log", ".csv", ".db")
 # A live bus that is silent for half of it is a trouble; frames of several channels may be a little out of their order.
 _GAP_S, _DISORDER_S = 1.0, 0.1
 # Of a log with many gaps the first ones suffice.
 _MAX_NOTES = 3
+# Each object of a BLF begins with this word, its header's length and version, and its own length; before it may be so
+# many bytes of padding.
+_OBJECT, _LENGTH_AT, _HEADER, _PADDED = b"LOBJ", 8, 16, 8
 # Of a CAN FD frame, ISO 11898-1.
 _MAX_DATA_BYTES = 64
 
@@ -30,6 +34,22 @@ class LoggedFrame(NamedTuple):
     data: bytes
     is_fd: bool
     channel: int = 0
+
+
+class _Blf(BLFReader):
+    """The library's reader never comes to the end of an object that says that it is as long as nothing."""
+
+    def _parse_container(self, data: bytes) -> Iterator[can.Message]:
+        whole, place = self._tail + data, 0
+        while place + _HEADER <= len(whole):
+            place = whole.find(_OBJECT, place, place + _PADDED)
+            if not 0 <= place <= len(whole) - _HEADER:
+                break
+            length = int.from_bytes(whole[place + _LENGTH_AT:place + _LENGTH_AT + 4], "little")
+            if length < _HEADER:
+                raise BLFParseError(f"An object of {length} bytes.")
+            place += length
+        yield from super()._parse_container(data)
 
 
 def _check(message: can.Message) -> None:
@@ -59,7 +79,7 @@ class ReadLog:
             raise ConnectionFailed(f"{path} is no CAN log; known are files that end in {', '.join(SUFFIXES)}.")
         try:
             self._size = path.stat().st_size
-            self._reader = can.LogReader(str(path))
+            self._reader = _Blf(str(path)) if path.suffix.lower() == BLF_SUFFIX else can.LogReader(str(path))
         except OSError as error:
             raise ConnectionFailed(f"The CAN log {path} cannot be read: {error.strerror or error}.") from None
         except NotImplementedError:
