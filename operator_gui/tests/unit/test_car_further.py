@@ -261,8 +261,8 @@ def test_cause_that_is_not_required_may_be_unknown():
 def test_cycle_of_the_bus_is_compared_with_the_profiles(tmp_path, period_s, words):
     check = CycleCheck(load_profile(written(tmp_path, CAUSE)))
     for index in range(30):
-        check.frame(CanFrame(STATE_ID, False, bytes(2), period_s * index))
-        check.frame(CanFrame(CAUSE_ID, False, bytes(2), 0.05 * index))
+        check.frame(CanFrame(STATE_ID, False, bytes(2), 0.01 * index), period_s * index)
+        check.frame(CanFrame(CAUSE_ID, False, bytes(2), 0.01 * index), 0.05 * index)
     assert len(check.notices) == len(words)
     assert all(word in notice for word, notice in zip(words, check.notices))
 
@@ -270,7 +270,7 @@ def test_cycle_of_the_bus_is_compared_with_the_profiles(tmp_path, period_s, word
 def test_cycle_that_the_database_tells_is_compared_too(tmp_path):
     check = CycleCheck(load_profile(written(tmp_path, CAUSE)))
     for index in range(30):
-        check.frame(CanFrame(CAUSE_ID, False, bytes(2), 0.2 * index))
+        check.frame(CanFrame(CAUSE_ID, False, bytes(2), 0.01 * index), 0.2 * index)
     notice, = check.notices
     assert "Message Cause comes every 0.2 s, and its database says 0.05 s" in notice
     assert CycleCheck().notices == ()

@@ -241,11 +241,11 @@ class CanCarLink(CarLink, FrameSink):
                 self._of_further_bus(frame)
                 return
             self._trouble.frame(frame)
-            self._cycles.frame(frame)
             if self._poller is not None:
                 self._poller.frame(frame)
             if self._watch is not None:
                 self._watch.frame(frame)
+                self._cycles.frame(frame, self._watch.local_s)
                 self._traffic.frame(frame, self._watch.is_lock_message)
                 self._log.frame(frame, self._watch.local_s)
             self._table.frame(frame)

@@ -116,7 +116,9 @@ class LockWatch:
         time = self._time
         if self._liveness.is_silent or not time.is_ready:
             return True
-        return time.to_robot(time.newest_s) >= time.stamp_s - self._profile.cycle_time_s - _CATCH_UP_MARGIN_S
+        # Where both clocks are the simulated one the next frame is known to be later than the Status: all have come.
+        cycle_s = min(time.gap_s, self._profile.cycle_time_s)
+        return time.newest_robot_s >= time.stamp_s - cycle_s - _CATCH_UP_MARGIN_S
 
     def release(self, now_s: float) -> list[CarEvent]:
         """Events not later than the stamp of the Status that were not released before; now_s: laptop's clock."""

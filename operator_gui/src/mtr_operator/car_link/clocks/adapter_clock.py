@@ -71,10 +71,14 @@ class _Ordered:
 
 
 class AdapterClockMap(ClockMap):
-    """robot = adapter + offset."""
+    """robot = adapter + offset.
+
+    Attributes:
+        gap_s: from frame to frame where a Status came between them, by the median.
+    """
 
     def __init__(self) -> None:
-        self.sigma_s = math.nan
+        self.sigma_s = self.gap_s = math.nan
         self._pairs: collections.deque[_Pair] = collections.deque()
         self._offsets_s = _Ordered()
         self._gaps_s = _Ordered()
@@ -138,6 +142,6 @@ class AdapterClockMap(ClockMap):
         # divided by the square root of their number.
         quantiles = statistics.quantiles(offsets, n=_QUANTILES)
         scatter_s = (quantiles[-1] - quantiles[0]) / 2
-        gap_s = statistics.median(self._gaps_s.values)
+        self.gap_s = statistics.median(self._gaps_s.values)
         drift_s = _RATE_TOLERANCE * (self._pairs[-1].stamp_s - self._pairs[0].stamp_s) / 2
-        self.sigma_s = math.hypot(scatter_s, gap_s / math.sqrt(12.0), drift_s / math.sqrt(3.0))
+        self.sigma_s = math.hypot(scatter_s, self.gap_s / math.sqrt(12.0), drift_s / math.sqrt(3.0))

@@ -11,6 +11,7 @@ from .adapter_clock import AdapterClockMap, StampUnwrapper
 from .arrival_clock import ArrivalClockMap
 from .clock_map import LEAST_WAY_S, ClockMap
 from .delay_watch import DelayWatch
+from .ordered_map import OrderedClockMap, minutes_between
 from .robot_clock import RobotClock, sent_s
 from .stamp_kind import StampKind
 
@@ -48,7 +49,7 @@ class FrameTime:
         self._delays = DelayWatch(_ADAPTER_STEP_S)
         self._why_unmapped = ""
         self._in_doubt_since_s = math.inf
-        self._is_stamped = False
+        self._is_stamped = self._is_another_clock = False
         self.stamps: StampKind | None = None
         self.newest_s = math.nan
 
@@ -87,6 +88,7 @@ class FrameTime:
         # A pose that is newer than its Status is one of before the clock was set back.
         stamp_s = min(status.stamp_s, sent_s(status))
         if stamp_s > self.stamp_s and self._map is not None:
+            self._order(sent_s(status))
             self._map.status(sent_s(status), arrival_s)
         self.stamp_s = max(self.stamp_s, stamp_s)
         return was_set
@@ -106,6 +108,18 @@ class FrameTime:
     def to_robot(self, local_s: float) -> float:
         """Robot's time at a local time; only when is_ready."""
         return math.nan if self._map is None else self._map.to_robot(local_s)
+
+    @property
+    def gap_s(self) -> float:
+        """From frame to frame, known where both clocks are one; else infinite."""
+        return self._map.gap_s if isinstance(self._map, OrderedClockMap) else math.inf
+
+    @property
+    def newest_robot_s(self) -> float:
+        """Robot's time of the newest frame; only when is_ready."""
+        if isinstance(self._map, OrderedClockMap):
+            return self.newest_s + self._map.whole_s
+        return self.to_robot(self.newest_s)
 
     def is_certain(self, local_s: float, arrival_s: float) -> bool:
         """False before a frame and a Status from after it tell that no clock was set back before it."""
@@ -132,6 +146,17 @@ class FrameTime:
     @property
     def _is_by_adapter(self) -> bool:
         return self._is_stamped and self._robot_clock.is_real_time
+
+    def _order(self, stamp_s: float) -> None:
+        """Have the map go by the stamps' order where both clocks are the simulated one, else by that of arrivals."""
+        if isinstance(self._map, OrderedClockMap):
+            if not self._map.is_one_clock:
+                self._map = self._map.by_arrival
+                self._is_another_clock = True
+        elif self._is_stamped and self._robot_clock.is_simulated and not self._is_another_clock:
+            whole_s = minutes_between(self.newest_s, stamp_s)
+            if whole_s is not None:
+                self._map = OrderedClockMap(whole_s)
 
     def _new_map(self) -> ClockMap:
         return AdapterClockMap() if self._is_stamped else ArrivalClockMap()

@@ -29,10 +29,11 @@ class RobotClock:
 
     Attributes:
         is_real_time: the robot's clock is known to run at the rate of the laptop's; False in simulation.
+        is_simulated: it is known to be a simulated one.
     """
 
     def __init__(self) -> None:
-        self.is_real_time = False
+        self.is_real_time = self.is_simulated = False
         self._before: RobotStatus | None = None
         self._delays = DelayWatch(STEP_S)
         self._rate = _RateCheck()
@@ -47,7 +48,8 @@ class RobotClock:
         if math.isnan(status.steady_s):
             self.is_real_time = self.is_real_time or self._rate.add(sent_s(status), arrival_s)
         else:
-            self.is_real_time = abs(sent_s(status) - status.steady_s) > _SAME_CLOCK_S
+            self.is_simulated = abs(sent_s(status) - status.steady_s) <= _SAME_CLOCK_S
+            self.is_real_time = not self.is_simulated
         # Fed before it counts, so that it knows the fastest by then.
         was_set = self._delays.add(sent_s(status), arrival_s)
         return was_set and self.is_real_time

@@ -11,7 +11,7 @@ from ..can_frame import CanFrame
 if TYPE_CHECKING:
     from ..profile import CarProfile
 
-# Arrivals at a laptop scatter; their median over so many gaps does not.
+# Times of frames scatter; their median over so many gaps does not.
 _GAPS = 20
 # Cycles that are so far apart are two.
 _RATIO = 1.5
@@ -19,11 +19,11 @@ _MS_PER_S = 1000.0
 
 
 class CycleCheck:
-    """Fed with every frame of the bus of the state; arrivals are by the laptop's clock. profile: none knows nothing."""
+    """Fed with every frame of the bus of the state. profile: none knows nothing."""
 
     def __init__(self, profile: CarProfile | None = None):
         self._expected: dict[tuple[int, bool], tuple[str, float, str]] = {}
-        self._arrivals_s: dict[tuple[int, bool], collections.deque[float]] = {}
+        self._times_s: dict[tuple[int, bool], collections.deque[float]] = {}
         if profile is not None:
             self._expect(profile)
 
@@ -36,13 +36,13 @@ class CycleCheck:
             message = profile.message
             self._expected[message.frame_id, message.is_extended_frame] = (
                 message.name, profile.cycle_time_s, "cycle_time_s of the car profile")
-        self._arrivals_s = {key: collections.deque(maxlen=_GAPS + 1) for key in self._expected}
+        self._times_s = {key: collections.deque(maxlen=_GAPS + 1) for key in self._expected}
 
-    def frame(self, frame: CanFrame) -> None:
-        """A frame arrived."""
-        arrivals_s = self._arrivals_s.get((frame.can_id, frame.is_extended))
-        if arrivals_s is not None:
-            arrivals_s.append(frame.arrival_s)
+    def frame(self, frame: CanFrame, local_s: float) -> None:
+        """A frame of the bus, with its time by the clock that times the frames: simulated ones arrive faster."""
+        times_s = self._times_s.get((frame.can_id, frame.is_extended))
+        if times_s is not None:
+            times_s.append(local_s)
 
     @property
     def notices(self) -> tuple[str, ...]:
@@ -50,11 +50,11 @@ class CycleCheck:
         return tuple(self._notices())
 
     def _notices(self) -> Iterator[str]:
-        for key, arrivals_s in self._arrivals_s.items():
+        for key, known_s in self._times_s.items():
             name, expected_s, source = self._expected[key]
-            if len(arrivals_s) <= _GAPS:
+            if len(known_s) <= _GAPS:
                 continue
-            times_s = list(arrivals_s)
+            times_s = list(known_s)
             measured_s = statistics.median(after - before for before, after in zip(times_s, times_s[1:]))
             if not expected_s / _RATIO < measured_s < _RATIO * expected_s:
                 yield (f"Message {name} comes every {measured_s:.3g} s, and {source} says {expected_s:.3g} s; the "
