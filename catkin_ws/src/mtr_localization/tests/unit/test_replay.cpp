@@ -25,7 +25,7 @@ namespace {
 
 /// A bag in the tests' folder; `truth` gets its true poses.
 std::string bag_of(const std::string& name, const BagOptions& options, std::vector<PoseVector>* truth = nullptr) {
-  const std::string path = ::testing::TempDir() + name + ".bag";
+  std::string path = ::testing::TempDir() + name + ".bag";
   const std::vector<PoseVector> poses = BagWriter(path, options).write();
   if (truth != nullptr) {
     *truth = poses;
