@@ -101,6 +101,12 @@ TEST(LedByWheels, AddsTheWayAndItsUncertainty) {
   EXPECT_NEAR(std::sqrt(led->covariance(2, 2)), 0.06, 1e-9);
 }
 
+TEST(LedByWheels, AsFarAsARobotTurnsUntilItStands) {
+  const auto led = led_by_wheels(RememberedPose{}, {0.2, 0.1, 0.9});
+  ASSERT_TRUE(led);
+  EXPECT_NEAR(std::sqrt(led->covariance(2, 2)), 0.46, 1e-9);
+}
+
 TEST(LedByWheels, TurnsAsTheGyroSawItWhereItDid) {
   RememberedPose from;
   from.pose << 1.0, 2.0, 0.0;
@@ -113,7 +119,6 @@ TEST(LedByWheels, TurnsAsTheGyroSawItWhereItDid) {
   EXPECT_NEAR(led->pose.z(), 1.2, 1e-12);
   EXPECT_NEAR(std::sqrt(led->covariance(0, 0)), std::hypot(0.06, 0.04), 1e-9);
   EXPECT_NEAR(std::sqrt(led->covariance(2, 2)), 0.01, 1e-9);
-  EXPECT_FALSE(led_by_wheels(from, wheels));
   EXPECT_FALSE(led_by_wheels(from, wheels, 1.6));
 }
 
@@ -121,7 +126,7 @@ TEST(LedByWheels, NowhereWhenTheirOdometryBeganAnewOrTheyWentFar) {
   RememberedPose from;
   from.wheel_odom = {5.0, 5.0, 0.0};
   EXPECT_FALSE(led_by_wheels(from, {0.0, 0.0, 0.0}));
-  EXPECT_FALSE(led_by_wheels(from, {5.0, 5.0, 0.6}));
+  EXPECT_FALSE(led_by_wheels(from, {5.0, 5.0, 1.1}));
   EXPECT_FALSE(led_by_wheels(from, {std::numeric_limits<double>::quiet_NaN(), 5.0, 0.0}));
 }
 
