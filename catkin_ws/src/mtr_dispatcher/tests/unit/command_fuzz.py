@@ -133,7 +133,8 @@ def main() -> int:
     fuzz.run(options.cases)
     found = sum(fuzz.counts[name] for name in MUST)
     figures = {**fuzz.counts, "slowest, ms": round(1000.0 * fuzz.worst_s)}
-    rows = [{"name": f"Commands: {name}", "value": fuzz.counts[name], "must": 0} for name in MUST]
+    rows = [{"name": f"Commands: {name}", "unit": "(count)", "value": fuzz.counts[name], "must": 0,
+             "is_met": not fuzz.counts[name]} for name in MUST]
     options.out.mkdir(parents=True, exist_ok=True)
     (options.out / "fuzz_commands.json").write_text(json.dumps({"table": rows, "figures": figures}, indent=1) + "\n",
                                                     encoding="utf-8")
