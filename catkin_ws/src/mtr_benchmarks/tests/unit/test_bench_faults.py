@@ -9,6 +9,7 @@ from types import SimpleNamespace
 import pytest
 
 from mtr_benchmarks.faults import campaign
+from mtr_benchmarks.faults.course import Course
 from mtr_benchmarks.faults.judge import (
     CarSeen,
     Outcome,
@@ -240,3 +241,13 @@ def test_robot_that_does_not_start_costs_one_cell(monkeypatch, tmp_path):
     found, = campaign.one_robot([CELL, replace(CELL, state="waiting")], tmp_path, Run(tmp_path, 1, "abc"))
     assert (found.cell, found.wrong) == (CELL, ["It ended while starting."])
     assert CELL.name not in right_of(tmp_path, "abc")
+
+
+@pytest.mark.parametrize(("ended_s", "stood_s"), [(2.62, 0.3), (float("inf"), None)])
+def test_robot_has_to_stand_until_its_fault_is_over(ended_s, stood_s):
+    speeds = [(0.9, 0.5), (1.0, 0.5), (1.3, 0.2), (1.32, 0.0), (2.62, 0.0), (2.66, 0.1)]
+    robot = SimpleNamespace(
+        status=SimpleNamespace(hold_id=0, mode=1), release_hold=None, speed_mps=0.5, now_s=99.0, seen=[], lifts=[],
+        speeds=speeds, ended_s=ended_s, begin=lambda *_: 1.0, wait_until=lambda *_: None)
+    assert Course(robot).run(replace(CELL, state="ready", for_s=1.7)).stood_s == (
+        stood_s if stood_s is None else pytest.approx(stood_s))

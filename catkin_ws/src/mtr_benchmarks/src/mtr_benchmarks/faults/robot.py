@@ -65,6 +65,7 @@ class FaultyRobot:
         seen: all Statuses that have come, as the application understands them, with what it knows of the Car.
         speeds, lifts: of the robot and of its lift as they really are.
         truth: where it really is, newest.
+        ended_s: when the newest fault was over, by the robot's clock; infinite before.
     """
 
     def __init__(self, folder: pathlib.Path, kind: RobotKind, seed: int = 1):
@@ -92,6 +93,7 @@ class FaultyRobot:
         self._stack = Stack(StackOptions(folder, seed, kind.real_time_factor, not kind.by_relay, arguments=arguments,
                                          variables=variables))
         self._begun_s = self._height_m = math.nan
+        self.ended_s = math.inf
         self._legs = self._maps = 0
         self._wanted = SimpleNamespace(content={})
 
@@ -215,7 +217,7 @@ class FaultyRobot:
 
     def begin(self, part: str, kind: str, duration_s: float, amount: float) -> float:
         """Let a part have a fault; the robot's clock when it begins."""
-        self._begun_s = math.nan
+        self._begun_s, self.ended_s = math.nan, math.inf
         answer = self._inject(part, kind, duration_s, amount)
         if not answer.accepted:
             raise FaultyRobotError(answer.message)
@@ -242,8 +244,11 @@ class FaultyRobot:
         return stamp_s if self._kind.is_simulated else time.clock_gettime(time.CLOCK_BOOTTIME)
 
     def _take_faults(self, active: ActiveFaults) -> None:
+        time_s = self._time_s(active.header.stamp.to_sec())
         if active.faults:
-            self._begun_s = self._time_s(active.header.stamp.to_sec())
+            self._begun_s = time_s
+        else:
+            self.ended_s = time_s
 
     def _take_status(self) -> None:
         status, car = robot_status_from(self.status), WELL
