@@ -47,7 +47,7 @@ class _Blf(BLFReader):
                 break
             length = int.from_bytes(whole[place + _LENGTH_AT:place + _LENGTH_AT + 4], "little")
             if length < _HEADER:
-                raise BLFParseError(f"An object of {length} bytes.")
+                raise BLFParseError
             place += length
         yield from super()._parse_container(data)
 
