@@ -1,12 +1,14 @@
 """An adapter on the robot's own simulated clock: frames and Statuses count in the order of their stamps."""
 # SPDX-License-Identifier: Apache-2.0
+import gc
 import random
+import tracemalloc
 
 import pytest
 
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.clocks.frame_time import FrameTime
-from mtr_operator.car_link.clocks.ordered_map import minutes_between
+from mtr_operator.car_link.clocks.ordered_map import OrderedClockMap, minutes_between
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.robot_status import RobotStatus
@@ -133,3 +135,14 @@ def test_frames_up_to_the_status_are_waited_for_where_the_clocks_are_one(steady_
         assert watch.has_caught_up() is not is_waited_for
         watch.frame(frame_at(time_s + FRAMES_S * step - 0.01, late_s))
     assert watch.has_caught_up()
+
+
+def test_bus_without_a_robot_fills_no_memory():
+    clock = OrderedClockMap(60.0)
+    gc.collect()
+    tracemalloc.start()
+    for number in range(200_000):
+        clock.frame(0.02 * number)
+    held, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert held < 1_000_000

@@ -19,6 +19,8 @@ _MINUTE_S = 60.0
 _NEAR_S = 0.25
 # What is older than this against the newest Status has all come: a Status waits for frames that are a cycle older.
 _SETTLED_S = 0.4
+# A bus speaks on when no Status comes: a second of the busiest that there is.
+_MOST_WAITING = 10_000
 # Medians by arrival are within some hundredths of a second of the truth, however busy the machine is.
 _APART_S = 0.3
 
@@ -39,8 +41,8 @@ class OrderedClockMap(ClockMap):
         self.by_arrival = AdapterClockMap()
         self._in_order = AdapterClockMap()
         self.whole_s = whole_s
-        self._frames_s: collections.deque[float] = collections.deque()
-        self._stamps_s: collections.deque[float] = collections.deque()
+        self._frames_s: collections.deque[float] = collections.deque(maxlen=_MOST_WAITING)
+        self._stamps_s: collections.deque[float] = collections.deque(maxlen=_MOST_WAITING)
 
     def frame(self, local_s: float) -> None:
         """See ClockMap."""
