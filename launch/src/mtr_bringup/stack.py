@@ -16,6 +16,8 @@ STOP_LIMIT_S = 20.0
 POLL_S = 0.1
 SIM_LAUNCH = ("mtr_bringup", "sim.launch")
 LISTENING_PORTS = range(20000, 32000)
+# Whatever ends the process that has started the robot ends the robot, as Ctrl-C does (setpriv(1), of Debian's base).
+ENDS_WITH_STARTER = ("setpriv", "--pdeathsig", "INT")
 
 
 class StackError(Exception):
@@ -68,7 +70,7 @@ def free_port() -> int:
 
 
 class Stack:
-    """roslaunch of a simulated robot; use as a context manager.
+    """roslaunch of a simulated robot; use as a context manager, in a thread that lasts as long as the robot shall.
 
     Attributes:
         status_port: where the robot publishes Status.
@@ -138,7 +140,7 @@ class Stack:
         }
         if options.lockstep_operator is not None:
             arguments["lockstep_operator"] = str(options.lockstep_operator).lower()
-        return ["roslaunch", "-p", str(self._master_port), *options.launch,
+        return [*ENDS_WITH_STARTER, "roslaunch", "-p", str(self._master_port), *options.launch,
                 *(f"{name}:={value}" for name, value in arguments.items())]
 
     def _wait_until_reachable(self, process: "subprocess.Popen[bytes]") -> None:

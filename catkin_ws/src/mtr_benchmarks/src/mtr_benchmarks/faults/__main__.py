@@ -7,11 +7,10 @@ Usage: python -m mtr_benchmarks.faults --out out/bench
 import argparse
 import pathlib
 import sys
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import asdict
-from multiprocessing import get_context
 from typing import Dict, List, Optional
 
+from ..harness.own_process import end_in_order, in_own_process
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .campaign import Found, one_robot
@@ -37,6 +36,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--table", action="store_true", help="print the matrix for docs/faults.md and run nothing")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation")
     options = parser.parse_args(arguments)
+    end_in_order()
     matrix = read_matrix()
     if options.table:
         print("\n".join(table(matrix)))
@@ -58,8 +58,7 @@ def run(courses: List[List[Cell]], of_run: Run) -> List[Found]:
             # By its cell: the log of a robot that failed outlives runs of others.
             folder = of_run.folder / "faults" / left[0].name.replace(" ", "_")
             # A process is one node of one ROS graph only.
-            with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
-                found += process.submit(one_robot, left, folder, of_run).result()
+            found += in_own_process(one_robot, left, folder, of_run)
     return found
 
 

@@ -75,7 +75,8 @@ def run(proof: Proof, folder: pathlib.Path, seed: int) -> Ran:
     path, begun_s = folder / proof.file, time.monotonic()
     path.unlink(missing_ok=True)
     seeded = ("--seed", str(seed)) if proof.takes_seed else ()
-    command = [sys.executable, *proof.command, *seeded, "--out", str(folder)]
+    # Whatever ends this program ends them, and they their robots.
+    command = ["setpriv", "--pdeathsig", "TERM", sys.executable, *proof.command, *seeded, "--out", str(folder)]
     with path.with_suffix(".log").open("wb") as log:
         status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
     took_s = time.monotonic() - begun_s

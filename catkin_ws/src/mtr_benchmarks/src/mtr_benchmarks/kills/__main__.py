@@ -8,10 +8,9 @@ import collections
 import pathlib
 import shutil
 import sys
-from concurrent.futures import ProcessPoolExecutor
-from multiprocessing import get_context
 from typing import Counter, List, Optional
 
+from ..harness.own_process import end_in_order, in_own_process
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .deaths import LIMITS_S, STANDS_S, Kill
@@ -35,6 +34,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--seed", type=int, default=1, help="of the instants and of the first robot")
     parser.add_argument("--scenarios", nargs="*", default=list(PARAMETERS), choices=list(PARAMETERS))
     options = parser.parse_args(arguments)
+    end_in_order()
     folder = options.out / "node_kills"
     shutil.rmtree(folder, ignore_errors=True)
     tests: List[Found] = []
@@ -42,10 +42,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         done = 0
         while done < options.kills:
             # A process is one node of one ROS graph only.
-            with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as process:
-                tests.append(process.submit(killed_test, scenario, folder / f"{scenario}_{done}",
-                                            options.seed + len(tests),
-                                            min(KILLS_OF_TEST, options.kills - done)).result())
+            tests.append(in_own_process(killed_test, scenario, folder / f"{scenario}_{done}",
+                                        options.seed + len(tests), min(KILLS_OF_TEST, options.kills - done)))
             print(f"{scenario}: {line_of(tests[-1])}", flush=True)
             if not tests[-1].kills:
                 # A test that ends before anything was killed proves nothing, and so would the next one.

@@ -13,6 +13,7 @@ from typing import Any, Dict, List, Optional
 from ..faults.matrix import LOCKSTEP
 from ..faults.robot import FaultyRobot
 from ..faults.robots import ROBOTS
+from ..harness.own_process import end_in_order
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .figures import QUANTITIES, Samples, by_halves, mean, trends_of
@@ -31,6 +32,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--hours", type=float, default=1.0, help="of the robot's time, default %(default)s")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation, the ways and the faults")
     options = parser.parse_args(arguments)
+    end_in_order()
     begun_s = time.monotonic()
     with FaultyRobot(options.out / "soak", ROBOTS[LOCKSTEP], options.seed) as robot:
         processes, wanderer = Processes(robot, robot.process), Wanderer(robot, options.seed)
