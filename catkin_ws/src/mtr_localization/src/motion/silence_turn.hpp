@@ -4,7 +4,7 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
+#include <limits>
 
 namespace mtr_localization {
 
@@ -17,15 +17,16 @@ class SilenceTurn {
 
   /// True when a look at now_ns counts.
   bool counts(std::int64_t now_ns) {
-    const bool is_late = newest_ns_ && now_ns - *newest_ns_ > late_ns_;
-    newest_ns_ = now_ns;
+    const bool is_late = now_ns > in_time_until_ns_;
+    in_time_until_ns_ = now_ns + late_ns_;
     is_excused_ = is_late && !is_excused_;
     return !is_excused_;
   }
 
  private:
   std::int64_t late_ns_;
-  std::optional<std::int64_t> newest_ns_;
+  // The first look is never late.
+  std::int64_t in_time_until_ns_ = std::numeric_limits<std::int64_t>::max();
   bool is_excused_ = false;
 };
 
