@@ -19,13 +19,14 @@ from std_msgs.msg import Header
 from mtr_core import sensor_figures
 
 NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay.launch": ["bag:=/tmp/a.bag"],
-          "view.launch": [], "jackal.launch": []}
+          "view.launch": [], "description.launch": [], "jackal.launch": []}
 ROBOT = {"/robot_state_publisher", "/drive_control", "/localization", "/motion_planner", "/car_locator",
          "/state_machine", "/peripherals", "/dispatcher"}
 NODES = {"robot.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "/serial_bridge"},
          "sim.launch": ROBOT | {"/simulator"},
          "replay.launch": {"/robot_state_publisher", "/localization", "/car_locator", "/state_machine", "/play"},
          "view.launch": {"/rviz"},
+         "description.launch": {"/rviz", "/robot_state_publisher", "/joint_state_publisher"},
          "jackal.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "/serial_bridge",
                                    "/battery_of_voltage"}}
 
