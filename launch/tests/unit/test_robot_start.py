@@ -7,7 +7,11 @@ import subprocess
 import pytest
 
 START = pathlib.Path(__file__).resolve().parents[3] / "setup" / "robot" / "start"
-ROSLAUNCH = '#!/bin/sh\necho "$@"\necho "ROS_HOME=$ROS_HOME ROS_LOG_DIR=$ROS_LOG_DIR LD_PRELOAD=$LD_PRELOAD"\n'
+ROSLAUNCH = """#!/bin/sh
+echo "$@"
+echo "ROS_HOME=$ROS_HOME ROS_LOG_DIR=$ROS_LOG_DIR LD_PRELOAD=$LD_PRELOAD"
+echo "$ROS_HOSTNAME"
+"""
 
 
 @pytest.fixture
@@ -23,10 +27,17 @@ def robot(tmp_path):
     return tmp_path
 
 
-def started(robot, **environment):
+def run(robot, *words, **environment):
+    """The start, which has ended."""
+    given = {"PATH": "/usr/bin:/bin", "HOME": "/home/x", "CONFIGURATION_DIRECTORY": str(robot / "etc"),
+             "ROS_MASTER_URI": "http://127.0.0.1:11311", **environment}
+    return subprocess.run([robot / "start", *words], check=False, capture_output=True, text=True, env=given)
+
+
+def started(robot, *words, **environment):
     """The start's output by lines."""
-    done = subprocess.run([robot / "start"], check=True, capture_output=True, text=True,
-                          env={"PATH": "/usr/bin:/bin", "HOME": "/home/x", **environment})
+    done = run(robot, *words, **environment)
+    assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
 
 
@@ -47,6 +58,36 @@ def test_logs_go_where_systemd_says(robot):
 def test_graph_on_loopback_has_its_library(robot, address, is_preloaded):
     (robot / "a" / "lib" / "libmtr_loopback.so").touch()
     assert started(robot, ROS_IP=address)[1].endswith("libmtr_loopback.so") is is_preloaded
+
+
+def test_name_of_the_computer_opens_no_graph(robot):
+    # As the start of a Jackal's own service leaves it, and ROS takes it before ROS_IP.
+    assert started(robot, ROS_IP="127.0.0.1", ROS_HOSTNAME="cpr-j100-0001")[2] == ""
+
+
+def test_robot_waits_for_the_master_that_another_start_brings(robot):
+    told = started(robot, MTR_MASTER="wait")
+    assert told[0] == "The nodes start as soon as there is a ROS master at http://127.0.0.1:11311 (MTR_MASTER=wait)."
+    assert told[1] == "--skip-log-check --wait mtr_bringup robot.launch"
+    assert started(robot, MTR_MASTER="own")[0] == "--skip-log-check mtr_bringup robot.launch"
+    refused = run(robot, MTR_MASTER="yes")
+    assert refused.returncode == 1 and refused.stderr == "MTR_MASTER is yes; allowed are own and wait.\n"
+
+
+def test_base_brings_the_master_and_waits_for_nobody(robot):
+    told = started(robot, "base", MTR_MASTER="wait", MTR_ARGUMENTS="bind_address:=10.0.0.1",
+                   MTR_BASE_ARGUMENTS="ekf:=false")
+    assert told[0] == "--skip-log-check jackal_base.launch ekf:=false"
+
+
+@pytest.mark.parametrize("words, launch", [((), "mtr_bringup robot.launch"), (("base",), "jackal_base.launch")])
+def test_base_and_robot_have_the_description_of_the_persons_own(robot, words, launch):
+    (robot / "etc").mkdir()
+    own = robot / "etc" / "robot.urdf.xacro"
+    own.touch()
+    assert started(robot, *words)[0] == f"--skip-log-check {launch} robot_file:={own}"
+    chosen = {"MTR_ARGUMENTS": "robot_file:=/a.urdf", "MTR_BASE_ARGUMENTS": "robot_file:=/a.urdf"}
+    assert started(robot, *words, **chosen)[0] == f"--skip-log-check {launch} robot_file:=/a.urdf"
 
 
 def test_without_a_release_it_says_what_to_run(robot):
