@@ -5,9 +5,10 @@
 #        sudo setup/install-robot.sh rollback [--staging FOLDER]
 #        sudo setup/install-robot.sh hotspot NAME PASSWORD
 #
-# Two releases are kept, /opt/mtr/a and /opt/mtr/b; `current` is the one in use. The other one is built anew, and only when it
-# is complete it comes into use; `rollback` changes back. --staging installs below a folder and touches neither packages nor
-# services: for a try, and for images. docs/robot-setup.md leads from the box to the first test.
+# Each release is a folder of its own, /opt/mtr/release-1, release-2 and so on. The link `current` names the one in use, and the link
+# `former` in that one the one before it: one rename changes both, so that what fails or is cut off leaves both as they were.
+# `rollback` goes back to the former release, and once more forth again; others are removed. --staging installs below a folder and
+# touches neither packages nor services: for a try, and for images. docs/robot-setup.md leads from the box to the first test.
 # SPDX-License-Identifier: Apache-2.0
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -43,14 +44,62 @@ done
 [[ $action == hotspot ]] || ((${#words[@]} == 0)) || fail "The word ${words[0]} is not known; allowed are rollback and hotspot."
 prefix=$staging/opt/mtr
 
-# What runs stays until the link points elsewhere; `ln -T` and `mv` change it in one step.
+in_use() {
+  readlink "$prefix/current" || true
+}
+
+# The release that was in use before this one; nothing where there is none that is whole: its file `release` is written last.
+former() {
+  local link
+  link=$(readlink "$prefix/current/former") || return 0
+  link=${link#../}
+  [[ ! -f $prefix/$link/release ]] || echo "$link"
+}
+
+# There were two folders, a and b, once, and the one that was not in use was the former one.
+adopt_letters() {
+  local used other
+  used=$(in_use)
+  case $used in a) other=b ;; b) other=a ;; *) return 0 ;; esac
+  if [[ ! -L $prefix/$used/former && -f $prefix/$other/release ]]; then
+    ln -sT "../$other" "$prefix/$used/former"
+  fi
+}
+
+# What runs stays until the link points elsewhere; `mv -T` changes it in one step, and not before all is on the disk.
 use() {
-  ln -sfnT "$1" "$prefix/next" && mv -T "$prefix/next" "$prefix/current"
+  local used
+  used=$(in_use)
+  if [[ $used && $used != "$1" ]]; then ln -sfnT "../$used" "$prefix/$1/former"; fi
+  ln -sfnT "$1" "$prefix/next"
+  sync -f "$prefix"
+  mv -T "$prefix/next" "$prefix/current"
   echo "install-robot: release $1 is in use ($(cat "$prefix/$1/release"))."
 }
 
-other_release() {
-  if [[ $(readlink "$prefix/current" 2>/dev/null) == a ]]; then echo b; else echo a; fi
+remove_unused() {
+  local used kept folder
+  used=$(in_use)
+  kept=$(former)
+  for folder in "$prefix"/{a,b,build,release-*}; do
+    case ${folder##*/} in "$used" | "$kept") ;; *) rm -rf "$folder" ;; esac
+  done
+}
+
+new_release() {
+  local folder number last=0
+  for folder in "$prefix"/release-*; do
+    number=${folder##*-}
+    if [[ $number =~ ^[0-9]+$ && $number -gt $last ]]; then last=$number; fi
+  done
+  echo "release-$((last + 1))"
+}
+
+# A connection that breaks leaves an installation running, which a second one must not disturb.
+alone() {
+  mkdir -p "$prefix"
+  exec 9>"$prefix/lock"
+  flock --nonblock 9 || fail "Another installation is running."
 }
 
 restart() {
@@ -68,8 +117,8 @@ install_packages() {
 }
 
 build() {
-  local release=$1
-  rm -rf "${prefix:?}/$release" "$prefix/build"
+  local release=$1 commit
+  commit=$(git -c safe.directory="$top" -C "$top" describe --always --dirty)
   mkdir -p "$prefix/build/src"
   ln -s "$top" "$prefix/build/src/mtr"
   if [[ -f $ros/setup.bash ]]; then
@@ -84,17 +133,22 @@ build() {
       --cmake-args -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF >/dev/null
     catkin build --no-status --summary
   )
-  git -c safe.directory="$top" -C "$top" describe --always --dirty >"$prefix/$release/release"
-  rm -rf "$prefix/build"
+  echo "$commit" >"$prefix/$release/release"
+}
+
+# A file is there as it was or as it will be, never half of it.
+put() {
+  install -D -m "$1" "$here/$2" "$3.new"
+  mv -T "$3.new" "$3"
 }
 
 install_files() {
-  install -D -m 755 "$here/start" "$prefix/start"
-  install -D -m 755 "$here/link" "$prefix/link"
-  install -D -m 644 "$here/mtr-robot.service" "$staging/etc/systemd/system/mtr-robot.service"
-  install -D -m 644 "$here/mtr-robot.logrotate" "$staging/etc/logrotate.d/mtr-robot"
+  put 755 start "$prefix/start"
+  put 755 link "$prefix/link"
+  put 644 mtr-robot.service "$staging/etc/systemd/system/mtr-robot.service"
+  put 644 mtr-robot.logrotate "$staging/etc/logrotate.d/mtr-robot"
   # The person's own settings outlive an upgrade.
-  [[ -f $staging/etc/mtr/robot.env ]] || install -D -m 644 "$here/robot.env" "$staging/etc/mtr/robot.env"
+  [[ -f $staging/etc/mtr/robot.env ]] || put 644 robot.env "$staging/etc/mtr/robot.env"
 }
 
 enable_service() {
@@ -106,7 +160,11 @@ enable_service() {
 
 case $action in
   install)
-    release=$(other_release)
+    alone
+    adopt_letters
+    remove_unused
+    release=$(new_release)
+    trap remove_unused EXIT
     install_packages
     build "$release"
     install_files
@@ -115,8 +173,10 @@ case $action in
     restart
     ;;
   rollback)
-    release=$(other_release)
-    [[ -f $prefix/$release/setup.bash ]] || fail "There is no former release to go back to."
+    alone
+    adopt_letters
+    release=$(former)
+    [[ $release ]] || fail "There is no former release to go back to."
     use "$release"
     restart
     ;;

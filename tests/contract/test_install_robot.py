@@ -1,0 +1,217 @@
+"""Releases of an installed robot: one is in use, the one before it can be gone back to, whatever fails."""
+# SPDX-License-Identifier: Apache-2.0
+import os
+import pathlib
+import shutil
+import subprocess
+
+import pytest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "setup" / "install-robot.sh"
+# What stands in for catkin "builds" in two steps, as catkin does package by package; a build `broken` fails between.
+CATKIN = """#!/bin/sh
+if [ "$1" = config ]; then
+  while [ "$1" != --install-space ]; do shift; done
+  echo "$2" >space
+else
+  mkdir -p "$(cat space)/lib"
+  echo "export BUILT=$BUILD" >"$(cat space)/setup.bash"
+  [ "$BUILD" != broken ] || exit 1
+  echo whole >"$(cat space)/lib/library"
+fi
+"""
+PROGRAMS = {"catkin": CATKIN, "git": "#!/bin/sh\necho 0.2.0-7-gabcdef0\n", "roslaunch": '#!/bin/sh\necho "$BUILT"\n'}
+# Ends the script before its step number $LAST that changes something, as a power cut does: nothing is tidied up.
+POWER_CUT = """
+before_each() {
+  [[ $1 =~ ^(catkin|echo|install|ln|mkdir|mv|rm|sync)\\  ]] || return 0
+  echo "$1" >>"$STEPS"
+  (($(wc -l <"$STEPS") != LAST)) || kill -KILL $$ "$BASHPID"
+}
+trap 'before_each "$BASH_COMMAND"' DEBUG
+set -o functrace
+"""
+
+
+class Robot:
+    """A robot's disk below a folder.
+
+    Attributes:
+        disk: folder that is the robot's /.
+        prefix: /opt/mtr of the robot.
+    """
+
+    def __init__(self, folder):
+        self._folder = folder
+        self.disk = folder / "disk"
+        self.prefix = self.disk / "opt" / "mtr"
+        self.prefix.mkdir(parents=True)
+        (folder / "ros").mkdir()
+        (folder / "ros" / "setup.bash").touch()
+        (folder / "power_cut.bash").write_text(POWER_CUT, encoding="ascii")
+        (folder / "programs").mkdir()
+        for name, text in PROGRAMS.items():
+            program = folder / "programs" / name
+            program.write_text(text, encoding="ascii")
+            program.chmod(0o755)
+
+    def run(self, *words, build="", **environment):
+        """The finished script."""
+        path = f"{self._folder / 'programs'}:{os.environ['PATH']}"
+        where = ["--staging", str(self.disk), "--ros", str(self._folder / "ros")]
+        return subprocess.run([SCRIPT, *words, *where], check=False, capture_output=True, text=True,
+                              env=dict(os.environ, PATH=path, BUILD=build, **environment))
+
+    def install(self, build):
+        done = self.run(build=build)
+        assert done.returncode == 0, done.stderr
+
+    def rollback(self):
+        done = self.run("rollback")
+        assert done.returncode == 0, done.stderr
+
+    def cut_off(self, step, *words, build=""):
+        """The power goes before a step of the script. True if it had that many."""
+        steps = self._folder / "steps"
+        steps.unlink(missing_ok=True)
+        done = self.run(*words, build=build, BASH_ENV=str(self._folder / "power_cut.bash"), STEPS=str(steps),
+                        LAST=str(step))
+        assert done.returncode in (0, -9), done.stderr
+        return done.returncode == -9
+
+    def started(self):
+        """The build that the robot's service starts, which has to be whole."""
+        assert (self.prefix / "current" / "lib" / "library").is_file()
+        done = subprocess.run([self.prefix / "start"], check=True, capture_output=True, text=True,
+                              env={"PATH": f"{self._folder / 'programs'}:/usr/bin:/bin", "HOME": "/nowhere"})
+        return done.stdout.strip()
+
+    def releases(self):
+        """How many releases lie on the disk."""
+        return len([path for path in self.prefix.iterdir() if path.is_dir() and not path.is_symlink()])
+
+
+@pytest.fixture
+def robot(tmp_path):
+    return Robot(tmp_path)
+
+
+@pytest.fixture(scope="module", name="disk_of_upgraded")
+def make_disk_of_upgraded(tmp_path_factory):
+    """The disk of a robot that was installed and upgraded: `second` is in use."""
+    robot = Robot(tmp_path_factory.mktemp("robot"))
+    robot.install("first")
+    robot.install("second")
+    return robot.disk
+
+
+@pytest.fixture
+def upgraded(robot, disk_of_upgraded):
+    """A robot of its own with that disk."""
+    shutil.copytree(disk_of_upgraded, robot.disk, symlinks=True, dirs_exist_ok=True)
+    return robot
+
+
+def test_an_installation_is_in_use_and_says_of_which_commit_it_is(robot):
+    robot.install("first")
+    assert robot.started() == "first"
+    assert (robot.prefix / "current" / "release").read_text(encoding="ascii") == "0.2.0-7-gabcdef0\n"
+
+
+def test_after_upgrades_two_releases_are_kept(upgraded):
+    upgraded.install("third")
+    assert upgraded.started() == "third" and upgraded.releases() == 2
+
+
+def test_rollback_goes_back_and_a_second_one_forth_again(upgraded):
+    upgraded.rollback()
+    assert upgraded.started() == "first"
+    upgraded.rollback()
+    assert upgraded.started() == "second"
+
+
+def test_an_upgrade_after_a_rollback_keeps_what_was_in_use(upgraded):
+    upgraded.rollback()
+    upgraded.install("third")
+    assert upgraded.started() == "third"
+    upgraded.rollback()
+    assert upgraded.started() == "first"
+
+
+def test_a_failed_build_leaves_both_releases_and_nothing_of_its_own(upgraded):
+    assert upgraded.run(build="broken").returncode != 0
+    assert upgraded.started() == "second" and upgraded.releases() == 2
+    upgraded.rollback()
+    assert upgraded.started() == "first"
+
+
+def test_without_a_former_release_rollback_says_so_and_changes_nothing(robot):
+    robot.install("first")
+    assert robot.run(build="broken").returncode != 0
+    done = robot.run("rollback")
+    assert done.returncode == 2 and "no former release" in done.stderr and robot.started() == "first"
+
+
+def test_rollback_takes_no_release_that_is_not_whole(upgraded):
+    (upgraded.prefix / "current" / "former" / "release").unlink()
+    assert upgraded.run("rollback").returncode == 2 and upgraded.started() == "second"
+
+
+# Steps of an upgrade and of a rollback that change something, and one more that they have not.
+UPGRADE_STEPS, ROLLBACK_STEPS = 26, 9
+
+
+@pytest.mark.parametrize("step", range(1, UPGRADE_STEPS + 1))
+def test_a_power_cut_in_an_upgrade_leaves_a_robot_that_starts_and_can_be_upgraded(upgraded, step):
+    assert upgraded.cut_off(step, build="third") is (step < UPGRADE_STEPS)
+    before = upgraded.started()
+    assert before in ("second", "third")
+    upgraded.install("fourth")
+    assert upgraded.started() == "fourth" and upgraded.releases() == 2
+    upgraded.rollback()
+    assert upgraded.started() == before
+
+
+@pytest.mark.parametrize("step", range(1, ROLLBACK_STEPS + 1))
+def test_a_power_cut_in_a_rollback_leaves_a_robot_that_starts_and_rolls_back(upgraded, step):
+    assert upgraded.cut_off(step, "rollback") is (step < ROLLBACK_STEPS)
+    before = upgraded.started()
+    upgraded.rollback()
+    assert {before, upgraded.started()} == {"first", "second"}
+
+
+@pytest.fixture
+def lettered(robot):
+    """A robot whose releases are called a and b, as the script once did it: b, `second`, is in use."""
+    for letter, build in (("a", "first"), ("b", "second")):
+        (robot.prefix / letter / "lib").mkdir(parents=True)
+        (robot.prefix / letter / "lib" / "library").touch()
+        (robot.prefix / letter / "setup.bash").write_text(f"export BUILT={build}\n", encoding="ascii")
+        (robot.prefix / letter / "release").write_text(f"{build}\n", encoding="ascii")
+    (robot.prefix / "current").symlink_to("b")
+    shutil.copy(SCRIPT.parent / "robot" / "start", robot.prefix)
+    return robot
+
+
+def test_former_installation_rolls_back(lettered):
+    lettered.rollback()
+    assert lettered.started() == "first"
+
+
+def test_former_installation_is_upgraded_and_keeps_what_was_in_use(lettered):
+    lettered.install("third")
+    assert lettered.started() == "third" and lettered.releases() == 2
+    lettered.rollback()
+    assert lettered.started() == "second"
+
+
+def test_former_installation_keeps_both_releases_when_its_upgrade_fails(lettered):
+    assert lettered.run(build="broken").returncode != 0
+    assert lettered.started() == "second"
+    lettered.rollback()
+    assert lettered.started() == "first"
+
+
+def test_former_installation_with_half_a_release_does_not_roll_back_to_it(lettered):
+    (lettered.prefix / "a" / "release").unlink()
+    assert lettered.run("rollback").returncode == 2 and lettered.started() == "second"
