@@ -13,8 +13,11 @@
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 here=$top/setup/robot
-# Not on a robot: the simulated world, and what measures.
-not_needed="mtr_benchmarks mtr_gazebo mtr_rviz mtr_tests"
+# What mtr_bringup needs on a robot. The simulated world, rviz and what measures are not of it: the package.xml files name them for
+# other computers only, by this word.
+export MTR_ROLE=robot
+packages=(launch proto catkin_ws/src/mtr_{car_locator,controller_input,core,description,dispatcher,drive_control}
+  catkin_ws/src/mtr_{fault_injection,localization,motion_planner,msgs,peripherals,serial_link,state_machine,surfel_map})
 
 fail() {
   echo "install-robot: $*" >&2
@@ -113,14 +116,16 @@ install_packages() {
     chrony logrotate >/dev/null
   [[ -d /etc/ros/rosdep/sources.list.d ]] || rosdep init
   rosdep update --rosdistro noetic >/dev/null
-  rosdep install --from-paths "$top" --ignore-src --rosdistro noetic -y --skip-keys "$not_needed gazebo_dev"
+  # Not what only tests need, which are not built.
+  rosdep install --from-paths "${packages[@]/#/$top/}" --ignore-src --rosdistro noetic -y \
+    --dependency-types "buildtool buildtool_export build build_export exec"
 }
 
 build() {
   local release=$1 commit
   commit=$(git -c safe.directory="$top" -C "$top" describe --always --dirty)
   mkdir -p "$prefix/build/src"
-  ln -s "$top" "$prefix/build/src/mtr"
+  ln -s "${packages[@]/#/$top/}" "$prefix/build/src"
   if [[ -f $ros/setup.bash ]]; then
     # shellcheck source=/dev/null
     set +u && source "$ros/setup.bash" && set -u
@@ -129,7 +134,7 @@ build() {
   fi
   (
     cd "$prefix/build"
-    catkin config --init --install --install-space "$prefix/$release" --skiplist $not_needed \
+    catkin config --init --install --install-space "$prefix/$release" \
       --cmake-args -DCMAKE_BUILD_TYPE=Release -DCATKIN_ENABLE_TESTING=OFF >/dev/null
     catkin build --no-status --summary
   )
