@@ -156,11 +156,21 @@ install_files() {
   [[ -f $staging/etc/mtr/robot.env ]] || put 644 robot.env "$staging/etc/mtr/robot.env"
 }
 
+# Chrony 4 reads this folder by its own settings; Ubuntu 20.04's chrony 3 has to be told.
+share_clock() {
+  local settings=$staging/etc/chrony/chrony.conf
+  put 644 mtr-robot.chrony "$staging/etc/chrony/conf.d/mtr-robot.conf"
+  if [[ -f $settings ]] && ! grep -qE '^(confdir|include) .*/etc/chrony/conf\.d' "$settings"; then
+    printf '\n# Added by install-robot.sh\ninclude /etc/chrony/conf.d/*.conf\n' >>"$settings"
+  fi
+}
+
 enable_service() {
   [[ $staging ]] && return
   id mtr >/dev/null 2>&1 || useradd --system --no-create-home --home-dir /var/lib/mtr --shell /usr/sbin/nologin mtr
   systemctl daemon-reload
   systemctl enable --quiet mtr-robot
+  systemctl restart chrony
 }
 
 case $action in
@@ -173,6 +183,7 @@ case $action in
     install_packages
     build "$release"
     install_files
+    share_clock
     enable_service
     use "$release"
     restart

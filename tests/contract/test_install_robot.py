@@ -1,7 +1,9 @@
 """Releases of an installed robot: one is in use, the one before it can be gone back to, whatever fails."""
 # SPDX-License-Identifier: Apache-2.0
+import ipaddress
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 
@@ -158,7 +160,7 @@ def test_rollback_takes_no_release_that_is_not_whole(upgraded):
 
 
 # Steps of an upgrade and of a rollback that change something, and one more that they have not.
-UPGRADE_STEPS, ROLLBACK_STEPS = 26, 9
+UPGRADE_STEPS, ROLLBACK_STEPS = 28, 9
 
 
 @pytest.mark.parametrize("step", range(1, UPGRADE_STEPS + 1))
@@ -215,3 +217,25 @@ def test_former_installation_keeps_both_releases_when_its_upgrade_fails(lettered
 def test_former_installation_with_half_a_release_does_not_roll_back_to_it(lettered):
     (lettered.prefix / "a" / "release").unlink()
     assert lettered.run("rollback").returncode == 2 and lettered.started() == "second"
+
+
+def test_the_clock_is_a_source_without_internet_for_the_laptops_of_the_access_point(robot):
+    robot.install("first")
+    lines = (robot.disk / "etc" / "chrony" / "conf.d" / "mtr-robot.conf").read_text(encoding="ascii").splitlines()
+    assert "local stratum 10" in lines
+    allowed = [ipaddress.ip_network(line.split()[1]) for line in lines if line.startswith("allow ")]
+    access_point = re.findall(r"\b(\d+\.\d+\.\d+\.\d+/\d+)\b", SCRIPT.read_text(encoding="utf-8"))
+    assert allowed == [ipaddress.ip_interface(address).network for address in access_point]
+
+
+@pytest.mark.parametrize("settings, is_told", [
+    # As Ubuntu 20.04 ships it (chrony 3.5), and as Debian 12 does (4.3).
+    ("pool ntp.ubuntu.com iburst maxsources 4\n", True), ("confdir /etc/chrony/conf.d\nmakestep 1 3\n", False)])
+def test_chrony_is_told_once_where_its_further_settings_are(robot, settings, is_told):
+    path = robot.disk / "etc" / "chrony" / "chrony.conf"
+    path.parent.mkdir(parents=True)
+    path.write_text(settings, encoding="ascii")
+    robot.install("first")
+    robot.install("second")
+    text = path.read_text(encoding="ascii")
+    assert text.startswith(settings) and text.count("include /etc/chrony/conf.d/*.conf") == is_told
