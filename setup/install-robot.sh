@@ -113,7 +113,7 @@ install_packages() {
   [[ $staging ]] && return
   apt-get update -qq
   apt-get install -y -qq --no-install-recommends build-essential python3-catkin-tools python3-rosdep python3-spake2 \
-    chrony logrotate >/dev/null
+    chrony >/dev/null
   [[ -d /etc/ros/rosdep/sources.list.d ]] || rosdep init
   rosdep update --rosdistro noetic >/dev/null
   # Not what only tests need, which are not built.
@@ -151,7 +151,11 @@ install_files() {
   put 755 start "$prefix/start"
   put 755 link "$prefix/link"
   put 644 mtr-robot.service "$staging/etc/systemd/system/mtr-robot.service"
-  put 644 mtr-robot.logrotate "$staging/etc/logrotate.d/mtr-robot"
+  put 755 tidy_logs "$prefix/tidy_logs"
+  put 644 mtr-logs.service "$staging/etc/systemd/system/mtr-logs.service"
+  put 644 mtr-logs.timer "$staging/etc/systemd/system/mtr-logs.timer"
+  # Of earlier installations; it never removed what an ended run had left.
+  rm -f "$staging/etc/logrotate.d/mtr-robot"
   # The person's own settings outlive an upgrade.
   [[ -f $staging/etc/mtr/robot.env ]] || put 644 robot.env "$staging/etc/mtr/robot.env"
 }
@@ -170,6 +174,7 @@ enable_service() {
   id mtr >/dev/null 2>&1 || useradd --system --no-create-home --home-dir /var/lib/mtr --shell /usr/sbin/nologin mtr
   systemctl daemon-reload
   systemctl enable --quiet mtr-robot
+  systemctl enable --quiet --now mtr-logs.timer
   systemctl restart chrony
 }
 

@@ -160,7 +160,7 @@ def test_rollback_takes_no_release_that_is_not_whole(upgraded):
 
 
 # Steps of an upgrade and of a rollback that change something, and one more that they have not.
-UPGRADE_STEPS, ROLLBACK_STEPS = 28, 9
+UPGRADE_STEPS, ROLLBACK_STEPS = 33, 9
 
 
 @pytest.mark.parametrize("step", range(1, UPGRADE_STEPS + 1))
