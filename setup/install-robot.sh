@@ -3,7 +3,8 @@
 #
 # Usage: sudo setup/install-robot.sh [--ros FOLDER] [--staging FOLDER]
 #        sudo setup/install-robot.sh rollback [--staging FOLDER]
-#        sudo setup/install-robot.sh hotspot NAME PASSWORD
+#        sudo setup/install-robot.sh hotspot NAME [--country CC] [PASSWORD]
+#                                          without PASSWORD it is asked for, or read from the first line of the standard input
 #
 # Each release is a folder of its own, /opt/mtr/release-1, release-2 and so on. The link `current` names the one in use, and the link
 # `former` in that one the one before it: one rename changes both, so that what fails or is cut off leaves both as they were.
@@ -16,8 +17,8 @@ here=$top/setup/robot
 # What mtr_bringup needs on a robot. The simulated world, rviz and what measures are not of it: the package.xml files name them for
 # other computers only, by this word.
 export MTR_ROLE=robot
-packages=(launch proto catkin_ws/src/mtr_{car_locator,controller_input,core,description,dispatcher,drive_control}
-  catkin_ws/src/mtr_{fault_injection,localization,motion_planner,msgs,peripherals,serial_link,state_machine,surfel_map})
+packages=(catkin_ws/src/mtr_{car_locator,controller_input,core,description,dispatcher,drive_control}
+  catkin_ws/src/mtr_{fault_injection,localization,motion_planner,msgs,peripherals,serial_link,state_machine,surfel_map} launch proto)
 
 fail() {
   echo "install-robot: $*" >&2
@@ -31,15 +32,21 @@ if [[ ${1:-} == rollback || ${1:-} == hotspot ]]; then
 fi
 ros=/opt/ros/noetic
 staging=
+country=
 words=()
 while (($#)); do
   case $1 in
+    --country)
+      [[ ${2:-} =~ ^[A-Z][A-Z]$ ]] || fail "--country needs two capital letters, DE for Germany."
+      country=$2
+      shift 2
+      ;;
     --ros | --staging)
       (($# > 1)) || fail "$1 needs a folder."
       if [[ $1 == --ros ]]; then ros=$2; else staging=$(mkdir -p "$2" && cd "$2" && pwd); fi
       shift 2
       ;;
-    -*) fail "Option $1 is not known; allowed are --ros and --staging." ;;
+    -*) fail "Option $1 is not known; allowed are --country, --ros and --staging." ;;
     *) words+=("$1") && shift ;;
   esac
 done
@@ -112,7 +119,7 @@ restart() {
 install_packages() {
   [[ $staging ]] && return
   apt-get update -qq
-  apt-get install -y -qq --no-install-recommends build-essential python3-catkin-tools python3-rosdep python3-spake2 \
+  apt-get install -y -qq --no-install-recommends build-essential iw python3-catkin-tools python3-rosdep python3-spake2 \
     chrony >/dev/null
   [[ -d /etc/ros/rosdep/sources.list.d ]] || rosdep init
   rosdep update --rosdistro noetic >/dev/null
@@ -178,6 +185,63 @@ enable_service() {
   systemctl restart chrony
 }
 
+# NetworkManager's file of the access point, in which alone the password stands: a command's arguments are seen by everyone. A name is
+# written by its bytes, a password with the signs that GLib's files reserve.
+write_hotspot() {
+  local uuid=$1 band=$2 ssid=$3 password=$4 file=$5
+  ssid=$(od -An -v -tu1 <<<"$ssid" | tr -s ' \n' ';')
+  # Without the end of the line, and without the first separator.
+  ssid=${ssid%10;}
+  password=${password//\\/\\\\}
+  mkdir -p "${file%/*}"
+  (
+    umask 077
+    printf '%s\n' "[connection]" "id=mtr-hotspot" "uuid=$uuid" "type=wifi" "" \
+      "[wifi]" "mode=ap" "band=$band" "ssid=${ssid#;}" "" \
+      "[wifi-security]" "key-mgmt=wpa-psk" "proto=rsn;" "pairwise=ccmp;" "psk=${password// /\\s}" "" \
+      "[ipv4]" "method=shared" "address1=10.42.0.1/24" "" "[ipv6]" "method=disabled" >"$file"
+  )
+  nmcli connection load "$file" >/dev/null
+}
+
+# Where no country is known no access point may begin to send at 5 GHz; the setting holds after a new start, too.
+set_country() {
+  [[ $country ]] || return 0
+  mkdir -p "$staging/etc/modprobe.d"
+  echo "options cfg80211 ieee80211_regdom=$country" >"$staging/etc/modprobe.d/mtr-country.conf"
+  command -v iw >/dev/null || fail "iw is missing; install it, or leave --country away."
+  iw reg set "$country"
+}
+
+# The access point of before goes when this one is up; --staging has its files elsewhere, nmcli is asked all the same.
+hotspot() {
+  local name=$1 password=$2 uuid file former each band
+  command -v nmcli >/dev/null || fail "nmcli is missing; install network-manager."
+  nmcli -t -f TYPE,STATE device | grep -E '^wifi:' | grep -qvE ':(unmanaged|unavailable)$' ||
+    fail "NetworkManager has no Wi-Fi device; where netplan describes it, let it say renderer: NetworkManager."
+  former=$(nmcli -t -f NAME,UUID connection show | sed -n 's/^mtr-hotspot://p')
+  uuid=$(cat /proc/sys/kernel/random/uuid)
+  file=$staging/etc/NetworkManager/system-connections/mtr-hotspot-$uuid.nmconnection
+  set_country
+  for band in a bg; do
+    write_hotspot "$uuid" $band "$name" "$password" "$file"
+    if nmcli connection up uuid "$uuid" >/dev/null; then
+      for each in $former; do
+        nmcli connection delete uuid "$each" >/dev/null
+      done
+      [[ $band == a ]] || echo "install-robot: no access point at 5 GHz; it is one at 2.4 GHz. Say --country, if you did not."
+      echo "install-robot: the robot is 10.42.0.1 in the Wi-Fi $name; set bind_address:=10.42.0.1 in /etc/mtr/robot.env."
+      return 0
+    fi
+  done
+  rm -f "$file"
+  nmcli connection reload
+  for each in $former; do
+    nmcli connection up uuid "$each" >/dev/null || true
+  done
+  fail "The access point could not be begun; the one of before stays."
+}
+
 case $action in
   install)
     alone
@@ -202,14 +266,12 @@ case $action in
     restart
     ;;
   hotspot)
-    ((${#words[@]} == 2)) || fail "hotspot needs a name and a password."
-    ((${#words[1]} >= 8 && ${#words[1]} <= 63)) || fail "The password has ${#words[1]} characters; allowed are 8 to 63."
-    command -v nmcli >/dev/null || fail "nmcli is missing; install network-manager."
-    nmcli connection delete mtr-hotspot >/dev/null 2>&1 || true
-    nmcli connection add type wifi ifname '*' con-name mtr-hotspot autoconnect yes ssid "${words[0]}" \
-      802-11-wireless.mode ap 802-11-wireless.band a ipv4.method shared ipv4.addresses 10.42.0.1/24 ipv6.method disabled \
-      wifi-sec.key-mgmt wpa-psk wifi-sec.proto rsn wifi-sec.pairwise ccmp wifi-sec.psk "${words[1]}" >/dev/null
-    nmcli connection up mtr-hotspot >/dev/null
-    echo "install-robot: the robot is 10.42.0.1 in the Wi-Fi ${words[0]}; set bind_address:=10.42.0.1 in /etc/mtr/robot.env."
+    ((${#words[@]} == 1 || ${#words[@]} == 2)) || fail "hotspot needs a name, and takes a password."
+    password=${words[1]:-}
+    if ((${#words[@]} == 1)); then
+      if [[ -t 0 ]]; then read -rsp "Password of the Wi-Fi ${words[0]}: " password && echo; else read -r password || true; fi
+    fi
+    ((${#password} >= 8 && ${#password} <= 63)) || fail "The password has ${#password} characters; allowed are 8 to 63."
+    hotspot "${words[0]}" "$password"
     ;;
 esac
