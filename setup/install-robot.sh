@@ -269,7 +269,7 @@ case $action in
     ((${#words[@]} == 1 || ${#words[@]} == 2)) || fail "hotspot needs a name, and takes a password."
     password=${words[1]:-}
     if ((${#words[@]} == 1)); then
-      if [[ -t 0 ]]; then read -rsp "Password of the Wi-Fi ${words[0]}: " password && echo; else read -r password || true; fi
+      if [[ -t 0 ]]; then IFS= read -rsp "Password of the Wi-Fi ${words[0]}: " password && echo; else IFS= read -r password || true; fi
     fi
     ((${#password} >= 8 && ${#password} <= 63)) || fail "The password has ${#password} characters; allowed are 8 to 63."
     hotspot "${words[0]}" "$password"

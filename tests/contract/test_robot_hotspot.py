@@ -64,10 +64,10 @@ def network(tmp_path):
 
 
 def test_the_password_is_read_and_stands_in_no_command_but_in_a_file_of_root_alone(network):
-    done = network.hotspot("Robot", typed="a secret\n")
+    done = network.hotspot("Robot", typed=" a secret\n")
     assert done.returncode == 0, done.stderr
     assert "secret" not in network.told + done.stdout
-    assert network.settings()["wifi-security"]["psk"] == r"a\ssecret"
+    assert network.settings()["wifi-security"]["psk"] == r"\sa\ssecret"
     assert network.files()[0].stat().st_mode & 0o777 == 0o600
 
 
