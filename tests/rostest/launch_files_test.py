@@ -16,7 +16,7 @@ from case import case
 from roslaunch.node_args import create_local_process_args, get_node_list
 from std_msgs.msg import Header
 
-from mtr_core import sensor_figures
+from mtr_core import names, sensor_figures
 
 NEEDED = {"robot.launch": [], "sim.launch": ["car_port_link:=/tmp/can"], "replay.launch": ["bag:=/tmp/a.bag"],
           "view.launch": [], "description.launch": [], "jackal.launch": []}
@@ -148,7 +148,11 @@ class LaunchFiles(unittest.TestCase):
                     self.assertTrue(figure.low <= params[f"/localization/{name}"].value <= figure.high, name)
                 self.assertEqual(params["/car_locator/time_increment_s"].value,
                                  params["/localization/time_increment_s"].value)
-        self.assertNotIn("/localization/range_noise_m", load("robot.launch", []).params)
+                self.assertNotIn("/car_locator/range_noise_m", params)
+                self.assertTrue(10.0 <= params[names.LIDAR_TURN_RATE].value <= 100.0)
+        unnamed = load("robot.launch", []).params
+        self.assertNotIn("/localization/range_noise_m", unnamed)
+        self.assertNotIn(names.LIDAR_TURN_RATE, unnamed)
         with self.assertRaises(roslaunch.RLException):
             load("robot.launch", ["lidar:=no_such_lidar"])
 

@@ -48,6 +48,8 @@ def test_setup_is_what_the_parameters_say(robot):
     assert setup_of_robot() == Setup(controller=False)
     robot["/use_sim_time"] = True
     assert setup_of_robot().is_simulated
+    robot[names.LIDAR_TURN_RATE], robot["/drive_control"] = 15.0, {"lidar_timeout_s": 0.2}
+    assert (setup_of_robot().turn_rate_hz, setup_of_robot().lidar_timeout_s) == (15.0, 0.2)
     robot[names.ROBOT_FRAMES] = {names.FRONT_LIDAR: "front_laser"}
     assert setup_of_robot().frames == {names.FRONT_LIDAR: "front_laser"}
 

@@ -13,10 +13,12 @@ CONTROLLER_OWNER = "controller_input"
 BATTERY = Slot(1_000_000_000, 0)
 # Less often than this share of the expected rate a driver is set up wrongly, or messages get lost.
 MIN_RATE_SHARE = 0.8
-# Drive control brakes after 0.10 s without odometry, and after 0.14 s without a sweep.
+# Drive control brakes after 0.10 s without odometry.
 MAX_GAP_PERIODS, MIN_GAP_LIMIT_S = 3.0, 0.1
-# From the stamp to the arrival here; a sweep is stamped with its first beam. The median has half of it.
+# From the stamp to the arrival here. The median has half of it.
 MAX_AGE_S = 0.1
+# Drive control brakes when the first beam of a LiDAR's newest sweep is older: its lidar_timeout_s.
+LIDAR_TIMEOUT_S = 0.14
 
 
 @dataclass(frozen=True)
@@ -31,6 +33,8 @@ class Setup:
         is_simulated: time or robot are simulated.
         frames: link of the description -> frame in which the sensor speaks, where that has another name.
         time_increment_s: from beam to beam, as the nodes take it where the scans do not say it; 0: they do not know.
+        turn_rate_hz: of the LiDARs by the data sheet of their kind; where none is named, that of the simulated ones.
+        lidar_timeout_s: drive control brakes when the first beam of the newest sweep is older.
     """
 
     rear_lidar: bool = True
@@ -39,6 +43,8 @@ class Setup:
     base_controller: str = f"/{CONTROLLER}"
     is_simulated: bool = False
     time_increment_s: float = 0.0
+    turn_rate_hz: float = 1e9 / LIDAR.period_ns
+    lidar_timeout_s: float = LIDAR_TIMEOUT_S
     frames: Mapping[str, str] = field(default_factory=dict)
 
     @property
@@ -56,6 +62,7 @@ class Expected(NamedTuple):
         period_s: between two messages.
         max_age_s: from the stamp to the arrival; 0 for messages without stamp.
         remedy: what to do when it does not come.
+        max_newest_age_s: of the newest message at any time, before the next one comes; 0: nobody minds.
     """
 
     topic: str
@@ -63,6 +70,7 @@ class Expected(NamedTuple):
     period_s: float
     max_age_s: float
     remedy: str
+    max_newest_age_s: float = 0.0
 
     @property
     def max_gap_s(self) -> float:
@@ -77,12 +85,10 @@ class Expected(NamedTuple):
 
 def expected_topics(setup: Setup) -> List[Expected]:
     """All topics that have to come, given what the robot was started with."""
-    lidar_s = seconds(LIDAR)
-    scan = ("sensor_msgs/LaserScan", lidar_s, MAX_AGE_S + lidar_s)
-    topics = [Expected(names.FRONT_SCAN, *scan, "start the front LiDAR's driver")]
+    topics = [expected_scan(names.FRONT_SCAN, setup, "start the front LiDAR's driver")]
     if setup.rear_lidar:
-        topics.append(Expected(names.REAR_SCAN, *scan, "start the rear LiDAR's driver, or the robot with "
-                               "rear_lidar:=false"))
+        topics.append(expected_scan(names.REAR_SCAN, setup, "start the rear LiDAR's driver, or the robot with "
+                                    "rear_lidar:=false"))
     topics += [
         Expected(names.WHEEL_ODOMETRY, "nav_msgs/Odometry", seconds(SENSORS), MAX_AGE_S, "start the base"),
         Expected(names.IMU_DATA, "sensor_msgs/Imu", seconds(SENSORS), MAX_AGE_S, "start the IMU's driver"),
@@ -94,6 +100,13 @@ def expected_topics(setup: Setup) -> List[Expected]:
         topics.append(Expected(names.JOY, "sensor_msgs/Joy", seconds(CONTROLLER_INPUT), MAX_AGE_S,
                                "switch the manual controller on, or start the robot with controller:=false"))
     return topics
+
+
+def expected_scan(topic: str, setup: Setup, remedy: str) -> Expected:
+    """The sweeps of one LiDAR, each stamped with its first beam: as often as its data sheet says, and so that drive
+    control is never without one."""
+    return Expected(topic, "sensor_msgs/LaserScan", 1.0 / setup.turn_rate_hz, setup.lidar_timeout_s, remedy,
+                    setup.lidar_timeout_s)
 
 
 def seconds(slot: Slot) -> float:

@@ -48,6 +48,8 @@ def setup_of_robot() -> Setup:
         str(drive.get("base_controller", default.base_controller)),
         bool(rospy.get_param("/use_sim_time", False)) or names.SIM_TRUTH in publishers(),
         float(rospy.get_param("/localization/time_increment_s", default.time_increment_s)),
+        float(rospy.get_param(names.LIDAR_TURN_RATE, default.turn_rate_hz)),
+        float(drive.get("lidar_timeout_s", default.lidar_timeout_s)),
         {str(link): str(frame) for link, frame in rospy.get_param(names.ROBOT_FRAMES, {}).items()})
 
 

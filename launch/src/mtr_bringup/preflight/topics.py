@@ -76,6 +76,12 @@ def longest_gap_s(heard: TopicRecord) -> float:
     return max(after - before for before, after in zip(heard.arrivals_s, heard.arrivals_s[1:]))
 
 
+def newest_age_s(heard: TopicRecord) -> float:
+    """How old the newest message was at most before the next one came; 0 where they have no stamps."""
+    return max((age_s + after - before
+                for age_s, before, after in zip(heard.ages_s, heard.arrivals_s, heard.arrivals_s[1:])), default=0.0)
+
+
 def timing_problems(expected: Expected, heard: TopicRecord, setup: Setup) -> Iterator[Finding]:
     """Too seldom, with too long a gap, too old or from the future."""
     topic, rate, gap_s = expected.topic, rate_hz(heard), longest_gap_s(heard)
@@ -86,6 +92,11 @@ def timing_problems(expected: Expected, heard: TopicRecord, setup: Setup) -> Ite
     elif gap_s > expected.max_gap_s:
         yield bad(GAP, topic, f"It was silent for {gap_s:.2f} s, allowed is {expected.max_gap_s:.2f} s: look at the "
                   "cable and at what loads network and processor.", gap_s, expected.max_gap_s, unit="s")
+    elif expected.max_newest_age_s and newest_age_s(heard) > expected.max_newest_age_s:
+        yield bad(GAP, topic, f"Its newest sweep was {newest_age_s(heard):.2f} s old before the next one came, allowed "
+                  f"is {expected.max_newest_age_s:.2f} s, at which drive control brakes: raise the rate in its driver, "
+                  "or look at the cable and at what loads network and processor.", newest_age_s(heard),
+                  expected.max_newest_age_s, unit="s")
     if expected.max_age_s and heard.ages_s:
         yield from age_problems(expected, heard.ages_s, MAX_AHEAD_SIMULATED_S if setup.is_simulated else MAX_AHEAD_S)
 

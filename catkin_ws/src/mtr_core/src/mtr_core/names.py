@@ -19,6 +19,8 @@ START_FAILURES = "/start_failures"
 ROBOT_TOPICS = "/robot_topics"
 # Of the robot: frames in which its sensors speak, by the links of the description that stand for them
 ROBOT_FRAMES = "/robot_frames"
+# Of the robot: how many turns a second its LiDARs make by the data sheet of their kind, where it is named
+LIDAR_TURN_RATE = "/robot_lidar/turn_rate_hz"
 # Of the robot: what the last preflight of this run of the ROS master found, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
 
