@@ -29,7 +29,7 @@ POLL_S = 0.02
 LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
 NOT_READY = (link.MODE_UNSPECIFIED, link.MODE_STARTING)
 START_LIMIT_S = 120.0
-MOVES_MPS = 0.3
+MOVES_MPS, STANDS_MPS = 0.3, 0.01
 MACHINE_CLOCK = {"machine_clock": "true"}
 # The simulator's clock, which goes on whatever the nodes do.
 SIMULATED_CLOCK = {"lockstep": "false"}
@@ -134,11 +134,29 @@ class LiveRobot:
         if self.knows_car and (
                 not self._has_leg or (status.waypoint_id == self._legs and status.waypoint_result in (
                     link.WAYPOINT_RESULT_REACHED, link.WAYPOINT_RESULT_REFUSED))):
-            x, y, heading = LEGS[self._legs % len(LEGS)]
-            self._legs += 1
-            self._has_leg = True
-            self._operator.order(map_car_id=self._map_car_id, max_speed_mps=1.0,
-                                 waypoint=link.Waypoint(id=self._legs, x=x, y=y, heading=heading))
+            self._operator.order(**self._next_leg())
+
+    def drive_on(self) -> float:
+        """Order the next leg without waiting for the next Status; the monotonic time at which it left."""
+        leg = self._next_leg()
+        ordered_s = time.monotonic()
+        self._operator.send(**leg)
+        return ordered_s
+
+    def _next_leg(self) -> Dict[str, Any]:
+        x, y, heading = LEGS[self._legs % len(LEGS)]
+        self._legs += 1
+        self._has_leg = True
+        return {"map_car_id": self._map_car_id, "max_speed_mps": 1.0,
+                "waypoint": link.Waypoint(id=self._legs, x=x, y=y, heading=heading)}
+
+    def wait_for_standstill(self, limit_s: float) -> None:
+        """Return when neither the wheels nor what they are told move; LiveError when they go on to."""
+        deadline_s = time.monotonic() + limit_s
+        while any(abs(each[-1].linear_mps) > STANDS_MPS for each in (self.wheels, self.commands)):
+            if time.monotonic() > deadline_s:
+                raise LiveError(f"It does not stand after {limit_s:g} s; see {self._stack.log}.")
+            time.sleep(POLL_S)
 
     def wait_for_motion(self, limit_s: float) -> None:
         """Return when the robot drives."""

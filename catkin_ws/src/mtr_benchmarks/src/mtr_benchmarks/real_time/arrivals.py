@@ -1,6 +1,6 @@
 """When the nodes spoke: how long each was silent, beyond the period that it promises."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Dict, List, Mapping, NamedTuple, Sequence, Tuple
+from typing import Dict, List, Mapping, NamedTuple, Sequence
 
 import numpy as np
 
@@ -39,7 +39,8 @@ class Silence(NamedTuple):
     """Gaps between a node's messages, in s.
 
     Attributes:
-        late: by how much of its period the longest gap was longer than the period, or than that of what it answers.
+        due_s: after which it has to speak again: its period, or the longest gap of what it answers.
+        late: by how much of its period the longest gap was longer than that.
     """
 
     period_s: float
@@ -47,6 +48,7 @@ class Silence(NamedTuple):
     median_s: float
     p99_s: float
     longest_s: float
+    due_s: float
     late: float
 
 
@@ -58,9 +60,9 @@ def silence(times_s: Sequence[float], begin_s: float, end_s: float, period_s: fl
     """
     within = [time_s for time_s in times_s if begin_s <= time_s <= end_s]
     gaps_s = np.diff([begin_s, *within, end_s])
-    longest_s = float(np.max(gaps_s))
-    return Silence(period_s, len(within), float(np.median(gaps_s)), float(np.quantile(gaps_s, 0.99)), longest_s,
-                   (longest_s - max(period_s, asked_s)) / period_s)
+    longest_s, due_s = float(np.max(gaps_s)), max(period_s, asked_s)
+    return Silence(period_s, len(within), float(np.median(gaps_s)), float(np.quantile(gaps_s, 0.99)), longest_s, due_s,
+                   (longest_s - due_s) / period_s)
 
 
 def silences(arrivals: Mapping[str, Sequence[float]], begin_s: float, end_s: float) -> Dict[str, Silence]:
@@ -71,11 +73,6 @@ def silences(arrivals: Mapping[str, Sequence[float]], begin_s: float, end_s: flo
                            asking[voice.asked_by].longest_s if voice.asked_by else 0.0)
              for node, voice in VOICES.items()}
     return {**nodes, **asking}
-
-
-def worst(found: Mapping[str, Silence]) -> Tuple[str, Silence]:
-    """The node that was late by most of its period."""
-    return max(((node, found[node]) for node in VOICES), key=lambda item: item[1].late)
 
 
 def by_node(callers: Mapping[str, Mapping[str, List[float]]]) -> Dict[str, List[float]]:
