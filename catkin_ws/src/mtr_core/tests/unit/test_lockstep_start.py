@@ -1,5 +1,6 @@
 """Life of a node: exit status, and what it prints."""
 # SPDX-License-Identifier: Apache-2.0
+import gc
 from dataclasses import dataclass
 
 import pytest
@@ -48,7 +49,9 @@ def master(monkeypatch):
     monkeypatch.setattr(rospy, "set_param", kept.__setitem__)
     monkeypatch.setattr(rospy, "has_param", kept.__contains__)
     monkeypatch.setattr(rospy, "delete_param", kept.__delitem__)
-    return kept
+    yield kept
+    # What a node has spared from collections is this process' own here.
+    gc.unfreeze()
 
 
 def test_why_a_node_cannot_start_is_kept_until_it_has_started(printed, master, monkeypatch):
@@ -71,6 +74,18 @@ def test_node_whose_master_is_gone_ends_all_the_same(printed, monkeypatch):
 def test_node_prints_its_parameters_in_one_line_and_ends_with_0(printed):
     assert run_node("walker", Parameters, Node) == 0
     assert printed == [("info", "Parameters: speed_mps 0.5 m/s")]
+
+
+def test_collections_of_garbage_do_not_look_at_what_was_there_at_the_start(printed):
+    looked_at = []
+
+    class Watcher(Node):
+        def spin(self):
+            looked_at.append((len(gc.get_objects()), gc.get_freeze_count()))
+
+    assert run_node("walker", Parameters, Watcher) == 0
+    ((now, spared),) = looked_at
+    assert spared > 10_000 and now < 1_000
 
 
 def test_wrong_parameter_ends_it_with_2_after_one_sentence(printed, monkeypatch):
