@@ -9,6 +9,7 @@ import numpy as np
 import rospy
 import rostest
 import tf2_ros
+from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import OccupancyGrid
 from node_process import NodeProcess
@@ -27,6 +28,8 @@ FULL_TURN_RAD = 2.0 * math.pi
 # Without a scan for 0.3 s the pose is degenerate; a sweep and a tick later it has been said.
 SILENCE_S = 0.36
 OCCUPIED = 65
+# A gyro's message that is under way for so long comes when the wheels' of its tick waits for it.
+GYRO_LATE_WALL_S = 0.02
 # Where another SLAM puts odom.
 OTHER_X_M, OTHER_HEADING_RAD = 5.0, 0.5
 
@@ -130,6 +133,17 @@ class LocalizationMap(unittest.TestCase):
         self.robot.lidar.message.header.frame_id = names.FRONT_LIDAR
         self.assertFalse(self.advance(0.3).degenerate)
 
+    def test_work_that_a_gyro_message_lets_begin_counts_in_the_load_figures(self):
+        figures = Collector("/diagnostics", DiagnosticArray)
+        self.robot.gyro.under_way_wall_s = GYRO_LATE_WALL_S
+        self.addCleanup(self.robot.gyro.arrive)
+        self.begin()
+        self.command(MappingOrder.COLLECT)
+        self.advance(1.0)
+        wait_for(lambda: self._figure(figures, "scans_used") > 10.0, "used scans in the diagnostics")
+        self.assertGreater(self._figure(figures, "ms_per_scan"), 0.0)
+        self.assertGreaterEqual(self._figure(figures, "longest_answer_ms"), self._figure(figures, "ms_per_scan"))
+
     def test_robot_without_the_rear_lidar_that_it_shall_have_does_not_start(self):
         self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=True)
         self.assertEqual(self.node.exit_status(), 2)
@@ -156,6 +170,12 @@ class LocalizationMap(unittest.TestCase):
         other.transform.rotation.z = math.sin(0.5 * OTHER_HEADING_RAD)
         other.transform.rotation.w = math.cos(0.5 * OTHER_HEADING_RAD)
         self.others.sendTransform(other)
+
+    @staticmethod
+    def _figure(figures, key):
+        """The newest one; -1 before the first."""
+        return next((float(pair.value) for message in reversed(figures.messages) for pair in message.status[0].values
+                     if pair.key == key), -1.0)
 
     def _said(self, text):
         return [each for each in self.log.messages if text in each.msg]
