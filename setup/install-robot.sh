@@ -3,6 +3,7 @@
 #
 # Usage: sudo setup/install-robot.sh [--ros FOLDER] [--staging FOLDER]
 #        sudo setup/install-robot.sh rollback [--staging FOLDER]
+#        sudo setup/install-robot.sh jackal [--staging FOLDER]      a Jackal's base by mtr-base.service, not by its own ros.service
 #        sudo setup/install-robot.sh hotspot NAME [--country CC] [PASSWORD]
 #                                          without PASSWORD it is asked for, or read from the first line of the standard input
 #
@@ -26,7 +27,7 @@ fail() {
 }
 
 action=install
-if [[ ${1:-} == rollback || ${1:-} == hotspot ]]; then
+if [[ ${1:-} == rollback || ${1:-} == jackal || ${1:-} == hotspot ]]; then
   action=$1
   shift
 fi
@@ -51,7 +52,7 @@ while (($#)); do
   esac
 done
 [[ $staging ]] || ((EUID == 0)) || fail "It has to be run as root: sudo setup/install-robot.sh"
-[[ $action == hotspot ]] || ((${#words[@]} == 0)) || fail "The word ${words[0]} is not known; allowed are rollback and hotspot."
+[[ $action == hotspot ]] || ((${#words[@]} == 0)) || fail "The word ${words[0]} is not known; allowed are rollback, jackal and hotspot."
 prefix=$staging/opt/mtr
 
 in_use() {
@@ -155,12 +156,18 @@ put() {
 }
 
 install_files() {
+  local units=$staging/etc/systemd/system
   put 755 start "$prefix/start"
   put 755 link "$prefix/link"
-  put 644 mtr-robot.service "$staging/etc/systemd/system/mtr-robot.service"
+  put 644 jackal_base.launch "$prefix/jackal_base.launch"
+  # Before what they bound.
+  put 644 mtr-service.conf "$units/mtr-robot.service.d/mtr-service.conf"
+  put 644 mtr-service.conf "$units/mtr-base.service.d/mtr-service.conf"
+  put 644 mtr-robot.service "$units/mtr-robot.service"
+  put 644 mtr-base.service "$units/mtr-base.service"
   put 755 tidy_logs "$prefix/tidy_logs"
-  put 644 mtr-logs.service "$staging/etc/systemd/system/mtr-logs.service"
-  put 644 mtr-logs.timer "$staging/etc/systemd/system/mtr-logs.timer"
+  put 644 mtr-logs.service "$units/mtr-logs.service"
+  put 644 mtr-logs.timer "$units/mtr-logs.timer"
   # Of earlier installations; it never removed what an ended run had left.
   rm -f "$staging/etc/logrotate.d/mtr-robot"
   # The person's own settings outlive an upgrade.
@@ -183,6 +190,25 @@ enable_service() {
   systemctl enable --quiet mtr-robot
   systemctl enable --quiet --now mtr-logs.timer
   systemctl restart chrony
+}
+
+# Another value of a setting of the person's own.
+set_setting() {
+  local file=$staging/etc/mtr/robot.env
+  grep -q "^$1=" "$file" || echo "$1=" >>"$file"
+  sed "s|^$1=.*|$1=$2|" "$file" >"$file.new"
+  mv -T "$file.new" "$file"
+}
+
+# A Jackal's own service would open the graph, command the wheels and describe another robot.
+base_by_us() {
+  set_setting MTR_LAUNCH jackal.launch
+  set_setting MTR_MASTER wait
+  [[ $staging ]] && return
+  if systemctl cat ros >/dev/null 2>&1; then systemctl disable --quiet --now ros; fi
+  systemctl daemon-reload
+  systemctl enable --quiet --now mtr-base
+  restart
 }
 
 # NetworkManager's file of the access point, in which alone the password stands: a command's arguments are seen by everyone. A name is
@@ -264,6 +290,12 @@ case $action in
     [[ $release ]] || fail "There is no former release to go back to."
     use "$release"
     restart
+    ;;
+  jackal)
+    [[ -f $prefix/jackal_base.launch ]] || fail "Install the software first: sudo setup/install-robot.sh"
+    base_by_us
+    echo "install-robot: mtr-base.service brings the base, jackal.launch the robot; back: systemctl disable --now mtr-base," \
+      "systemctl enable --now ros."
     ;;
   hotspot)
     ((${#words[@]} == 1 || ${#words[@]} == 2)) || fail "hotspot needs a name, and takes a password."

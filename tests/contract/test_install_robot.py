@@ -160,7 +160,7 @@ def test_rollback_takes_no_release_that_is_not_whole(upgraded):
 
 
 # Steps of an upgrade and of a rollback that change something, and one more that they have not.
-UPGRADE_STEPS, ROLLBACK_STEPS = 33, 9
+UPGRADE_STEPS, ROLLBACK_STEPS = 41, 9
 
 
 @pytest.mark.parametrize("step", range(1, UPGRADE_STEPS + 1))
@@ -239,3 +239,21 @@ def test_chrony_is_told_once_where_its_further_settings_are(robot, settings, is_
     robot.install("second")
     text = path.read_text(encoding="ascii")
     assert text.startswith(settings) and text.count("include /etc/chrony/conf.d/*.conf") == is_told
+
+
+def test_jackal_is_started_with_its_base_and_keeps_the_persons_other_settings(robot):
+    assert "Install the software first" in robot.run("jackal").stderr
+    robot.install("first")
+    settings = robot.disk / "etc" / "mtr" / "robot.env"
+    before = settings.read_text(encoding="utf-8").replace("bind_address:=127.0.0.1", "bind_address:=10.42.0.1")
+    # As an installation of before has it, which knew no master of others.
+    settings.write_text(before.replace("MTR_MASTER=own\n", ""), encoding="utf-8")
+    assert robot.run("jackal").returncode == 0
+    lines = settings.read_text(encoding="utf-8").splitlines()
+    assert {"MTR_LAUNCH=jackal.launch", "MTR_MASTER=wait", 'MTR_ARGUMENTS="bind_address:=10.42.0.1"'} <= set(lines)
+    assert len([line for line in lines if line.startswith("MTR_")]) == 4
+    for unit in ("mtr-robot.service", "mtr-base.service"):
+        assert (robot.disk / "etc/systemd/system" / f"{unit}.d" / "mtr-service.conf").is_file()
+        assert (robot.disk / "etc/systemd/system" / unit).is_file()
+    again = settings.read_text(encoding="utf-8")
+    assert robot.run("jackal").returncode == 0 and settings.read_text(encoding="utf-8") == again

@@ -12,6 +12,9 @@ import pytest
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 UNIT = TOP / "setup" / "robot" / "mtr-robot.service"
+BASE = UNIT.with_name("mtr-base.service")
+# Both have it.
+COMMON = UNIT.with_name("mtr-service.conf")
 BOUND = pathlib.Path(__file__).with_name("address_families.py")
 # What the unit must say at least, see systemd.exec(5); an empty value takes everything away.
 MUST = {
@@ -23,10 +26,10 @@ MUST = {
     "TasksMax": "512", "Restart": "always"}
 
 
-def settings():
+def settings(unit=UNIT):
     """Lines of the section Service, by their names; a name that is there twice has all its values."""
     found, section = {}, ""
-    for line in UNIT.read_text(encoding="utf-8").splitlines():
+    for line in (unit.read_text(encoding="utf-8") + COMMON.read_text(encoding="utf-8")).splitlines():
         if line.startswith("["):
             section = line
         elif section == "[Service]" and line and not line.startswith("#"):
@@ -35,9 +38,19 @@ def settings():
     return found
 
 
+@pytest.mark.parametrize("unit", [UNIT, BASE], ids=lambda unit: unit.stem)
 @pytest.mark.parametrize("name", MUST)
-def test_service_keeps_its_bound(name):
-    assert settings().get(name) == [MUST[name]]
+def test_service_keeps_its_bound(name, unit):
+    assert settings(unit).get(name) == [MUST[name]]
+
+
+def test_robot_and_base_start_by_the_same_program_and_the_robot_anew_with_its_master():
+    assert settings(BASE)["ExecStart"] == ["/opt/mtr/start base"]
+    lines = UNIT.read_text(encoding="utf-8").splitlines()
+    assert "PartOf=mtr-base.service" in lines
+    assert any(line.startswith("After=") and "mtr-base.service" in line for line in lines)
+    # Both open the serial line of the MCU.
+    assert "Conflicts=ros.service" in BASE.read_text(encoding="utf-8").splitlines()
 
 
 def test_service_reaches_serial_lines_and_the_game_controller_and_no_other_device():
