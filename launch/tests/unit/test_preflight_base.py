@@ -85,6 +85,14 @@ def test_robot_without_chrony_is_bad_and_a_simulation_is_not(output):
     assert clock_finding(output, False).is_bad and not clock_finding(output, True).is_bad
 
 
+def test_robot_whose_clock_is_the_source_of_its_own_wifi_is_right():
+    # chronyc 4.3 of a chronyd with `local stratum 10` and no source.
+    output = "7F7F0101,,10,1764115200.1,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,Normal\n"
+    found = clock_finding(output, False)
+    assert not found.is_bad
+    assert found.text == "It follows no other and is offered to the laptops, as in a Wi-Fi of the robot's own."
+
+
 @pytest.mark.parametrize("uri, environment, is_bad", [
     ("http://127.0.0.1:11311", {}, False), ("http://localhost:11311", {}, False),
     ("http://192.168.1.2:11311", {}, True), ("http://192.168.1.2:11311", {"ROS_IP": "192.168.1.9"}, False),

@@ -9,14 +9,16 @@ CLOCK, MASTER, MASTERS = "clock.synchronised", "ros.network", "ros.masters"
 # The laptop reads the robot's times beside those of the Car's bus; it estimates the offset itself, but a clock that is
 # being set moves it. Chrony on one Wi-Fi hop keeps a few ms.
 MAX_OFFSET_S = 0.02
-# Fields of `chronyc -c tracking`, by chronyc(1): name of the source, current offset in s, leap status.
-SOURCE, OFFSET, LEAP, FIELDS = 1, 4, 13, 14
+# Fields of `chronyc -c tracking`, by chronyc(1): reference, name of the source, current offset in s, leap status.
+REFERENCE, SOURCE, OFFSET, LEAP = 0, 1, 4, 13
+# Reference of a clock that is its own source (`local stratum` of chrony.conf).
+OWN_CLOCK = "7F7F0101"
 NOT_SYNCHRONISED = "Not synchronised"
 LOOPBACK = ("localhost", "127.0.0.1", "::1")
 
 
 class Tracking(NamedTuple):
-    """What chrony says of this computer's clock."""
+    """What chrony says of this computer's clock; the source is empty where it is the clock itself."""
 
     source: str
     offset_s: float
@@ -27,7 +29,8 @@ def tracking_in(text: str) -> Optional[Tracking]:
     """From the output of `chronyc -c tracking`; None when it is none, because chronyd does not run for one."""
     fields = text.strip().split(",")
     try:
-        return Tracking(fields[SOURCE], float(fields[OFFSET]), fields[LEAP] != NOT_SYNCHRONISED)
+        source = "" if fields[REFERENCE] == OWN_CLOCK else fields[SOURCE]
+        return Tracking(source, float(fields[OFFSET]), fields[LEAP] != NOT_SYNCHRONISED)
     except (IndexError, ValueError):
         return None
 
@@ -51,6 +54,9 @@ def clock_finding(output: Optional[str], is_simulated: bool) -> Finding:
     if not tracking.is_synchronised:
         return bad(CLOCK, "clock", f"Chrony follows no source, allowed is an offset of {limit_ms:.0f} ms to one: name "
                    "the laptop or an NTP server in /etc/chrony/chrony.conf.", None, limit_ms, unit="ms")
+    if not tracking.source:
+        return good(CLOCK, "clock", "It follows no other and is offered to the laptops, as in a Wi-Fi of the robot's "
+                    "own.")
     if abs(offset_ms) > limit_ms:
         return bad(CLOCK, "clock", f"It is {offset_ms:+.1f} ms off {tracking.source}, allowed is {limit_ms:.0f} ms: "
                    "wait until chrony has set it, or run `chronyc makestep` while the robot stands.",
