@@ -53,6 +53,11 @@ def test_robot_and_base_start_by_the_same_program_and_the_robot_anew_with_its_ma
     assert "Conflicts=ros.service" in BASE.read_text(encoding="utf-8").splitlines()
 
 
+def test_end_of_one_service_takes_no_folder_from_the_other():
+    # systemd removes a RuntimeDirectory at the end of each unit that names it; the folders of the others stay.
+    assert "RuntimeDirectory" not in settings()
+
+
 def test_service_reaches_serial_lines_and_the_game_controller_and_no_other_device():
     assert {value.split()[0] for value in settings()["DeviceAllow"]} == {"char-ttyACM", "char-ttyUSB", "char-input"}
 
