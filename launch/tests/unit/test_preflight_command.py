@@ -84,7 +84,7 @@ def test_findings_are_left_with_the_master_for_the_operator(monkeypatch):
     master = {}
     monkeypatch.setattr(command_line.rospy, "set_param", master.__setitem__)
     monkeypatch.setattr(command_line.clock, "steady_ns", lambda: 90_000_000_000)
-    command_line.tell_operator([good("a.b", "imu", "Fine."), bad("c.d", "disk", "Full.", 0.1, 1.0, unit="GB")])
+    command_line.leave(names.PREFLIGHT_REPORT, [good("a.b", "imu", "Fine."), bad("c.d", "disk", "Full.", 0.1, 1.0, unit="GB")])
     report = report_in(master[names.PREFLIGHT_REPORT])
     assert report.made_s == pytest.approx(90.0) and (report.checks, report.bad) == (2, 1)
     assert report.items == (("disk", True, "Full."), ("imu", False, "Fine."))
@@ -94,5 +94,58 @@ def test_master_that_does_not_take_them_is_a_sentence(monkeypatch, capsys):
     def refuse(*_):
         raise ConnectionRefusedError("gone")
     monkeypatch.setattr(command_line.rospy, "set_param", refuse)
-    command_line.tell_operator([])
+    command_line.leave(names.PREFLIGHT_REPORT, [])
     assert capsys.readouterr().err.startswith("The Operator's application will not show this")
+
+
+class Heard:
+    """Of a robot that stands and says nothing wrong."""
+
+    names = {}
+
+    def record(self, _):
+        return None
+
+
+@pytest.fixture
+def preflight(monkeypatch):
+    """preflight(*options, in_motion=...) looks at a robot beside one master; the report that the Operator reads."""
+    master, now_s = {}, [1000.0]
+    monkeypatch.setattr(command_line.rospy, "set_param", master.__setitem__)
+    monkeypatch.setattr(command_line.rospy, "get_param", master.get)
+    monkeypatch.setattr(command_line.rospy, "init_node", lambda *_, **__: None)
+    monkeypatch.setattr(command_line.clock, "steady_ns", lambda: round(1e9 * now_s[0]))
+    monkeypatch.setattr(command_line.time, "sleep", lambda _: None)
+    for name, made in {"master_answers": lambda: True, "setup_of_robot": Setup, "computer_findings": list,
+                       "described_robot": lambda: None, "Listener": Heard, "standing_findings": list}.items():
+        monkeypatch.setattr(command_line, name, lambda *_, made=made: made())
+
+    def run(*options, in_motion=(), later_s=60.0):
+        now_s[0] += later_s
+        monkeypatch.setattr(command_line, "motion_findings", lambda *_: list(in_motion))
+        status = command_line.main(list(options))
+        report = report_in(master[names.PREFLIGHT_REPORT])
+        assert status == int(report.bad > 0)
+        return report
+    return run
+
+
+SWAPPED = bad("motion.swap", "/front/scan", "The LiDARs are swapped.")
+
+
+def test_what_was_found_in_motion_stays_red_until_somebody_drives_again(preflight):
+    assert preflight("--drive", in_motion=[SWAPPED]).bad == 1
+    standing = preflight(later_s=300.0)
+    assert standing.bad == 1
+    assert standing.items[0] == ("/front/scan", True, "The LiDARs are swapped. (In motion, 5 min ago.)")
+    assert preflight("--drive", in_motion=[good("motion.swap", "/front/scan", "It is ahead.")]).bad == 0
+    assert preflight(later_s=7200.0).items == (("/front/scan", False, "It is ahead. (In motion, 2 h ago.)"),)
+
+
+def test_robot_that_was_never_compared_in_motion_says_so_and_is_good(preflight):
+    assert preflight().items == (("motion", False, "Nothing was compared in motion yet; preflight --drive does it."),)
+
+
+def test_motion_of_another_run_of_a_simulated_clock_does_not_count(preflight):
+    preflight("--drive", in_motion=[SWAPPED], later_s=9000.0)
+    assert preflight(later_s=-9500.0).bad == 0

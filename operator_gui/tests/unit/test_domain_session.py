@@ -12,7 +12,7 @@ from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.requests import Direction
-from mtr_operator.domain.robot_status import Interventions, Notification
+from mtr_operator.domain.robot_status import Interventions, Notification, PreflightItem, PreflightReport
 
 AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
 
@@ -119,6 +119,32 @@ def test_robot_that_is_given_free_in_time_is_prepared(session, spoil):
     spoil(lambda status: status.stamp_s < 5.0, controlled_by_other=True)
     prepare(session, Robot(session), Car(session), 1.0, 1.0)
     assert session.now_s > 5.0
+
+
+FULL = PreflightReport(1.0, (PreflightItem("disk", True, "Full."),), 2, 1)
+FINE = PreflightReport(1.0, (PreflightItem("disk", False, "Free."),), 2, 0)
+
+
+def told(report, every=10):
+    """What becomes of a Status of a robot that tells this preflight, in every tenth Status."""
+    return lambda status: replace(status, steady_s=100.0 + status.stamp_s,
+                                  preflight=None if status.id % every else report)
+
+
+def test_no_test_begins_on_a_robot_whose_preflight_found_something_wrong(session, robot_link, world):
+    world.spoil = told(FULL)
+    with pytest.raises(RobotFailed, match=r"^No test begins, because the robot's preflight found: disk: Full\. Mend"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
+
+
+@pytest.mark.parametrize("spoiled", [
+    told(FINE), told(PreflightReport()), told(replace(FULL, made_s=1e6)), told(FULL, every=10**6)],
+    ids=["nothing is wrong", "none was made", "of another run", "a robot of before does not tell"])
+def test_test_begins_where_no_preflight_of_this_run_is_known_to_be_bad(session, world, spoiled):
+    world.spoil = spoiled
+    prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert session.desired.key_height_m == 1.0
 
 
 @pytest.mark.parametrize(("changes", "part"), [

@@ -24,13 +24,14 @@ from mtr_core.lockstep import clock
 from mtr_description.robot_description import described_robot
 from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_base
-from mtr_dispatcher.preflight_report import PreflightItem, parameter_of, report_of
+from mtr_dispatcher.preflight_report import PreflightItem, parameter_of, report_in, report_of
 
 from ..graph_watch.environment import join_on_loopback
 from .clocks import clock_finding, masters_finding, network_findings
 from .expected import Setup
 from .finding import NEEDS_MORE, Finding, bad, exit_code
 from .frames import DESCRIPTION, lidar_mounts
+from .kept_motion import findings_kept
 from .listening import Listener, setup_of_robot
 from .machine import Machine, machine_findings
 from .motion.judge import MotionJudge, is_finished
@@ -59,7 +60,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     findings += robot_findings(options)
     bad_count = sum(finding.is_bad for finding in findings)
     print(f"{len(findings)} checks, {bad_count} BAD.")
-    tell_operator(findings)
+    leave(names.PREFLIGHT_REPORT, findings)
     return exit_code(findings) if saved(findings, options.json) else CANNOT_CHECK
 
 
@@ -131,7 +132,12 @@ def robot_findings(options: argparse.Namespace) -> List[Finding]:
     time.sleep(options.seconds)
     record = listener.record(setup.base_parameters)
     found += shown(named(standing_findings(record, setup, geometry, shipped_base()), listener))
-    return found + (shown(named(motion_findings(listener, geometry, setup), listener)) if options.drive else [])
+    if not options.drive:
+        kept = report_in(rospy.get_param(names.PREFLIGHT_MOTION, None))
+        return found + shown(findings_kept(kept, clock.steady_ns() * NS))
+    moved = shown(named(motion_findings(listener, geometry, setup), listener))
+    leave(names.PREFLIGHT_MOTION, moved)
+    return found + moved
 
 
 def named(findings: List[Finding], listener: Listener) -> List[Finding]:
@@ -162,11 +168,12 @@ def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup
     return found
 
 
-def tell_operator(findings: List[Finding]) -> None:
-    """Leave them with the ROS master, where the dispatcher finds them for the application until the master ends."""
+def leave(parameter: str, findings: List[Finding]) -> None:
+    """Leave them with the ROS master until it ends: for the dispatcher, which tells the application, and for the next
+    preflight."""
     items = tuple(PreflightItem(finding.subject, finding.is_bad, finding.text) for finding in findings)
     try:
-        rospy.set_param(names.PREFLIGHT_REPORT, parameter_of(report_of(clock.steady_ns() * NS, items)))
+        rospy.set_param(parameter, parameter_of(report_of(clock.steady_ns() * NS, items)))
     except (OSError, rospy.ROSException) as error:
         print(f"The Operator's application will not show this: the ROS master does not take it ({error}).",
               file=sys.stderr)

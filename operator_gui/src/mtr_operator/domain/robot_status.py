@@ -185,6 +185,11 @@ class PreflightItem:
     is_bad: bool
     sentence: str
 
+    @property
+    def text(self) -> str:
+        """The sentence with what was looked at."""
+        return f"{self.name}: {self.sentence}"
+
 
 @dataclass(frozen=True)
 class PreflightReport:
@@ -202,6 +207,15 @@ class PreflightReport:
     def was_made_before(self, steady_s: float) -> bool:
         """False before one was made, and for one of another run of a simulated clock."""
         return not math.isnan(self.made_s) and not self.made_s > steady_s + _PREFLIGHT_SLACK_S
+
+    def hinders(self, steady_s: float) -> bool:
+        """True when no test may begin: something is wrong with the robot as it runs."""
+        return self.bad > 0 and self.was_made_before(steady_s)
+
+    @property
+    def first_bad(self) -> str:
+        """The first sentence of what is wrong, with what was looked at; empty when nothing is."""
+        return next((item.text for item in self.items if item.is_bad), "")
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ import threading
 from dataclasses import dataclass, replace
 from typing import Callable
 
+from mtr_operator.domain.actions.kept_preflight import KeptPreflight
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.robot_status import Problem, RobotStatus
 
-from .checks.kept_preflight import KeptPreflight
 from .events import RobotSnapshot, StationEvent
 from .trail import Passing, Places, thinned
 

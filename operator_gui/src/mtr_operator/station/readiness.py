@@ -9,7 +9,6 @@ from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Mode, RobotStatus, WaypointResult
 
-from .checks.preflight_check import first_bad
 from .events import RobotSnapshot
 from .motion import Motion, is_driving
 
@@ -172,9 +171,9 @@ def _robot_reasons(status: RobotStatus) -> list[Reason]:
 def _preflight_reasons(robot: RobotSnapshot, phase: Phase) -> list[Reason]:
     """A test that runs goes on: somebody looks at the robot meanwhile."""
     report = robot.preflight
-    if phase in RUNNING or report is None or not report.bad or not report.was_made_before(robot.status.steady_s):
+    if phase in RUNNING or report is None or not report.hinders(robot.status.steady_s):
         return []
-    return [Reason(Cause.PREFLIGHT_BAD, True, first_bad(report))]
+    return [Reason(Cause.PREFLIGHT_BAD, True, report.first_bad)]
 
 
 def _car_reasons(robot: RobotSnapshot) -> list[Reason]:

@@ -23,6 +23,8 @@ ROBOT_FRAMES = "/robot_frames"
 LIDAR_TURN_RATE = "/robot_lidar/turn_rate_hz"
 # Of the robot: what the last preflight of this run of the ROS master found, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
+# What the last preflight with --drive found in motion, for those without.
+PREFLIGHT_MOTION = "/preflight_motion"
 
 # Sensors and wheels, as on a Jackal
 FRONT_SCAN = "/front/scan"

@@ -20,7 +20,8 @@ from ..results.course import Course
 from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
 from ..results.refusals import NOTHING, Refusals
-from ..robot_status import CarDimensions, RobotStatus
+from ..robot_status import CarDimensions, PreflightReport, RobotStatus
+from .kept_preflight import KeptPreflight
 from .observer import RunObserver
 from .pose_history import STANDING_MPS, PoseHistory
 from .skipping import Skipping
@@ -96,6 +97,12 @@ class ControlLoop:
         self._watched = False
         self._check_line: Callable[[RobotStatus], None] = lambda status: None
         self._was_in_control = False
+        self._preflight = KeptPreflight()
+
+    @property
+    def preflight(self) -> PreflightReport | None:
+        """The robot's newest preflight; None while it has told nothing of it."""
+        return self._preflight.report
 
     @property
     def status(self) -> RobotStatus:
@@ -194,6 +201,7 @@ class ControlLoop:
             self.poses.clear()
             self.reported = []
         self.poses.add(status)
+        self._preflight.learn(status)
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
         events = self._car_link.observe(status)

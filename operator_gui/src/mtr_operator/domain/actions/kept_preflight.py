@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.robot_status import PreflightReport, RobotStatus
+from ..robot_status import PreflightReport, RobotStatus
 
 
 class KeptPreflight:

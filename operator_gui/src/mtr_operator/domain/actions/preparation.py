@@ -16,6 +16,8 @@ START_LIMIT_S = 60.0
 MAPPING_LIMIT_S = 600.0
 # A robot gives a silent application up after 3 s, and lets the next one take over.
 CONTROL_LIMIT_S = 10.0
+# A robot tells of its preflight once a second; one of before never does.
+PREFLIGHT_LIMIT_S = 3.0
 # The first waypoint makes the robot map the Car; before that nobody knows how long the Car is, so it lies well ahead.
 _AHEAD_OF_CAR = Ray(0.0, 0.0, 1.0, 0.0)
 _AHEAD_M = 5.0
@@ -27,6 +29,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _wait_until(loop, START_LIMIT_S, "did not start", _has_started)
     car.prepare()
     _wait_for_control(loop)
+    _refuse_after_bad_preflight(loop)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)
@@ -70,6 +73,16 @@ def _wait_for_control(loop: ControlLoop) -> None:
         if loop.now_s >= until_s:
             raise RobotFailed("The robot is controlled by another application; end that one, then start again.")
         loop.step()
+
+
+def _refuse_after_bad_preflight(loop: ControlLoop) -> None:
+    until_s = loop.now_s + PREFLIGHT_LIMIT_S
+    while loop.preflight is None and loop.now_s < until_s:
+        loop.step()
+    report = loop.preflight
+    if report is not None and report.hinders(loop.status.steady_s):
+        raise RobotFailed(f"No test begins, because the robot's preflight found: {report.first_bad} Mend it, then run "
+                          "`rosrun mtr_bringup preflight` on the robot again.")
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:

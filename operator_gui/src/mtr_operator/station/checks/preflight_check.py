@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from mtr_operator.domain.robot_status import PreflightItem, PreflightReport
-
 from ..events import RobotSnapshot
 from .finding import Check, Finding, Item, State
 
@@ -19,19 +17,11 @@ def preflight(robot: RobotSnapshot) -> Item:
     if not report.was_made_before(steady_s):
         return Item(Check.PREFLIGHT, State.UNKNOWN, Finding.PREFLIGHT_NEVER)
     age_s = max(steady_s - report.made_s, 0.0)
-    parts = tuple((State.BAD if item.is_bad else State.GOOD, _sentence(item)) for item in report.items)
+    parts = tuple((State.BAD if item.is_bad else State.GOOD, item.text) for item in report.items)
     if report.bad:
-        return Item(Check.PREFLIGHT, State.BAD, Finding.PREFLIGHT_BAD, first_bad(report),
+        return Item(Check.PREFLIGHT, State.BAD, Finding.PREFLIGHT_BAD, report.first_bad,
                     (report.bad, report.checks, age_s), parts)
     state, finding = ((State.NOTE, Finding.PREFLIGHT_OLD) if age_s > OLD_AFTER_S
                       else (State.GOOD, Finding.PREFLIGHT_FINE))
     return Item(Check.PREFLIGHT, state, finding, numbers=(report.checks, report.checks, age_s), parts=parts)
 
-
-def first_bad(report: PreflightReport) -> str:
-    """The first sentence of what is wrong, with what was looked at; empty when nothing is."""
-    return next((_sentence(item) for item in report.items if item.is_bad), "")
-
-
-def _sentence(item: PreflightItem) -> str:
-    return f"{item.name}: {item.sentence}"
