@@ -9,8 +9,9 @@ import rospy
 import rostest
 from case import case
 from geometry_msgs.msg import Twist
+from rosgraph_msgs.msg import Log
 from scripted_sensors import BEAMS, open_ground
-from scripted_time import NS, Listener, ScriptedTime, Speaker
+from scripted_time import NS, Listener, ScriptedTime, Speaker, wait_for
 
 from mtr_core import names, schedule
 from mtr_msgs.msg import DriveStatus, MotionLock, VelocityCommand
@@ -24,6 +25,10 @@ FROZEN_SEEN_S = 0.7
 # From any permitted velocity, see mtr_drive_control/parameters.hpp.
 STANDSTILL_WITHIN_S = 0.5
 TICK_S = 0.02
+# Where a person stands who walks up and down before the robot, one step of 10 cm each half second, and half its width.
+STEPS_M = (0.2, 0.3, 0.4, 0.5, 0.6, 0.5, 0.4, 0.3)
+STEP_S = 0.5
+PERSON_RAD = 0.3
 
 
 class DriveControl(unittest.TestCase):
@@ -188,6 +193,25 @@ class DriveControl(unittest.TestCase):
         self.front.message.ranges = [math.inf] * BEAMS
         gone_on_s = self.time.advance_until(lambda: not self.is_standing(), within_s=2.0)
         self.assertGreater(gone_on_s, 0.9)
+
+    def test_person_who_walks_up_and_down_before_the_robot_is_one_line_of_the_log(self):
+        said, sentences = [], set()
+        log = rospy.Subscriber("/rosout", Log, lambda line: said.append((line.level, line.msg)), queue_size=100)
+        # This process' own log is one of the two.
+        wait_for(lambda: log.get_num_connections() > 1, "drive control's log")
+        angles = [self.front.message.angle_min + beam * self.front.message.angle_increment for beam in range(BEAMS)]
+        for ahead_m in 3 * STEPS_M:
+            self.front.message.ranges = [ahead_m if abs(angle) < PERSON_RAD else math.inf for angle in angles]
+            self.time.advance_for(STEP_S)
+            sentences.add(self.status().message)
+        self.assertGreaterEqual(len(sentences), len(set(STEPS_M)) - 1, "the status has each distance")
+        self.dispatcher.message.engaged, self.dispatcher.message.reason = True, "The Operator stopped the robot."
+        self.time.advance_until(lambda: self.status().source == "locked", within_s=ONE_TICK_S + TICK_S)
+        wait_for(lambda: any("Operator" in text for _, text in said), "the lock in the log")
+        log.unregister()
+        blocked = [level for level, text in said if "Blocked by an obstacle" in text]
+        self.assertEqual(blocked, [Log.WARN], said)
+        self.assertLessEqual(len(said), 3, said)
 
     def test_velocity_that_is_no_number_stops_the_robot_and_never_reaches_the_wheels(self):
         self.planner.message = VelocityCommand(linear_mps=math.nan, angular_radps=math.inf, active=True)
