@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
+import re
 import signal
 import subprocess
 
@@ -9,8 +10,13 @@ import pytest
 
 from mtr_bringup.demo import read_rows
 from mtr_bringup.stack import Stack, StackOptions
+from mtr_proto import robot_link_pb2
 
 PARAMETERS = pathlib.Path(__file__).parent / "parameters"
+# A log's line that an Operator or a service has to look at.
+WARNING = re.compile(r"\[ *(WARN|ERROR|FATAL)\]")
+# Simulated time, which begins at 1 s. What is missing for 5 s after the start is a warning.
+STARTED_S = 8.0
 MOVING_MPS = 0.2
 STANDING_MPS = 0.02
 
@@ -32,6 +38,14 @@ def stands(status):
 
 def said(status, code):
     return code in {notification.code for notification in status.notifications}
+
+
+def test_clean_start_says_nothing_that_looks_like_a_fault(stack, observer):
+    ready = robot_link_pb2.MODE_READY_TO_MAP_CAR
+    observer.wait_for(lambda status: status.sent_time_s > STARTED_S and status.mode == ready)
+    log = stack.log.read_text(encoding="utf-8", errors="replace")
+    assert "READY_TO_MAP_CAR" in log
+    assert [line for line in log.splitlines() if WARNING.search(line) or "Traceback" in line] == []
 
 
 def test_killed_application_stops_the_robot_and_the_test_can_be_continued(application, observer, out):

@@ -20,7 +20,7 @@ namespace names = mtr_core::names;
 constexpr double kPeriodS = static_cast<double>(mtr_core::kDriveControl.period_ns) * 1e-9;
 // A scan bears its first beam's time and comes when the sweep has ended, before the clock.
 constexpr std::int64_t kScanLagNs = mtr_core::kLidar.period_ns;
-// As in mtr_core/quiet_start.py.
+// As in mtr_core/quiet_log.py.
 constexpr std::int64_t kQuietStartNs = 5 * mtr_core::kSecondNs;
 // What is published last may be lost with the process.
 constexpr int kZerosBeforeLeaving = 5;
