@@ -1,5 +1,7 @@
 """How fast a recording is played: never faster than the nodes follow, and on without those that are silent."""
 # SPDX-License-Identifier: Apache-2.0
+import math
+
 import pytest
 import rosbag
 import rospy
@@ -7,8 +9,11 @@ from std_msgs.msg import Header
 
 from mtr_bringup.recording.command_line import play
 from mtr_bringup.recording.pace import Follower, Pace
-from mtr_bringup.recording.player import LATE_LIMIT_S, Played, in_time, opened_bags, recorded
+from mtr_bringup.recording.player import CLOCK_STEP_S, FOLLOWERS, LATE_LIMIT_S, Played, in_time, opened_bags, recorded
 from mtr_bringup.recording.profiles import CannotReplay
+from mtr_core import names
+from mtr_core.liveness import NS
+from mtr_core.schedule import CAR_LOCATOR, STATE_MACHINE
 
 PATIENCE_S = 10.0
 
@@ -46,6 +51,24 @@ def test_silent_node_is_given_up_and_counts_again_when_it_speaks(pace):
     assert pace.waited_s == {"/car": 10.0}
     pace.answered("/car", 100.5)
     assert pace.behind(101.0) == "/car"
+
+
+@pytest.mark.parametrize("phase_s", [0.0, 0.02, 0.06, 0.09])
+@pytest.mark.parametrize("topic, slot", [(names.CAR_ESTIMATE, CAR_LOCATOR), (names.ROBOT_MODE, STATE_MACHINE)])
+def test_node_that_is_as_late_as_it_can_be_never_waits_for_a_player_that_waits_for_it(topic, slot, phase_s):
+    (follower,) = (each for each in FOLLOWERS.values() if each.topic == topic)
+    pace, period_s = Pace([follower], PATIENCE_S), slot.period_ns * NS
+    tick_s = phase_s + period_s
+    pace.begin(phase_s)
+    pace.answered(topic, phase_s)
+    for step in range(1000):
+        clock_s = phase_s + step * CLOCK_STEP_S
+        while pace.behind(clock_s):
+            # The machine lets the node go on only now; as lockstep/ticker.py does, it leaves out a tick of long ago.
+            assert tick_s <= clock_s, "both wait"
+            if clock_s - tick_s < period_s:
+                pace.answered(topic, tick_s)
+            tick_s += period_s * math.ceil((clock_s - tick_s) / period_s + 1e-9)
 
 
 def bag_of(path, *times_s):

@@ -14,7 +14,9 @@ class Follower:
 
     Attributes:
         topic: where its answers appear.
-        lag_s: how much older than what is played its newest answer may be, in recorded time; longer than its period.
+        lag_s: how much older than what is played its newest answer may be, in recorded time; longer than its period,
+            and of a node with ticks less than two: it leaves out a tick for which it is a period late, and then waits
+            for a clock that waits for its answer.
         answers: topic whose stamps it answers one by one; empty when it speaks at its own ticks of the recorded clock.
     """
 

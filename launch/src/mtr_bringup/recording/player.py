@@ -19,15 +19,20 @@ import rospy
 from rosgraph_msgs.msg import Clock
 
 from mtr_core import names
+from mtr_core.liveness import NS
+from mtr_core.schedule import CAR_LOCATOR, STATE_MACHINE
 from mtr_msgs.msg import CarEstimate, LocalizedPose, RobotMode
 
 from .listening import is_listening
 from .pace import Follower, Pace
 from .profiles import REPLAYED, CannotReplay
 
-# Localization answers each odometry message; the other two speak ten times a second.
+# Between one and two, see Follower.
+LAG_PERIODS = 1.5
+# Localization answers each odometry message; the other two speak at their ticks.
 FOLLOWERS = {LocalizedPose: Follower(names.LOCALIZED_POSE, 0.1, names.WHEEL_ODOMETRY),
-             CarEstimate: Follower(names.CAR_ESTIMATE, 0.3), RobotMode: Follower(names.ROBOT_MODE, 0.3)}
+             CarEstimate: Follower(names.CAR_ESTIMATE, LAG_PERIODS * CAR_LOCATOR.period_ns * NS),
+             RobotMode: Follower(names.ROBOT_MODE, LAG_PERIODS * STATE_MACHINE.period_ns * NS)}
 LISTENERS = ("/localization", "/car_locator", "/state_machine")
 # Steady time after which a silent node is left behind, and within which all of them have to have started.
 PATIENCE_S, START_LIMIT_S = 10.0, 60.0
@@ -79,7 +84,8 @@ class Player:
 
     def _run(self, bags: List[rosbag.Bag]) -> str:
         begin_s = clock_s = min(bag.get_start_time() for bag in bags) - LEAD_S
-        self._pace.begin(begin_s)
+        # A node that hears the clock late in the lead has no tick left in a lag; it begins with the next one.
+        self._pace.begin(begin_s + LEAD_S)
         started_s = time.monotonic()
         for played in in_time(recorded(bags, list(self._topics)), rospy.get_param(RECORDED_IN_LOCKSTEP, False)):
             while clock_s < played.time_s and not rospy.is_shutdown():
