@@ -78,10 +78,20 @@ def test_status_word_is_not_cut_by_its_frame(operator, word, state):
     assert inside.width() >= status.fontMetrics().horizontalAdvance(status.text())
 
 
+@pytest.fixture
+def robot_of_before(opener):
+    """It says nothing of a preflight from its first word on."""
+    opener.spoil_with(preflight=None)
+
+
+def test_robot_that_says_nothing_of_a_preflight_is_told(robot_of_before, operator):
+    operator.wait(lambda: "Ready" in operator.window.header.status.text())
+    assert "? Preflight The robot does not say whether one was made." in shown(operator)
+
+
 def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):
     status = operator.window.header.status
     operator.wait(lambda: "Ready" in status.text())
-    assert "? Preflight The robot does not say whether one was made." in shown(operator)
     opener.spoil_with(preflight=PreflightReport(), steady_s=500.0)
     operator.wait(lambda: "? Preflight Never made since the robot was started." in shown(operator))
     assert not status.preflight.isVisibleTo(status.popup)

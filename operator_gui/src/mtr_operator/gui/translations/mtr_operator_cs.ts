@@ -6829,6 +6829,11 @@
         <source>Car profile {} has a text of more than {} characters.</source>
         <translation>Profil auta {} obsahuje text delší než {} znaků.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>No test begins, because the robot&apos;s preflight found: {} Mend it, then run `rosrun mtr_bringup preflight` on the robot again.</source>
+        <translation>Zkouška nezačne, protože kontrola robotu zjistila: {} Odstraňte to a pak na robotu znovu spusťte `rosrun mtr_bringup preflight`.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
