@@ -168,6 +168,7 @@ install_files() {
   put 755 tidy_logs "$prefix/tidy_logs"
   put 644 mtr-logs.service "$units/mtr-logs.service"
   put 644 mtr-logs.timer "$units/mtr-logs.timer"
+  put 644 mtr.slice "$units/mtr.slice"
   # Of earlier installations; it never removed what an ended run had left.
   rm -f "$staging/etc/logrotate.d/mtr-robot"
   # The person's own settings outlive an upgrade.

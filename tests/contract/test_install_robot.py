@@ -160,7 +160,7 @@ def test_rollback_takes_no_release_that_is_not_whole(upgraded):
 
 
 # Steps of an upgrade and of a rollback that change something, and one more that they have not.
-UPGRADE_STEPS, ROLLBACK_STEPS = 41, 9
+UPGRADE_STEPS, ROLLBACK_STEPS = 43, 9
 
 
 @pytest.mark.parametrize("step", range(1, UPGRADE_STEPS + 1))
@@ -255,5 +255,6 @@ def test_jackal_is_started_with_its_base_and_keeps_the_persons_other_settings(ro
     for unit in ("mtr-robot.service", "mtr-base.service"):
         assert (robot.disk / "etc/systemd/system" / f"{unit}.d" / "mtr-service.conf").is_file()
         assert (robot.disk / "etc/systemd/system" / unit).is_file()
+    assert (robot.disk / "etc/systemd/system/mtr.slice").is_file()
     again = settings.read_text(encoding="utf-8")
     assert robot.run("jackal").returncode == 0 and settings.read_text(encoding="utf-8") == again

@@ -53,6 +53,13 @@ def test_robot_and_base_start_by_the_same_program_and_the_robot_anew_with_its_ma
     assert "Conflicts=ros.service" in BASE.read_text(encoding="utf-8").splitlines()
 
 
+def test_robot_s_programs_come_before_others_as_a_group():
+    # Among sessions, of which each node has one, Linux does not look at Nice.
+    assert settings()["Slice"] == ["mtr.slice"]
+    lines = UNIT.with_name("mtr.slice").read_text(encoding="utf-8").splitlines()
+    assert lines.index("[Slice]") < lines.index("CPUWeight=1000")
+
+
 def test_end_of_one_service_takes_no_folder_from_the_other():
     # systemd removes a RuntimeDirectory at the end of each unit that names it; the folders of the others stay.
     assert "RuntimeDirectory" not in settings()
