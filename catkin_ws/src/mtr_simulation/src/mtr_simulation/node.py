@@ -64,6 +64,7 @@ class SimulatorNode:
         self._pace = Pace(parameters.real_time_factor, lambda: steady_ns() * 1e-9,
                           made_up_s=0.0 if is_simulated else MADE_UP_S)
         self._stamps = StampOffset(is_simulated, parameters.real_time_factor, lambda: self._pace.due_s, reading)
+        self._told_lost_s = math.inf if is_simulated else 0.0
         if not is_simulated and not take_precedence():
             rospy.logwarn("The simulator may not run before other programs: on a busy machine its world stands still "
                           "now and then, and wheels, gyro and LiDARs disagree. Start it as a user who may set "
@@ -149,10 +150,17 @@ class SimulatorNode:
         report = self._pace.report(time_ns * 1e-9)
         if report:
             rospy.loginfo("%s; %s.", report, self._barrier.longest_waits())
+            self._warn_of_lost_time()
         if self._world.contacts != self._contacts:
             for name in sorted(self._world.contacts - self._contacts):
                 rospy.logwarn("The robot touches %s at %.2f s.", name, time_ns * 1e-9)
             self._contacts = self._world.contacts
+
+    def _warn_of_lost_time(self) -> None:
+        if self._pace.lost_s > self._told_lost_s:
+            rospy.logwarn("The machine is too busy: the simulated world has stood still for %.2f s; of a turn meanwhile "
+                          "wheels, gyro and LiDARs tell different angles.", self._pace.lost_s - self._told_lost_s)
+            self._told_lost_s = self._pace.lost_s
 
 
 class Output:

@@ -74,6 +74,19 @@ def test_the_simulator_runs_before_other_programs_where_the_system_permits_it(mo
     assert not take_precedence()
 
 
+@pytest.mark.parametrize("leader, written", [(0, "-10"), (1, "")], ids=["own session", "another's session"])
+def test_the_simulator_s_own_session_comes_before_others(leader, written, monkeypatch, tmp_path):
+    group = tmp_path / "autogroup"
+    group.touch()
+    monkeypatch.setattr("mtr_simulation.clock.machine.AUTOGROUP", group)
+    monkeypatch.setattr("os.setpriority", lambda *values: None)
+    monkeypatch.setattr("os.getsid", lambda of: os.getpid() + leader)
+    assert take_precedence()
+    assert group.read_text(encoding="ascii") == written
+    monkeypatch.setattr("mtr_simulation.clock.machine.AUTOGROUP", tmp_path / "of no such kernel")
+    assert take_precedence()
+
+
 def test_scans_keep_their_age_when_all_stamps_are_moved():
     sim = Sim(1, named_scenario("open"))
     readings = [sim.step() for _ in range(4)]

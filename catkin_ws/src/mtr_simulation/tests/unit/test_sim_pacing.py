@@ -32,8 +32,9 @@ def test_pace_makes_up_for_so_much_lost_time_and_says_when_a_tick_was_due(clock)
     assert (pace.delay(1.0), pace.due_s) == (0.0, 1.0)
     assert (pace.delay(1.25), pace.due_s) == (0.0, 1.25)
     assert (pace.delay(1.5), pace.due_s) == (pytest.approx(0.2), 1.5)
+    assert pace.lost_s == 0.0
     clock.now_s = 10.0
-    assert (pace.delay(1.75), pace.due_s) == (0.0, 9.5)
+    assert (pace.delay(1.75), pace.due_s, pace.lost_s) == (0.0, 9.5, 7.75)
 
 
 def test_pace_reports_the_factor_each_30_s(clock):

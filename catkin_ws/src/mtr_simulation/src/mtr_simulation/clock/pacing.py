@@ -11,13 +11,14 @@ class Pace:
 
     Attributes:
         due_s: wall time at which the newest simulated time was due.
+        lost_s: wall time that the loop has lost so far and not made up for.
     """
 
     def __init__(self, factor: float, wall_clock: Callable[[], float] = time.monotonic, made_up_s: float = 0.0):
         """made_up_s: the loop makes up for so much lost wall time, and for no more."""
         self._factor, self._wall_clock, self._made_up_s = factor, wall_clock, made_up_s
         self._start = self._report = (0.0, 0.0)
-        self._newest_s = self.due_s = 0.0
+        self._newest_s = self.due_s = self.lost_s = 0.0
 
     def start(self, simulated_s: float) -> None:
         """Begin at this simulated time."""
@@ -30,6 +31,7 @@ class Pace:
         now = self._wall_clock()
         due_s = self.due_s + (simulated_s - self._newest_s) / self._factor
         self._newest_s, self.due_s = simulated_s, max(due_s, now - self._made_up_s)
+        self.lost_s += self.due_s - due_s
         return max(0.0, self.due_s - now)
 
     def report(self, simulated_s: float) -> Optional[str]:
