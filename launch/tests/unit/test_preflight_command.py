@@ -84,7 +84,8 @@ def test_findings_are_left_with_the_master_for_the_operator(monkeypatch):
     master = {}
     monkeypatch.setattr(command_line.rospy, "set_param", master.__setitem__)
     monkeypatch.setattr(command_line.clock, "steady_ns", lambda: 90_000_000_000)
-    command_line.leave(names.PREFLIGHT_REPORT, [good("a.b", "imu", "Fine."), bad("c.d", "disk", "Full.", 0.1, 1.0, unit="GB")])
+    findings = [good("a.b", "imu", "Fine."), bad("c.d", "disk", "Full.", 0.1, 1.0, unit="GB")]
+    command_line.leave(names.PREFLIGHT_REPORT, findings)
     report = report_in(master[names.PREFLIGHT_REPORT])
     assert report.made_s == pytest.approx(90.0) and (report.checks, report.bad) == (2, 1)
     assert report.items == (("disk", True, "Full."), ("imu", False, "Fine."))

@@ -20,7 +20,8 @@ def findings_kept(report: Optional[PreflightReport], now_s: float) -> List[Findi
     if report is None or report.made_s > now_s:
         return [good(MOTION, "motion", "Nothing was compared in motion yet; preflight --drive does it.")]
     ago = age_text(now_s - report.made_s)
-    return [Finding(MOTION, item.name, item.is_bad, f"{item.sentence} (In motion, {ago} ago.)") for item in report.items]
+    return [Finding(MOTION, item.name, item.is_bad, f"{item.sentence} (In motion, {ago} ago.)")
+            for item in report.items]
 
 
 def age_text(age_s: float) -> str:

@@ -96,8 +96,8 @@ class LocatorParameters(ParameterSet):
         blocked_limit_s: waited for an obstacle on the way round, before the robot goes round the other way.
         look_first_s: observation of the Car, standing, before the way round it is laid.
         look_limit_s: the Car has to be seen from the starting place by then.
-        map_limit_s: localization has to have adjusted its map by then; one that dies meanwhile is told at once. At a load
-            of 15 on two cores it took more than 15 s.
+        map_limit_s: localization has to have adjusted its map by then; one that dies meanwhile is told at once. At a
+            load of 15 on two cores it took more than 15 s.
         rear_lidar: the robot has one.
         time_increment_s: from beam to beam, where the scans do not say it; 0: all are measured at once.
         memory_folder: of the file with which a node that is started again in the same run goes on; empty for none.

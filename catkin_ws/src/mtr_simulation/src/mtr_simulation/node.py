@@ -158,8 +158,8 @@ class SimulatorNode:
 
     def _warn_of_lost_time(self) -> None:
         if self._pace.lost_s > self._told_lost_s:
-            rospy.logwarn("The machine is too busy: the simulated world has stood still for %.2f s; of a turn meanwhile "
-                          "wheels, gyro and LiDARs tell different angles.", self._pace.lost_s - self._told_lost_s)
+            rospy.logwarn("The machine is too busy: the simulated world has stood still for %.2f s; of a turn meanwhile"
+                          " wheels, gyro and LiDARs tell different angles.", self._pace.lost_s - self._told_lost_s)
             self._told_lost_s = self._pace.lost_s
 
 
