@@ -1,7 +1,5 @@
 """How fast a recording is played: never faster than the nodes follow, and on without those that are silent."""
 # SPDX-License-Identifier: Apache-2.0
-import math
-
 import pytest
 import rosbag
 import rospy
@@ -9,66 +7,68 @@ from std_msgs.msg import Header
 
 from mtr_bringup.recording.command_line import play
 from mtr_bringup.recording.pace import Follower, Pace
-from mtr_bringup.recording.player import CLOCK_STEP_S, FOLLOWERS, LATE_LIMIT_S, Played, in_time, opened_bags, recorded
+from mtr_bringup.recording.player import FOLLOWER, HOLDERS, LATE_LIMIT_S, Played, in_time, opened_bags, recorded
 from mtr_bringup.recording.profiles import CannotReplay
-from mtr_core import names
-from mtr_core.liveness import NS
-from mtr_core.schedule import CAR_LOCATOR, STATE_MACHINE
+from mtr_core.schedule import CAR_LOCATOR, SIMULATION_START_NS
 
 PATIENCE_S = 10.0
 
 
+def ns(time_s):
+    return round(time_s * 1e9)
+
+
 @pytest.fixture
 def pace():
-    """Of a node that answers odometry, and one that speaks ten times a second; the recording begins at 100 s."""
-    made = Pace([Follower("/pose", 0.1, "/odom"), Follower("/car", 0.3)], PATIENCE_S)
-    made.begin(100.0)
+    """Of a node that answers odometry, and one with ticks, the next of which is at 100.06 s."""
+    made = Pace(Follower("/pose", "/odom", ns(0.1)), ["/car_locator"], PATIENCE_S)
+    made.held("/car_locator", ns(100.06))
     return made
 
 
 def test_nobody_is_behind_before_anything_is_played(pace):
-    assert pace.behind(100.0) is None and pace.behind(100.29) is None
+    assert pace.behind(ns(100.0)) is None and pace.behind(ns(100.05)) is None
+
+
+def test_nobody_is_left_behind_before_it_has_said_its_first_tick():
+    assert Pace(Follower("/pose", "/odom", 0), ["/car_locator"], PATIENCE_S).behind(0) == "/car_locator"
 
 
 def test_node_that_answers_owes_what_was_played_and_not_the_clock(pace):
-    pace.answered("/car", 105.0)
-    assert pace.behind(105.0) is None
-    pace.played("/odom", 104.9)
-    assert pace.behind(105.0) == "/pose"
-    pace.answered("/pose", 104.81)
-    assert pace.behind(105.0) is None
+    pace.held("/car_locator", ns(200.0))
+    assert pace.behind(ns(105.0)) is None
+    pace.played("/odom", ns(104.9))
+    assert pace.behind(ns(105.0)) == "/pose"
+    pace.answered(ns(104.81))
+    assert pace.behind(ns(105.0)) is None
 
 
-def test_node_with_ticks_owes_the_clock(pace):
-    assert pace.behind(100.31) == "/car"
-    pace.answered("/car", 100.1)
-    assert pace.behind(100.39) is None and pace.behind(100.41) == "/car"
+def test_silent_node_is_left_behind_and_counts_again_when_it_speaks(pace):
+    assert not pace.has_waited("/car_locator", 6.0, 6.0) and pace.behind(ns(101.0)) == "/car_locator"
+    assert pace.has_waited("/car_locator", 4.0, 10.0) and pace.behind(ns(101.0)) is None
+    assert pace.waited_s == {"/car_locator": 10.0}
+    pace.held("/car_locator", ns(100.16))
+    assert pace.behind(ns(101.0)) == "/car_locator"
 
 
-def test_silent_node_is_given_up_and_counts_again_when_it_speaks(pace):
-    assert not pace.has_waited("/car", 6.0, 6.0) and pace.behind(101.0) == "/car"
-    assert pace.has_waited("/car", 4.0, 10.0) and pace.behind(101.0) is None
-    assert pace.waited_s == {"/car": 10.0}
-    pace.answered("/car", 100.5)
-    assert pace.behind(101.0) == "/car"
-
-
-@pytest.mark.parametrize("phase_s", [0.0, 0.02, 0.06, 0.09])
-@pytest.mark.parametrize("topic, slot", [(names.CAR_ESTIMATE, CAR_LOCATOR), (names.ROBOT_MODE, STATE_MACHINE)])
-def test_node_that_is_as_late_as_it_can_be_never_waits_for_a_player_that_waits_for_it(topic, slot, phase_s):
-    (follower,) = (each for each in FOLLOWERS.values() if each.topic == topic)
-    pace, period_s = Pace([follower], PATIENCE_S), slot.period_ns * NS
-    tick_s = phase_s + period_s
-    pace.begin(phase_s)
-    pace.answered(topic, phase_s)
-    for step in range(1000):
-        clock_s = phase_s + step * CLOCK_STEP_S
-        while pace.behind(clock_s):
-            # The machine lets the node go on only now; as lockstep/ticker.py does, it leaves out a tick of long ago.
-            assert tick_s <= clock_s, "both wait"
-            if clock_s - tick_s < period_s:
-                pace.answered(topic, tick_s)
-            tick_s += period_s * math.ceil((clock_s - tick_s) / period_s + 1e-9)
+@pytest.mark.parametrize("begin_s", [0.1, 1_700_000_000.123456])
+@pytest.mark.parametrize("step_s", [0.01, 0.0337, 0.3])
+def test_no_tick_is_left_out_however_late_a_node_is(begin_s, step_s):
+    pace, ticks, clock_ns = Pace(FOLLOWER, HOLDERS[:1], PATIENCE_S), [], ns(begin_s)
+    # As lockstep/ticker.py does it: before the first clock it waits for the start of the simulated one.
+    tick_ns = CAR_LOCATOR.next_after(SIMULATION_START_NS)
+    pace.held(HOLDERS[0], tick_ns)
+    for _ in range(1000):
+        while pace.behind(clock_ns):
+            # The machine lets the node go on only now.
+            assert tick_ns <= clock_ns, "both wait"
+            if clock_ns - tick_ns < CAR_LOCATOR.period_ns:
+                ticks.append(tick_ns)
+            tick_ns = CAR_LOCATOR.next_after(clock_ns)
+            pace.held(HOLDERS[0], tick_ns)
+        clock_ns = pace.next_ns(clock_ns, clock_ns + ns(step_s))
+    assert len(ticks) > 80
+    assert {after - before for before, after in zip(ticks, ticks[1:])} == {CAR_LOCATOR.period_ns}
 
 
 def bag_of(path, *times_s):

@@ -5,70 +5,81 @@ the machine made them decide.
 """
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
-from typing import Dict, List, Optional
+from typing import Dict, List, NamedTuple, Optional
 
 
-@dataclass(frozen=True)
-class Follower:
-    """A node that answers what is played.
+class Follower(NamedTuple):
+    """A node that answers messages one by one.
 
     Attributes:
         topic: where its answers appear.
-        lag_s: how much older than what is played its newest answer may be, in recorded time; longer than its period,
-            and of a node with ticks less than two: it leaves out a tick for which it is a period late, and then waits
-            for a clock that waits for its answer.
-        answers: topic whose stamps it answers one by one; empty when it speaks at its own ticks of the recorded clock.
+        answers: topic whose stamps it answers.
+        lag_ns: how much older than what is played its newest answer may be, in recorded time.
     """
 
     topic: str
-    lag_s: float
-    answers: str = ""
+    answers: str
+    lag_ns: int
 
 
 @dataclass
 class Pace:
-    """Who is behind, and for how long the player has waited. Times: recorded ones in s, steady ones of this machine.
+    """Who is behind, and for how long the player has waited. Times of the recording in ns, of this machine in s.
 
     Attributes:
-        waited_s: steady time that the player has waited for each topic.
+        follower: node that answers messages.
+        holders: nodes that work at ticks of the recorded clock and say their next one beforehand, which the clock does
+            not pass: one that is late leaves no tick out.
+        patience_s: a node that is silent for so long is left behind.
+        waited_s: for each topic or node.
     """
 
-    followers: List[Follower]
+    follower: Follower
+    holders: List[str]
     patience_s: float
     waited_s: Dict[str, float] = field(default_factory=dict)
-    _owed_s: Dict[str, float] = field(default_factory=dict)
-    _answered_s: Dict[str, float] = field(default_factory=dict)
-    _dropped: Dict[str, float] = field(default_factory=dict)
+    _owed_ns: Optional[int] = None
+    _answered_ns: int = 0
+    _held_ns: Dict[str, int] = field(default_factory=dict)
+    _left: Dict[str, float] = field(default_factory=dict)
 
-    def begin(self, clock_s: float) -> None:
-        """The recorded clock starts here; nobody owes an answer to what was before."""
-        self._answered_s = {follower.topic: clock_s for follower in self.followers}
-
-    def played(self, topic: str, stamp_s: float) -> None:
+    def played(self, topic: str, stamp_ns: int) -> None:
         """A message with this stamp has gone out."""
-        for follower in self.followers:
-            if follower.answers == topic:
-                self._owed_s[follower.topic] = stamp_s
+        if topic == self.follower.answers:
+            self._owed_ns = stamp_ns
 
-    def answered(self, topic: str, stamp_s: float) -> None:
-        """A follower has spoken; one that was given up counts again."""
-        self._answered_s[topic] = stamp_s
-        self._dropped.pop(topic, None)
+    def answered(self, stamp_ns: int) -> None:
+        """The follower has spoken; if it was left behind it counts again."""
+        self._answered_ns = stamp_ns
+        self._left.pop(self.follower.topic, None)
 
-    def behind(self, clock_s: float) -> Optional[str]:
-        """The topic of a follower that has to catch up before the recorded clock goes on, None when none has to."""
-        for follower in self.followers:
-            owed_s = self._owed_s.get(follower.topic) if follower.answers else clock_s
-            if owed_s is None or follower.topic in self._dropped:
-                continue
-            if self._answered_s[follower.topic] < owed_s - follower.lag_s:
-                return follower.topic
+    def held(self, node: str, tick_ns: int) -> None:
+        """A node works next at this tick; if it was left behind it counts again."""
+        self._held_ns[node] = tick_ns
+        self._left.pop(node, None)
+
+    def next_ns(self, clock_ns: int, until_ns: int) -> int:
+        """Where the clock stops on its way to until_ns: no tick lies between."""
+        return min([until_ns, *(tick_ns for tick_ns in self._held_ns.values() if tick_ns > clock_ns)])
+
+    def behind(self, clock_ns: int) -> Optional[str]:
+        """Topic or node that has to catch up before the clock may go on from this time, None when none has to."""
+        owed_ns = self._owed_ns
+        if owed_ns is not None and self._answered_ns < owed_ns - self.follower.lag_ns and self._counts(
+                self.follower.topic):
+            return self.follower.topic
+        for node in self.holders:
+            if self._held_ns.get(node, -1) <= clock_ns and self._counts(node):
+                return node
         return None
 
-    def has_waited(self, topic: str, waited_s: float, in_all_s: float) -> bool:
-        """Count waited_s; True when the follower has now been silent for in_all_s, too long, and is given up."""
-        self.waited_s[topic] = self.waited_s.get(topic, 0.0) + waited_s
+    def has_waited(self, name: str, waited_s: float, in_all_s: float) -> bool:
+        """Count waited_s; True when it has now been silent for in_all_s, too long, and is left behind."""
+        self.waited_s[name] = self.waited_s.get(name, 0.0) + waited_s
         if in_all_s < self.patience_s:
             return False
-        self._dropped[topic] = in_all_s
+        self._left[name] = in_all_s
         return True
+
+    def _counts(self, name: str) -> bool:
+        return name not in self._left

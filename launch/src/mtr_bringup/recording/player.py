@@ -17,28 +17,28 @@ import rosgraph
 import roslib.message
 import rospy
 from rosgraph_msgs.msg import Clock
+from std_msgs.msg import Header
 
 from mtr_core import names
 from mtr_core.liveness import NS
-from mtr_core.schedule import CAR_LOCATOR, STATE_MACHINE
-from mtr_msgs.msg import CarEstimate, LocalizedPose, RobotMode
+from mtr_core.lockstep.clock import stamp_of
+from mtr_core.schedule import MILLISECOND_NS
+from mtr_msgs.msg import LocalizedPose
 
 from .listening import is_listening
 from .pace import Follower, Pace
 from .profiles import REPLAYED, CannotReplay
 
-# Between one and two, see Follower.
-LAG_PERIODS = 1.5
-# Localization answers each odometry message; the other two speak at their ticks.
-FOLLOWERS = {LocalizedPose: Follower(names.LOCALIZED_POSE, 0.1, names.WHEEL_ODOMETRY),
-             CarEstimate: Follower(names.CAR_ESTIMATE, LAG_PERIODS * CAR_LOCATOR.period_ns * NS),
-             RobotMode: Follower(names.ROBOT_MODE, LAG_PERIODS * STATE_MACHINE.period_ns * NS)}
-LISTENERS = ("/localization", "/car_locator", "/state_machine")
-# Steady time after which a silent node is left behind, and within which all of them have to have started.
-PATIENCE_S, START_LIMIT_S = 10.0, 60.0
-CLOCK_STEP_S = 0.01
+# Localization answers each odometry message; the other two work at their ticks.
+FOLLOWER = Follower(names.LOCALIZED_POSE, names.WHEEL_ODOMETRY, 100 * MILLISECOND_NS)
+HOLDERS = ["/car_locator", "/state_machine"]
+LISTENERS = ("/localization", *HOLDERS)
+# Steady time after which a silent node is left behind, and within which all of them have to have started. On a busy
+# machine a map takes half a minute.
+PATIENCE_S, START_LIMIT_S = 60.0, 60.0
+CLOCK_STEP_NS = 10 * MILLISECOND_NS
 # Recorded time before the first message, in which the nodes' ticks begin.
-LEAD_S = 1.0
+LEAD_NS = 1000 * MILLISECOND_NS
 QUEUE = 100
 # Written by the recorder beside the bag: its clock did not wait for it.
 RECORDED_IN_LOCKSTEP = "/recorded_in_lockstep"
@@ -64,12 +64,14 @@ class Player:
     def __init__(self, bags: Sequence[pathlib.Path], rate: float, recorder: Optional[str] = None):
         self._bags, self._rate, self.recorder = bags, rate, recorder
         self._topics = {rospy.resolve_name(name): name for name in REPLAYED}
-        self._pace = Pace(list(FOLLOWERS.values()), PATIENCE_S)
+        self._pace = Pace(FOLLOWER, HOLDERS, PATIENCE_S)
         self._spoken = threading.Condition()
-        self._clock = rospy.Publisher("/clock", Clock, queue_size=QUEUE)
+        # A node that connects while it stands has to know where.
+        self._clock = rospy.Publisher("/clock", Clock, queue_size=QUEUE, latch=True)
         self._publishers: Dict[str, rospy.Publisher] = {}
-        self._answers = [rospy.Subscriber(follower.topic, kind, self._answered, follower.topic, queue_size=QUEUE)
-                         for kind, follower in FOLLOWERS.items()]
+        self._voices = [
+            rospy.Subscriber(FOLLOWER.topic, LocalizedPose, self._answered, queue_size=QUEUE, tcp_nodelay=True),
+            rospy.Subscriber(names.SIM_HOLD, Header, self._held, queue_size=QUEUE, tcp_nodelay=True)]
 
     def play(self) -> str:
         """Play to the end; a sentence about it. CannotReplay when it cannot begin."""
@@ -83,45 +85,60 @@ class Player:
                 bag.close()
 
     def _run(self, bags: List[rosbag.Bag]) -> str:
-        begin_s = clock_s = min(bag.get_start_time() for bag in bags) - LEAD_S
-        # A node that hears the clock late in the lead has no tick left in a lag; it begins with the next one.
-        self._pace.begin(begin_s + LEAD_S)
-        started_s = time.monotonic()
+        begin_ns = min(_ns(bag.get_start_time()) for bag in bags) - LEAD_NS
+        started_s, clock_ns = time.monotonic(), begin_ns
+        # The nodes' ticks begin with it.
+        self._clock.publish(Clock(stamp_of(clock_ns)))
         for played in in_time(recorded(bags, list(self._topics)), rospy.get_param(RECORDED_IN_LOCKSTEP, False)):
-            while clock_s < played.time_s and not rospy.is_shutdown():
-                clock_s = min(clock_s + CLOCK_STEP_S, played.time_s)
-                rospy.rostime.wallsleep(max(0.0, started_s + (clock_s - begin_s) / self._rate - time.monotonic()))
-                self._wait_for_followers(clock_s)
-                self._clock.publish(Clock(rospy.Time.from_sec(clock_s)))
+            while clock_ns < _ns(played.time_s) and not rospy.is_shutdown():
+                clock_ns = self._step(clock_ns, min(clock_ns + CLOCK_STEP_NS, _ns(played.time_s)),
+                                      started_s - begin_ns * NS / self._rate)
             if rospy.is_shutdown():
                 break
             self._publishers[played.topic].publish(played.message)
             with self._spoken:
-                self._pace.played(self._topics[played.topic], stamp_s_of(played))
-        self._wait_for_followers(clock_s)
-        waited = ", ".join(f"{seconds:.0f} s for {topic}" for topic, seconds in sorted(self._pace.waited_s.items()))
-        return (f"Played {clock_s - begin_s:.0f} s of the recording in {time.monotonic() - started_s:.0f} s; "
+                self._pace.played(self._topics[played.topic], _ns(stamp_s_of(played)))
+        self._wait_for_followers(clock_ns)
+        waited = ", ".join(f"{seconds:.0f} s for {name}" for name, seconds in sorted(self._pace.waited_s.items()))
+        return (f"Played {(clock_ns - begin_ns) * NS:.0f} s of the recording in {time.monotonic() - started_s:.0f} s; "
                 f"waited {waited or 'for nobody'}.")
 
-    def _answered(self, message: Any, topic: str) -> None:
+    def _step(self, clock_ns: int, until_ns: int, zero_s: float) -> int:
+        """Set the clock forward, at most to until_ns, when it is time and everybody has followed; what it shows.
+
+        zero_s: steady time of the recording's zero.
+        """
+        rospy.rostime.wallsleep(max(0.0, zero_s + until_ns * NS / self._rate - time.monotonic()))
+        self._wait_for_followers(clock_ns)
         with self._spoken:
-            self._pace.answered(topic, message.header.stamp.to_sec())
+            next_ns = self._pace.next_ns(clock_ns, until_ns)
+        self._clock.publish(Clock(stamp_of(next_ns)))
+        return next_ns
+
+    def _answered(self, message: LocalizedPose) -> None:
+        with self._spoken:
+            self._pace.answered(message.header.stamp.to_nsec())
             self._spoken.notify_all()
 
-    def _wait_for_followers(self, clock_s: float) -> None:
-        """Until nobody is behind, or who is has been silent too long."""
+    def _held(self, message: Header) -> None:
+        with self._spoken:
+            self._pace.held(message.frame_id, message.stamp.to_nsec())
+            self._spoken.notify_all()
+
+    def _wait_for_followers(self, clock_ns: int) -> None:
+        """Until all have done what there was to do up to now, or who has not has been silent too long."""
         since_s: Dict[str, float] = {}
         with self._spoken:
             while not rospy.is_shutdown():
-                topic = self._pace.behind(clock_s)
-                if topic is None:
+                name = self._pace.behind(clock_ns)
+                if name is None:
                     return
                 before_s = time.monotonic()
-                self._spoken.wait(PATIENCE_S / 10.0)
+                self._spoken.wait(1.0)
                 now_s = time.monotonic()
-                if self._pace.has_waited(topic, now_s - before_s, now_s - since_s.setdefault(topic, before_s)):
-                    rospy.logwarn("Nothing on %s for %.0f s: the recording goes on without it; look into the log of "
-                                  "the node that publishes it.", topic, PATIENCE_S)
+                if self._pace.has_waited(name, now_s - before_s, now_s - since_s.setdefault(name, before_s)):
+                    rospy.logwarn("Nothing from %s for %.0f s: the recording goes on without it; look into the log of "
+                                  "that node, or of the one that publishes it.", name, PATIENCE_S)
 
     def _advertise(self, bags: List[rosbag.Bag]) -> None:
         found = {topic: about for bag in bags
@@ -153,6 +170,10 @@ class Player:
                 raise CannotReplay(f"{' and '.join(late or unheard)} did not start within {START_LIMIT_S:.0f} s; look "
                                    "into the log.")
             rospy.rostime.wallsleep(0.1)
+
+
+def _ns(time_s: float) -> int:
+    return round(time_s * 1e9)
 
 
 def opened_bags(paths: Sequence[pathlib.Path]) -> List[rosbag.Bag]:

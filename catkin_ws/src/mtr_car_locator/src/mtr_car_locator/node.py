@@ -13,7 +13,7 @@ from mtr_core import names, schedule
 from mtr_core.conversions import goal_report_from
 from mtr_core.executors import InlineExecutor
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
-from mtr_core.lockstep.clock import is_lockstep, stamp_of
+from mtr_core.lockstep.clock import is_held, stamp_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 from mtr_description.robot_description import described_robot
@@ -44,8 +44,8 @@ class CarLocatorNode:
     def __init__(self, parameters: LocatorParameters):
         lidars = described_robot().lidars(parameters.rear_lidar)
         self._parameters = parameters
-        # In lock-step time waits for the fit.
-        executor = InlineExecutor() if is_lockstep() else ThreadPoolExecutor(1)
+        # In lock-step and in a replay time waits for the fit.
+        executor = InlineExecutor() if is_held() else ThreadPoolExecutor(1)
         self._keeper = CarKeeper(_memory_file(parameters.memory_folder), ThreadPoolExecutor(1), rospy.logwarn)
         self._steps = LocatorSteps(CarLocator(parameters, self._keeper.read()), executor)
         self._ticker = Ticker(schedule.CAR_LOCATOR)

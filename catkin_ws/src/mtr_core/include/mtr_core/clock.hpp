@@ -33,6 +33,15 @@ inline bool is_lockstep() {
   return is_wanted && is_simulated();
 }
 
+/// The same of a replay's clock, which waits for the nodes while they do not wait for each other.
+inline constexpr const char* kHeldParameter = "/held_clock";
+
+/// True when the simulated clock waits for what a node computes, as in lock-step. The parameter is read once.
+inline bool is_held() {
+  static const bool is_wanted = ros::param::param(kHeldParameter, false);
+  return is_lockstep() || (is_wanted && is_simulated());
+}
+
 /// Stamp of a message in nanoseconds.
 inline std::int64_t to_ns(const ros::Time& time) { return static_cast<std::int64_t>(time.toNSec()); }
 

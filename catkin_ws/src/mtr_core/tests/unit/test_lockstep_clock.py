@@ -26,9 +26,9 @@ def parameters(monkeypatch):
     monkeypatch.setattr(clock.rospy, "get_param", known.get)
     monkeypatch.setattr(clock, "is_simulated", lambda: True)
     monkeypatch.setattr(clock, "now_ns", lambda: NOW_NS)
-    clock._is_lockstep_wanted.cache_clear()
+    clock._is_wanted.cache_clear()
     yield known
-    clock._is_lockstep_wanted.cache_clear()
+    clock._is_wanted.cache_clear()
 
 
 def test_simulated_time_alone_is_no_lockstep_and_a_tick_that_is_worked_late_is_late(parameters):
@@ -42,7 +42,15 @@ def test_in_lockstep_a_tick_is_a_tick_however_late_it_is_worked(parameters):
     assert clock.steady_at(NOW_NS - 1) == NOW_NS - 1
 
 
-def test_a_robots_own_clock_is_never_in_lockstep(parameters, monkeypatch):
-    parameters[clock.LOCKSTEP_PARAMETER] = True
+def test_a_replay_s_clock_waits_for_ticks_and_not_for_messages(parameters):
+    assert not clock.is_held()
+    parameters[clock.HELD_PARAMETER] = True
+    clock._is_wanted.cache_clear()
+    assert clock.is_held() and not clock.is_lockstep()
+
+
+@pytest.mark.parametrize("parameter", [clock.LOCKSTEP_PARAMETER, clock.HELD_PARAMETER])
+def test_a_robots_own_clock_waits_for_nobody(parameter, parameters, monkeypatch):
+    parameters[parameter] = True
     monkeypatch.setattr(clock, "is_simulated", lambda: False)
-    assert not clock.is_lockstep()
+    assert not clock.is_lockstep() and not clock.is_held()

@@ -22,7 +22,7 @@ class SetClock:
     def is_simulated(self):
         return False
 
-    is_lockstep = is_simulated
+    is_held = is_simulated
 
     def now_ns(self):
         return self.time_ns
@@ -69,10 +69,10 @@ def test_after_a_step_back_nobody_waits_for_the_time_of_before(clock, step_s):
 class SimulatedClock(SetClock):
     """Another simulator's; while a node waits for a tick an hour of wall time passes."""
 
-    def __init__(self, begins_ns, lockstep):
+    def __init__(self, begins_ns, held):
         super().__init__()
         self.time_ns = begins_ns
-        self.is_lockstep = lambda: lockstep
+        self.is_held = lambda: held
         self.wall_s = 0.0
 
     def is_simulated(self):
@@ -95,11 +95,11 @@ class Holds:
         self.publish = lambda message: None
 
 
-@pytest.mark.parametrize("begins_ns, lockstep, listeners, told", [
+@pytest.mark.parametrize("begins_ns, held, listeners, told", [
     (0, False, 0, [NO_CLOCK]), (0, True, 1, [NO_CLOCK]), (SECOND_NS, True, 0, [NOT_HELD]), (SECOND_NS, True, 1, []),
     (SECOND_NS, False, 0, [])])
-def test_simulated_time_that_cannot_go_on_is_told_once(monkeypatch, begins_ns, lockstep, listeners, told):
-    simulated = SimulatedClock(begins_ns, lockstep)
+def test_simulated_time_that_cannot_go_on_is_told_once(monkeypatch, begins_ns, held, listeners, told):
+    simulated = SimulatedClock(begins_ns, held)
     monkeypatch.setattr(ticker_module, "clock", simulated)
     monkeypatch.setattr(ticker_module, "direct_publisher", lambda *arguments, **options: Holds(listeners))
     monkeypatch.setattr(ticker_module.rospy, "get_name", lambda: "/node")

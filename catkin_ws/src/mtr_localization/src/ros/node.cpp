@@ -59,7 +59,8 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
 }
 
 std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) {
-  parameters.localization.lockstep = mtr_core::is_lockstep();
+  // In a replay the clock waits for what this node computes, as offline.
+  parameters.localization.lockstep = mtr_core::is_held();
   if (parameters.pose_source == "external") {
     return std::make_unique<ExternalPose>(parameters.localization, parameters.external,
                                           [this] { return map_from_odom_in(transforms_); });

@@ -17,6 +17,8 @@ READING_APART_NS = 2 * MILLISECOND_NS
 READINGS = 5
 # Beside /use_sim_time; without it simulated time is taken as it comes, as another simulator's.
 LOCKSTEP_PARAMETER = "/lockstep"
+# The same of a replay's clock, which waits for the nodes' ticks while they do not wait for each other.
+HELD_PARAMETER = "/held_clock"
 
 
 def is_simulated() -> bool:
@@ -26,12 +28,17 @@ def is_simulated() -> bool:
 
 def is_lockstep() -> bool:
     """True when the simulated clock waits for the nodes' holds, and they for each other: LOCKSTEP_PARAMETER."""
-    return is_simulated() and _is_lockstep_wanted()
+    return is_simulated() and _is_wanted(LOCKSTEP_PARAMETER)
+
+
+def is_held() -> bool:
+    """True when the simulated clock waits for the nodes' holds, as in lock-step: HELD_PARAMETER."""
+    return is_lockstep() or (is_simulated() and _is_wanted(HELD_PARAMETER))
 
 
 @functools.lru_cache(maxsize=None)
-def _is_lockstep_wanted() -> bool:
-    return bool(rospy.get_param(LOCKSTEP_PARAMETER, False))
+def _is_wanted(parameter: str) -> bool:
+    return bool(rospy.get_param(parameter, False))
 
 
 def now_ns() -> int:

@@ -1,4 +1,4 @@
-"""The rate of a periodic node: in lock-step the clock does not pass a tick before its work is done."""
+"""The rate of a periodic node: a clock that is held does not pass a tick before its work is done."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 from typing import Callable, Optional
@@ -23,9 +23,9 @@ NOT_HELD = (f"Nobody waits for the nodes: /lockstep is set, and the simulator do
 class Ticker:
     """Wakes at the ticks of a slot of the schedule.
 
-    In lock-step each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
-    messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits until
-    the messages have arrived. Elsewhere nothing is published.
+    In lock-step and in a replay each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the
+    number of messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits
+    until the messages have arrived; nor does a replay's player, for the stamp. Elsewhere nothing is published.
 
     Attributes:
         messages_sent: messages sent to the simulator since the start; the owner increments it.
@@ -40,7 +40,7 @@ class Ticker:
         self.messages_sent = 0
         self._tick_ns = SIMULATION_START_NS
         self._holds = None
-        if clock.is_lockstep():
+        if clock.is_held():
             self._holds = direct_publisher(names.SIM_HOLD, Header, latch=True)
 
     def sleep(self) -> int:
