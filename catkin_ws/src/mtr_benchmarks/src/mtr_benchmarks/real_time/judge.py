@@ -72,7 +72,8 @@ def judged(found: Mapping[Machine, Stretch], arrivals: Mapping[str, Sequence[flo
 
 def silence_row(machine: Machine, node: str, found: Silence) -> Row:
     """Of one node; nobody is blamed for the silence of what it answers."""
-    must_s, goal_s = BUSY_SILENCE_S, BUSY_SILENCE_GOAL_S
+    must_s = BUSY_SILENCE_S
+    goal_s: Optional[float] = BUSY_SILENCE_GOAL_S
     if machine is Machine.IDLE:
         must_s, goal_s = found.due_s + LATE_SHARE * found.period_s, None
     return Row(Requirement(f"silence of {node}, longest, {machine.value}", "s", goal_s, must_s), found.longest_s,
