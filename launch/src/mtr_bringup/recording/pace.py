@@ -5,7 +5,7 @@ the machine made them decide.
 """
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
-from typing import Dict, List, NamedTuple, Optional
+from typing import Dict, List, NamedTuple, Optional, Set
 
 
 class Follower(NamedTuple):
@@ -41,7 +41,7 @@ class Pace:
     _owed_ns: Optional[int] = None
     _answered_ns: int = 0
     _held_ns: Dict[str, int] = field(default_factory=dict)
-    _left: Dict[str, float] = field(default_factory=dict)
+    _left: Set[str] = field(default_factory=set)
 
     def played(self, topic: str, stamp_ns: int) -> None:
         """A message with this stamp has gone out."""
@@ -51,12 +51,12 @@ class Pace:
     def answered(self, stamp_ns: int) -> None:
         """The follower has spoken; if it was left behind it counts again."""
         self._answered_ns = stamp_ns
-        self._left.pop(self.follower.topic, None)
+        self._left.discard(self.follower.topic)
 
     def held(self, node: str, tick_ns: int) -> None:
         """A node works next at this tick; if it was left behind it counts again."""
         self._held_ns[node] = tick_ns
-        self._left.pop(node, None)
+        self._left.discard(node)
 
     def next_ns(self, clock_ns: int, until_ns: int) -> int:
         """Where the clock stops on its way to until_ns: no tick lies between."""
@@ -64,22 +64,15 @@ class Pace:
 
     def behind(self, clock_ns: int) -> Optional[str]:
         """Topic or node that has to catch up before the clock may go on from this time, None when none has to."""
-        owed_ns = self._owed_ns
-        if owed_ns is not None and self._answered_ns < owed_ns - self.follower.lag_ns and self._counts(
-                self.follower.topic):
-            return self.follower.topic
-        for node in self.holders:
-            if self._held_ns.get(node, -1) <= clock_ns and self._counts(node):
-                return node
-        return None
+        names = [node for node in self.holders if self._held_ns.get(node, -1) <= clock_ns]
+        if self._owed_ns is not None and self._answered_ns < self._owed_ns - self.follower.lag_ns:
+            names.insert(0, self.follower.topic)
+        return next((name for name in names if name not in self._left), None)
 
     def has_waited(self, name: str, waited_s: float, in_all_s: float) -> bool:
         """Count waited_s; True when it has now been silent for in_all_s, too long, and is left behind."""
         self.waited_s[name] = self.waited_s.get(name, 0.0) + waited_s
         if in_all_s < self.patience_s:
             return False
-        self._left[name] = in_all_s
+        self._left.add(name)
         return True
-
-    def _counts(self, name: str) -> bool:
-        return name not in self._left
