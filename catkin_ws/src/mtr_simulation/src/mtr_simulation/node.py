@@ -28,7 +28,7 @@ from mtr_msgs.msg import ActiveFaults
 from . import conversions
 from .clock import connections
 from .clock.barrier import SILENT_AFTER_WALL_S, Barrier, Watcher
-from .clock.machine import MADE_UP_S, StampOffset, stamped, take_precedence
+from .clock.machine import MADE_UP_S, StampOffset, stamped, stood_offsets, take_precedence
 from .clock.pacing import Pace
 from .firmware.connections import emulated_firmware, firmware_topics
 from .parameters import SimulatorParameters
@@ -64,11 +64,10 @@ class SimulatorNode:
         self._pace = Pace(parameters.real_time_factor, lambda: steady_ns() * 1e-9,
                           made_up_s=0.0 if is_simulated else MADE_UP_S)
         self._stamps = StampOffset(is_simulated, parameters.real_time_factor, lambda: self._pace.due_s, reading)
-        self._told_lost_s = math.inf if is_simulated else 0.0
+        self._is_simulated, self._told_lost_s = is_simulated, 0.0
         if not is_simulated and not take_precedence():
             rospy.logwarn("The simulator may not run before other programs: on a busy machine its world stands still "
-                          "now and then, and wheels, gyro and LiDARs disagree. Start it as a user who may set "
-                          "priorities.")
+                          "now and then, and the robot with it. Start it as a user who may set priorities.")
         self._stopped = threading.Event()
         self._received: Deque[Callable[[], None]] = collections.deque()
         self._contacts: Set[str] = set()
@@ -95,10 +94,11 @@ class SimulatorNode:
             self._world.sim.scans_wanted = self._output.has_scan_listener()
             sensors = self._world.step()
             time_ns = sensors.time_ns
+            lost_s = self._pace.lost_s
             delay_s = self._pace.delay(time_ns * 1e-9)
             if delay_s:
                 self._stopped.wait(delay_s)
-            self._output.publish(sensors, self._world, self._stamps.at(time_ns))
+            self._publish(sensors, 0 if self._is_simulated else round((self._pace.lost_s - lost_s) * 1e9))
             self._firmware.publish(time_ns)
             self._output.clock(time_ns, self._barrier.asleep(time_ns))
             self._world.sim.cast_ahead()
@@ -146,21 +146,29 @@ class SimulatorNode:
         connections_now = self._holds.impl.connections if self._holds else []
         return all((each.header or {}).get("callerid") != node for each in connections_now)
 
+    def _publish(self, sensors: Sensors, lost_ns: int) -> None:
+        """Readings of a tick, and those of the time that the loop has then lost."""
+        offset_ns = self._stamps.at(sensors.time_ns)
+        self._output.publish(sensors, self._world, offset_ns - lost_ns)
+        self._world.firmware.stand(lost_ns)
+        for stood_ns in stood_offsets(offset_ns, lost_ns):
+            self._output.publish_motion(stamped(self._world.sim.stand(), stood_ns))
+
     def _log(self, time_ns: int) -> None:
         report = self._pace.report(time_ns * 1e-9)
         if report:
             rospy.loginfo("%s; %s.", report, self._barrier.longest_waits())
-            self._warn_of_lost_time()
+            self._tell_lost_time()
         if self._world.contacts != self._contacts:
             for name in sorted(self._world.contacts - self._contacts):
                 rospy.logwarn("The robot touches %s at %.2f s.", name, time_ns * 1e-9)
             self._contacts = self._world.contacts
 
-    def _warn_of_lost_time(self) -> None:
-        if self._pace.lost_s > self._told_lost_s:
-            rospy.logwarn("The machine is too busy: the simulated world has stood still for %.2f s; of a turn meanwhile"
-                          " wheels, gyro and LiDARs tell different angles.", self._pace.lost_s - self._told_lost_s)
-            self._told_lost_s = self._pace.lost_s
+    def _tell_lost_time(self) -> None:
+        lost_s, self._told_lost_s = self._pace.lost_s - self._told_lost_s, self._pace.lost_s
+        if lost_s and not self._is_simulated:
+            rospy.logwarn("The machine is too busy: the simulated world has stood still for %.2f s, and the robot with "
+                          "it.", lost_s)
 
 
 class Output:
@@ -234,6 +242,10 @@ class Output:
             self._truth.publish(self._truth_message.fill(world.truth, offset_ns))
         if BATTERY.last_at(due_ns) == due_ns:
             self._battery.publish(conversions.battery_message(sensors.time_ns, sensors.battery))
+        self.publish_motion(sensors)
+
+    def publish_motion(self, sensors: Sensors) -> None:
+        """What IMU and wheels say, as it is stamped."""
         self._imu.publish(self._imu_message.fill(sensors.time_ns, sensors.imu))
         self._odometry.publish(self._odometry_message.fill(sensors.time_ns, sensors.odometry))
 

@@ -131,6 +131,16 @@ class Sim:
             self._person.move(self._elapsed_s())
         return self._sense(quaternion, velocity)
 
+    def stand(self) -> Sensors:
+        """What the sensors say at the end of 20 ms for which the world has stood still, itself included.
+
+        A sweep that has begun is lost: its beams would belong to two times.
+        """
+        self._sweep_is_whole = False
+        force = rotate_back(self._base().rotation, 0.0, 0.0, GRAVITY_MPS2)
+        return Sensors(self.time_ns, self._imu.read((0.0, 0.0, 0.0), force), self._wheels.odometry(TICK_S),
+                       battery(self._elapsed_s()), None, None)
+
     def cast_ahead(self) -> None:
         """Cast the beams of this very instant, which no command can change any more; for the time of waiting."""
         if self.scans_wanted and not self._has_cast:

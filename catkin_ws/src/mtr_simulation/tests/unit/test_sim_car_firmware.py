@@ -225,3 +225,12 @@ def test_servos_that_are_dead_press_nothing_and_nobody_says_so(bench):
     bench.firmware.press(7, 1, 1.0, 200)
     bench.run(1000)
     assert set(bench.pulses) == {(1000, 1000)} and bench.state.press_state == DONE
+
+
+def test_clock_goes_on_while_the_world_stands_still():
+    firmware = SimulatedFirmware()
+    firmware.start(1_000_000_000)
+    before = firmware.state().time_us
+    firmware.stand(300_000_000)
+    firmware.step(1_020_000_000)
+    assert firmware.state().time_us - before == 320_000

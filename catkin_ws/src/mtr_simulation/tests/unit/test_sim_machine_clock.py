@@ -7,7 +7,14 @@ import pytest
 from mtr_core.errors import ConfigurationError
 from mtr_core.liveness import Instant
 from mtr_core.schedule import LIDAR
-from mtr_simulation.clock.machine import NICENESS, StampOffset, stamped, take_precedence
+from mtr_simulation.clock.machine import (
+    MAX_STOOD_NS,
+    NICENESS,
+    StampOffset,
+    stamped,
+    stood_offsets,
+    take_precedence,
+)
 from mtr_simulation.sim import Sim
 from mtr_simulation.site.scenario import named_scenario
 
@@ -85,6 +92,42 @@ def test_the_simulator_s_own_session_comes_before_others(leader, written, monkey
     assert group.read_text(encoding="ascii") == written
     monkeypatch.setattr("mtr_simulation.clock.machine.AUTOGROUP", tmp_path / "of no such kernel")
     assert take_precedence()
+
+
+@pytest.mark.parametrize("lost_ns", [1_000_000, 20_000_000, 30_000_000, 310_000_000])
+def test_gyro_and_wheels_tell_of_no_turn_for_which_the_world_stood_still(lost_ns):
+    sim, offset_ns, read = Sim(1, named_scenario("open")), 7_000, []
+    start_rad = sim.truth().world_from_base.heading
+    for tick in range(150):
+        sim.command(0.3, 0.8)
+        sensors = sim.step()
+        lost_now_ns = lost_ns if tick in (60, 101) else 0
+        read.append(stamped(sensors, offset_ns))
+        offset_ns += lost_now_ns
+        stood = [stamped(sim.stand(), stood_ns) for stood_ns in stood_offsets(offset_ns, lost_now_ns)]
+        assert {each.odometry for each in stood} <= {sensors.odometry._replace(linear_mps=0.0, angular_radps=0.0)}
+        read += stood
+    stamps = [each.time_ns for each in read]
+    assert stamps[-1] - stamps[0] == 149 * 20_000_000 + 2 * lost_ns
+    assert all(0 < after - before <= 20_000_000 for before, after in zip(stamps, stamps[1:]))
+    # As localization does it: a reading is the mean since the one before.
+    turned_rad = sum(after.imu.angular_velocity[2] * (after.time_ns - before.time_ns) * 1e-9
+                     for before, after in zip(read, read[1:]))
+    assert turned_rad == pytest.approx(sim.truth().world_from_base.heading - start_rad, abs=0.01)
+
+
+def test_sweep_during_which_the_world_stood_still_is_lost_and_the_next_one_is_whole():
+    sim = Sim(1, named_scenario("open"))
+    swept = []
+    for tick in range(12):
+        swept.append(sim.step().front_scan is not None)
+        if tick == 4:
+            assert sim.stand().front_scan is None
+    assert swept == [False, True, False, True, False, False, *[False, True] * 3]
+
+
+def test_after_a_long_absence_sensors_were_silent():
+    assert stood_offsets(0, MAX_STOOD_NS + 1) == [] == stood_offsets(0, 0)
 
 
 def test_scans_keep_their_age_when_all_stamps_are_moved():

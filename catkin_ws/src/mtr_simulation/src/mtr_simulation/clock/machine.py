@@ -1,15 +1,16 @@
 """The machine's clock instead of the simulated one: nothing waits, and sensors are stamped when they measured.
 
-A car park does not stand still while a computer is busy. Where the simulated one does, a gyro's rate lasts longer than
-the robot turned, and no map fits: 20 % of the time lost while it was mapped, and the Car was not found.
+A car park does not stand still while a computer is busy. Where the simulated one does, its wheels and gyro say that the
+robot stood: a rate that lasted longer than the robot turned would tell of a turn that never was, and no map would fit.
 """
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
-from typing import Callable
+from typing import Callable, List
 
 from mtr_core.errors import ConfigurationError
 from mtr_core.liveness import Instant
+from mtr_core.schedule import CLOCK_STEP
 
 from ..sensors.readings import Sensors
 
@@ -17,6 +18,8 @@ REAL_TIME = 1.0
 # Time that the loop loses up to this is made up for. More, on a machine that is too slow, and what the robot is told
 # would be so old at all times that it stops.
 MADE_UP_S = 0.1
+# Who was away for longer, as a machine that was suspended, has sensors that were silent.
+MAX_STOOD_NS = 2_000_000_000
 # What is simulated is no software of the robot's: it does not wait for other programs where the system permits that.
 NICENESS = -10
 # Linux shares processors out to sessions first (sched(7), autogroup), and a niceness counts within one. roslaunch gives
@@ -64,6 +67,19 @@ class StampOffset:
         if abs(set_ns - self._set_ns) > SET_NS:
             self._set_ns = set_ns
         return round(self._due_s() * 1e9) + self._set_ns - time_ns
+
+
+def stood_offsets(offset_ns: int, lost_ns: int) -> List[int]:
+    """Where stamps lie while the world stands still after a tick, one each 20 ms, up to the newest.
+
+    Args:
+        offset_ns: StampOffset.at that tick, the time included that the loop has lost.
+        lost_ns: that time.
+    """
+    if not 0 < lost_ns <= MAX_STOOD_NS:
+        return []
+    period_ns = CLOCK_STEP.period_ns
+    return [offset_ns - back_ns for back_ns in range((lost_ns - 1) // period_ns * period_ns, -1, -period_ns)]
 
 
 def stamped(sensors: Sensors, offset_ns: int) -> Sensors:

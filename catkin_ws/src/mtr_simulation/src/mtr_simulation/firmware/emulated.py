@@ -79,6 +79,9 @@ class EmulatedFirmware:
         seen = self._board.probe()
         self.lift_height_m, self.servo_us = seen.lift_m, seen.servo_us
 
+    def stand(self, duration_ns: int) -> None:
+        """The world stands still for so long, and this microcontroller with it: its program sees no time pass."""
+
     def close(self) -> None:
         """Power off."""
         if self._port:

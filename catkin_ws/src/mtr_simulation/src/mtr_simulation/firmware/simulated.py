@@ -113,6 +113,10 @@ class SimulatedFirmware:
     def close(self) -> None:
         """Power off; there is nothing to do."""
 
+    def stand(self, duration_ns: int) -> None:
+        """The world stands still for so long, and the microcontroller's clock goes on."""
+        self._clock_start_us += round(duration_ns * 1e-3)
+
     def begin_step(self, time_ns: int) -> None:
         """Its step takes no time worth sharing; there is nothing to begin."""
 
