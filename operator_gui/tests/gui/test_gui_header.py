@@ -1,5 +1,7 @@
 """The header bar: steps, status word, notifications, battery, lock."""
 # SPDX-License-Identifier: Apache-2.0
+import time
+
 import pytest
 from PyQt5.QtCore import QAbstractAnimation
 from PyQt5.QtWidgets import QApplication, QStyle, QStyleOptionButton
@@ -111,6 +113,15 @@ def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):
     assert status.preflight.sentences.text().splitlines() == [
         "\N{MULTIPLICATION X}  disk: Full {0}.", "\N{CHECK MARK}  /imu/data: 50 Hz."]
     status.popup.hide()
+
+
+def test_clock_of_the_robot_that_is_apart_is_noted_and_hinders_no_test(operator, opener):
+    operator.wait(lambda: "? Robot's clock The robot tells simulated time." in shown(operator))
+    opener.spoil_with(sent_s=time.time() - 7200.5, steady_s=5.0)
+    # The newest of the simulated clock are counted no more.
+    operator.wait(lambda: any(text.startswith("! Robot's clock The robot's clock is 2 h 0 min behind this laptop's: ")
+                              for text in shown(operator)))
+    assert "Ready" in operator.window.header.status.text()
 
 
 def shown(operator):

@@ -10,6 +10,7 @@ from .actions.car_size import size_cautions
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
+from .clocks.clock_offset import offset_sentence
 from .errors import OperatorError, OutputError, ProgressFileError, RobotFailed
 from .results.course import CourseJournal
 from .results.frame_record import check_entry
@@ -31,7 +32,7 @@ from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
 from .results.refusals import Refusals
-from .results.session_record import ENDED_BY, MEASURED_AGAIN, RECOVERED, again_text, controller_record
+from .results.session_record import ENDED_BY, MEASURED_AGAIN, RECOVERED, again_text, clock_record, controller_record
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 from .verdict.assessment import Assessor
@@ -71,9 +72,12 @@ class Runner:
             self._scenario.check_means(self._car)
             self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
             prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
-            # What the bus has told meanwhile.
+            # What bus and clocks have told meanwhile.
             self._warn(*(sentence for sentence in self._car.notices if sentence not in notices))
-            record = {**controller_record(self._loop.status.controller_name), **self._car.record}
+            ahead_s = self._loop.clock_offset.ahead_s
+            self._warn(*filter(None, (offset_sentence(ahead_s),)))
+            record = {**controller_record(self._loop.status.controller_name), **clock_record(ahead_s),
+                      **self._car.record}
             if record:
                 self._notebook.add(SESSION, record)
             lines = self._lines()

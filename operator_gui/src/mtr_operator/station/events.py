@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+import math
 from dataclasses import dataclass
 from typing import Union
 
@@ -22,7 +23,7 @@ class RobotSnapshot:
     waypoint: where the robot was sent last, None when nowhere. is_secret: the link is encrypted. traffic: of the Car's
     bus, None where there is no bus to ask. facts: what its profile tells beforehand, None without one.
     is_exposed: whoever is in the robot's network can read the link and send. preflight: the newest that the robot
-    has told, None while it has told nothing of it.
+    has told, None while it has told nothing of it. clock_ahead_s: robot's clock less the laptop's, NaN when not known.
     """
 
     status: RobotStatus
@@ -34,6 +35,7 @@ class RobotSnapshot:
     facts: LockFacts | None = None
     is_exposed: bool = False
     preflight: PreflightReport | None = None
+    clock_ahead_s: float = math.nan
 
 
 def known_facts(car: CarLink) -> LockFacts | None:

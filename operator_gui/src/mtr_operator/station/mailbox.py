@@ -6,10 +6,12 @@ However many Statuses come, the view gets one batch whenever it asks for one: it
 from __future__ import annotations
 
 import threading
+import time
 from dataclasses import dataclass, replace
 from typing import Callable
 
 from mtr_operator.domain.actions.kept_preflight import KeptPreflight
+from mtr_operator.domain.clocks.clock_offset import ClockOffset
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.robot_status import Problem, RobotStatus
 
@@ -38,9 +40,10 @@ class Batch:
 
 
 class Mailbox:
-    """Thread-safe. wake is called, in the putting thread, when the first thing comes into an empty mailbox."""
+    """Thread-safe. wake is called, in the putting thread, when the first thing comes into an empty mailbox. wall_clock:
+    the laptop's time of day, s since 1970."""
 
-    def __init__(self, wake: Callable[[], None] = lambda: None):
+    def __init__(self, wake: Callable[[], None] = lambda: None, wall_clock: Callable[[], float] = time.time):
         self._wake = wake
         self._lock = threading.Lock()
         self._events: list[StationEvent] = []
@@ -50,6 +53,7 @@ class Mailbox:
         self._passing = Passing()
         self._trail_begins = False
         self._preflight = KeptPreflight()
+        self._clock_offset = ClockOffset(wall_clock)
         self._said: dict[str, tuple[Problem, ...]] = {}
 
     def put(self, event: StationEvent) -> None:
@@ -66,7 +70,9 @@ class Mailbox:
         with self._lock:
             first = self._is_empty()
             self._preflight.learn(status)
-            self._robot = replace(snapshot, preflight=self._preflight.report)
+            self._clock_offset.learn(status)
+            self._robot = replace(snapshot, preflight=self._preflight.report,
+                                  clock_ahead_s=self._clock_offset.ahead_s)
             self._sight = self._sight if status.surroundings is None else status
             self._said.update((problems[0].text, problems) for problems in status.problems() if problems)
             if self._passing.begins_anew(status):

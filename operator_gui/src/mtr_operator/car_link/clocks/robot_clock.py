@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import math
 
-from mtr_operator.domain.clock_step import MIN_STEP_S, clock_was_set
+from mtr_operator.domain.clocks.clock_step import MIN_STEP_S, clock_was_set
+from mtr_operator.domain.clocks.simulated_time import is_simulated
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .delay_watch import DelayWatch
 
 # Some Status of each piece of time comes over a Wi-Fi almost as fast as the fastest.
 STEP_S = 0.012
-# In simulation the two clocks are one, to the rounding of their messages.
-_SAME_CLOCK_S = 1e-6
 # A robot that does not tell its steady clock runs at true rate when its best stamps of some such pieces agree; a
 # simulation may run at any rate.
 _PIECE_S = 1.0
@@ -48,7 +47,7 @@ class RobotClock:
         if math.isnan(status.steady_s):
             self.is_real_time = self.is_real_time or self._rate.add(sent_s(status), arrival_s)
         else:
-            self.is_simulated = abs(sent_s(status) - status.steady_s) <= _SAME_CLOCK_S
+            self.is_simulated = is_simulated(status)
             self.is_real_time = not self.is_simulated
         # Fed before it counts, so that it knows the fastest by then.
         was_set = self._delays.add(sent_s(status), arrival_s)

@@ -11,6 +11,7 @@ from dataclasses import replace
 from typing import Any, Callable, Iterator
 
 from ..assistance import ExtenderPort, HandlePort
+from ..clocks.clock_offset import ClockOffset
 from ..distance_feed import DistanceFeed, Reported
 from ..errors import LinkLost, RobotFailed, StoodStill
 from ..eventlog.event_log import EventLog
@@ -65,6 +66,7 @@ class ControlLoop:
         person: who takes the Car's handle where no output does; None when nobody is there.
         switcher: who switches the extender where no output does; None when nobody is there.
         standstill: notices that nobody looked after the robot for a while.
+        clock_offset: how far the robot's clock is ahead of the laptop's.
         skipping: the line at hand, which the Operator may skip.
         phone: tells the distance of a phone in place of the Car's own feed; None for that one.
         reported: distances that were told, in their order.
@@ -85,6 +87,7 @@ class ControlLoop:
         self.person: HandlePort | None = None
         self.switcher: ExtenderPort | None = None
         self.standstill = Standstill(SILENCE_LIMIT_S)
+        self.clock_offset = ClockOffset()
         self.skipping = Skipping()
         self.phone: DistanceFeed | None = None
         self.reported: list[Reported] = []
@@ -202,6 +205,7 @@ class ControlLoop:
             self.reported = []
         self.poses.add(status)
         self._preflight.learn(status)
+        self.clock_offset.learn(status)
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
         events = self._car_link.observe(status)

@@ -7,7 +7,7 @@ import math
 from collections import deque
 from dataclasses import dataclass
 
-from ..clock_step import clock_was_set
+from ..clocks.clock_step import clock_was_set
 from ..geometry.pose import Pose, wrap_angle
 from ..robot_status import RobotStatus
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import math
 from typing import Mapping, Sequence
 
 from mtr_operator import __version__
@@ -22,6 +23,8 @@ ENCRYPTED = "encrypted"
 CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
 CAN_ADAPTER_OF_BUS = CAN_ADAPTER + " of the bus {}"
 CAR_PROFILE = "car profile"
+# Only in the record of a test with a robot that tells the time of day.
+CLOCK_OFFSET = "robot's clock ahead of the laptop's by"
 # What stands in the record for the robot or the profile where a substitute took its part.
 SUBSTITUTE = "substitute"
 # Only in the record of a test in which something tells the distance of a phone.
@@ -45,6 +48,11 @@ def session_record(started: datetime.datetime, robot: str, car_profile: str) -> 
 def controller_record(name: str) -> dict[str, str]:
     """Whose key the robot obeys, as the robot names its owner; nothing on a link that is not encrypted."""
     return {LINK: ENCRYPTED, CONTROLLED_BY: name} if name else {}
+
+
+def clock_record(ahead_s: float) -> dict[str, str]:
+    """By how much the robot's clock is ahead of the laptop's; nothing where it is not known (NaN)."""
+    return {} if math.isnan(ahead_s) else {CLOCK_OFFSET: f"{ahead_s:.3f} s"}
 
 
 def again_text(session: Mapping[str, str], numbers: Sequence[int]) -> str:

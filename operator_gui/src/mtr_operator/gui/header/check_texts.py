@@ -24,7 +24,8 @@ def check_title(check: Check) -> str:
         Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
         Check.BATTERY: translate("Check", "Battery"),
         Check.BUS: translate("Check", "CAN bus"), Check.LOCKS: translate("Check", "Car's locks"),
-        Check.CLOCK: translate("Check", "Clocks"), Check.KEY: translate("Check", "Remote key"),
+        Check.CLOCK: translate("Check", "Clocks"), Check.ROBOT_CLOCK: translate("Check", "Robot's clock"),
+        Check.KEY: translate("Check", "Remote key"),
         Check.DISK: translate("Check", "Disk"), Check.LIMITS: translate("Check", "Limits"),
     }[check]
 
@@ -64,6 +65,9 @@ def _of_robot(said: str) -> dict[Finding, str]:
         Finding.STOP_ENGAGED: translate("Check", "The one by hand is engaged: the robot stands."),
         Finding.STOP_ABSENT: translate("Check", "The robot has none by hand."),
         Finding.STOP_UNKNOWN: translate("Check", "The robot does not say whether it has one by hand."),
+        Finding.ROBOT_CLOCK_FINE: translate("Check", "Within {first} s of this laptop's."),
+        Finding.ROBOT_CLOCK_APART: said,
+        Finding.ROBOT_CLOCK_SIMULATED: translate("Check", "The robot tells simulated time."),
         Finding.LIDARS_FINE: translate("Check", "The robot reports nothing against them."),
         Finding.BOARD_FINE: translate("Check", "The robot reports nothing against them."),
     }

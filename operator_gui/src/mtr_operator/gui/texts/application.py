@@ -66,6 +66,12 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "the robot stands until you have it go on"),
     QT_TRANSLATE_NOOP("Sentence", "The robot has been silent for {} s; check the Wi-Fi and that its software runs."),
     QT_TRANSLATE_NOOP("Sentence", "The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's clock is {} ahead of this laptop's: distances do not depend on it, dates"
+                                  " in the robot's logs do; set the one that is wrong, or have the laptop take the "
+                                  "robot's (docs/robot-setup.md, Clocks)."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's clock is {} behind this laptop's: distances do not depend on it, dates"
+                                  " in the robot's logs do; set the one that is wrong, or have the laptop take the "
+                                  "robot's (docs/robot-setup.md, Clocks)."),
     QT_TRANSLATE_NOOP("Sentence", "Status {} was ignored: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot no longer takes this application's Commands, as if it had said goodbye; "
                                   "connect again, or go on with a continued test."),

@@ -66,6 +66,7 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "robot"),
     QT_TRANSLATE_NOOP("Word", "software"),
     QT_TRANSLATE_NOOP("Word", "robot software"),
+    QT_TRANSLATE_NOOP("Word", "robot's clock ahead of the laptop's by"),
     QT_TRANSLATE_NOOP("Word", "length"),
     QT_TRANSLATE_NOOP("Word", "width"),
     QT_TRANSLATE_NOOP("Word", "subscriber port"),

@@ -79,6 +79,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield from robot_checks.parts(status)
     yield robot_checks.battery(status.battery_percent, facts.wanted.plan)
     yield from car_checks.bus(robot)
+    yield robot_checks.clock(robot.clock_ahead_s)
     yield car_checks.key(facts.answered_s)
 
 

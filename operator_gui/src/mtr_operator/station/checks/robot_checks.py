@@ -6,6 +6,7 @@ import math
 from typing import Iterator
 
 from mtr_operator.domain.actions.car_size import size_excess
+from mtr_operator.domain.clocks.clock_offset import MAX_OFFSET_S, offset_sentence
 from mtr_operator.domain.robot_status import CarDimensions, EmergencyStop, Mode, Notification, RobotStatus
 
 from ..estimate import Plan
@@ -87,6 +88,15 @@ def parts(status: RobotStatus) -> Iterator[Item]:
 
 def _is_of_lidar(notification: Notification) -> bool:
     return any(_LIDAR in problem.code for problem in notification.problems)
+
+
+def clock(ahead_s: float) -> Item:
+    """How far its clock is from the laptop's, which hinders nothing; NaN: it tells no time of day."""
+    if math.isnan(ahead_s):
+        return Item(Check.ROBOT_CLOCK, State.UNKNOWN, Finding.ROBOT_CLOCK_SIMULATED)
+    said = offset_sentence(ahead_s)
+    return (Item(Check.ROBOT_CLOCK, State.NOTE, Finding.ROBOT_CLOCK_APART, said) if said
+            else Item(Check.ROBOT_CLOCK, State.GOOD, Finding.ROBOT_CLOCK_FINE, numbers=(MAX_OFFSET_S,)))
 
 
 def battery(percent: int | None, plan: Plan | None) -> Item:

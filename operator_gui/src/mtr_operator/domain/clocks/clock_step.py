@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from .robot_status import RobotStatus
+from ..robot_status import RobotStatus
 
 # The two clocks are read one after the other; half of a frame of a fast CAN message, and 2.5 mm at 0.5 m/s.
 MIN_STEP_S = 0.005
