@@ -78,7 +78,7 @@ try-cars: setup build ## Profiles of three real cars on a simulated Car that spe
 	@$(RUN) MTR_CAR_DATABASES=$(abspath $(DBC)) python -m pytest -q operator_gui/tests/unit/test_car_try.py
 
 translations: ## Collect the window's texts, compile the translations
-	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . -name '*.py' | sort) \
+	@cd operator_gui/src/mtr_operator/gui && pylupdate5 -noobsolete $$(find . ../station/checks -name '*.py' | sort) \
 		-ts translations/mtr_operator_cs.ts 2>/dev/null
 	@cd operator_gui/src/mtr_operator/gui && lrelease -silent translations/mtr_operator_cs.ts
 

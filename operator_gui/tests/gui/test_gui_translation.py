@@ -19,7 +19,7 @@ from mtr_operator.gui.texts import application, judgement, parameter_docs, param
 from mtr_operator.report.parameter_names import parameter_name
 
 SOURCE = pathlib.Path(mtr_operator.__file__).parent
-GUI = SOURCE / "gui"
+GUI, CHECKS = SOURCE / "gui", SOURCE / "station" / "checks"
 CATALOGUE = FOLDER / "mtr_operator_cs.ts"
 PLACEHOLDER = re.compile(r"\{[^}]*\}")
 # Where sentences for the Operator are raised or told.
@@ -64,7 +64,7 @@ def test_every_message_has_a_finished_translation_with_the_same_placeholders():
 @pytest.mark.skipif(shutil.which("pylupdate5") is None, reason="pylupdate5 is a developers' tool")
 def test_catalogue_holds_exactly_what_the_code_says(tmp_path):
     fresh = tmp_path / "fresh.ts"
-    sources = [str(path) for path in sorted(GUI.rglob("*.py"))]
+    sources = [str(path) for folder in (GUI, CHECKS) for path in sorted(folder.rglob("*.py"))]
     subprocess.run(["pylupdate5", *sources, "-ts", str(fresh)], check=True, capture_output=True)
     assert {message[:2] for message in messages(fresh)} == {message[:2] for message in messages(CATALOGUE)}
 

@@ -42,7 +42,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_keys(commands.add_parser("keys", help="list this computer's key and the robots that it is paired with"))
     _add_learn(commands.add_parser("learn", help="learn how a Car's bus tells its locks, and write its profile"))
     _add_try(commands.add_parser("try", help="try a car's profile on a simulated Car that speaks its frames"))
-    commands.add_parser("doctor", help="say what this computer lacks; exit code 2 when something is missing")
+    _add_doctor(commands.add_parser("doctor", help="say what this computer lacks, or with --robot how a robot is"))
     return parser
 
 
@@ -235,13 +235,26 @@ def _add_check(parser: argparse.ArgumentParser) -> None:
     _add_robot(parser)
 
 
-def _add_robot(parser: argparse.ArgumentParser) -> None:
-    robot = parser.add_argument_group("robot")
-    robot.add_argument("--robot", default="127.0.0.1", metavar="HOST", help="address, default %(default)s")
+def _add_doctor(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Says what this computer lacks to run tests; exit code 2 when something is missing. With "
+                          "--robot it looks at a robot instead, without a Car, and sends it nothing; exit code 0 when "
+                          "a test could begin, else 1.")
+    parser.add_argument("--robot", metavar="HOST", help="look at this robot, or at a simulated one")
+    _add_ports(parser)
+    _add_unencrypted(parser)
+
+
+def _add_ports(robot: argparse._ActionsContainer) -> None:
     robot.add_argument("--subscriber-port", type=_whole_number, default=3334, metavar="N",
                        help="TCP port of Status, default %(default)s")
     robot.add_argument("--publisher-port", type=_whole_number, default=3333, metavar="N",
                        help="TCP port of Command, default %(default)s")
+
+
+def _add_robot(parser: argparse.ArgumentParser) -> None:
+    robot = parser.add_argument_group("robot")
+    robot.add_argument("--robot", default="127.0.0.1", metavar="HOST", help="address, default %(default)s")
+    _add_ports(robot)
     _add_unencrypted(robot)
     robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",

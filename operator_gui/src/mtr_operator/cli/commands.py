@@ -13,12 +13,13 @@ from mtr_operator.domain.results.session_record import now
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.verdict import Verdict
 from mtr_operator.report.parameter_names import parameter_name
+from mtr_operator.station.connection import RobotChoice
 from mtr_operator.station.settings import Settings
 from mtr_operator.storage.parameter_template import write_template
 
 from .arguments import argument_parser
 from .checking import check
-from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_PASS
+from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_NOT_READY, EXIT_PASS
 from .history import compare_tests, list_history
 from .planning import plan
 from .records.evidence import bundle_test, verify_bundles
@@ -81,6 +82,15 @@ def try_car(options: argparse.Namespace) -> int:
     return try_profiles(options)
 
 
+def examine(options: argparse.Namespace) -> int:
+    """Look at the computer, or at a robot; the exit code."""
+    if options.robot is None:
+        return EXIT_PASS if doctor() else EXIT_ERROR
+    from mtr_operator.doctor.robot_command_line import look_at
+    choice = RobotChoice(options.robot, options.subscriber_port, options.publisher_port, bool(options.unencrypted))
+    return EXIT_PASS if look_at(choice) else EXIT_NOT_READY
+
+
 def list_parameters(options: argparse.Namespace) -> None:
     """Print a table of a scenario's parameters, or write them into a file."""
     if options.write is not None:
@@ -115,4 +125,4 @@ _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car, "replay": replay_test,
     "bundle": bundle_test, "verify": verify_bundles,
     "try": try_car,
-    "doctor": lambda _: EXIT_PASS if doctor() else EXIT_ERROR}
+    "doctor": examine}

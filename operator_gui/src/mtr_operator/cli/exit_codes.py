@@ -4,6 +4,8 @@ from __future__ import annotations
 
 # All lines were measured, and keep the limits where there are some.
 EXIT_PASS = 0
+# A robot was looked at, and no test could begin.
+EXIT_NOT_READY = 1
 # What was asked for could not be done.
 EXIT_ERROR = 2
 # The command line was not understood, as argparse has it.

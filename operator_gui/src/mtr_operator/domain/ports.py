@@ -201,7 +201,7 @@ class RobotLink(ABC):
 
     @abstractmethod
     def close(self) -> None:
-        """Say goodbye (the robot stops) and disconnect; safe to call twice."""
+        """Say goodbye (the robot stops), unless nothing was ever sent, and disconnect; safe to call twice."""
 
 
 class CarLink(ABC):

@@ -135,7 +135,8 @@ class ZmqRobotLink(RobotLink):
             return
         with self._lock:
             self._command_id += 1
-            if not self._is_viewer:
+            # Who has sent nothing has no session to end: an application that only looks sends nothing at all.
+            if self._desired is not None and not self._is_viewer:
                 self._publish(DesiredState(stop=True), end_session=True)
             self._sockets = None
             sockets.publisher.close(linger=_GOODBYE_LINGER_MS)

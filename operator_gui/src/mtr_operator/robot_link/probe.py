@@ -4,11 +4,15 @@ from __future__ import annotations
 
 import contextlib
 import socket
+import statistics
 import threading
+import time
 
 from mtr_operator.domain.errors import ConnectionFailed
 
 from .address import RobotAddress
+
+_ROUND_TRIPS = 5
 
 
 def probe(address: RobotAddress, timeout_s: float) -> str:
@@ -17,6 +21,16 @@ def probe(address: RobotAddress, timeout_s: float) -> str:
     for name, port in (("subscriber", address.subscriber_port), ("publisher", address.publisher_port)):
         _try_port(f"{name} port {port} of {address.host}", ip, port, timeout_s)
     return ip
+
+
+def round_trip_s(address: RobotAddress, timeout_s: float) -> float:
+    """Median time in which a connection opens, one round trip of the network each; or ConnectionFailed."""
+    ip, port, taken_s = resolve(address.host, timeout_s), address.subscriber_port, []
+    for _ in range(_ROUND_TRIPS):
+        begun_s = time.monotonic()
+        _try_port(f"subscriber port {port} of {address.host}", ip, port, timeout_s)
+        taken_s.append(time.monotonic() - begun_s)
+    return statistics.median(taken_s)
 
 
 def resolve(host: str, timeout_s: float) -> str:

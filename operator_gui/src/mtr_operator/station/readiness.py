@@ -72,7 +72,8 @@ HELD_CODE = "held"
 # Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
 NOT_BLOCKING = ("no_emergency_stop", "unencrypted", HELD_CODE)
 # In these the robot itself says what is the matter.
-MODE_CODES = ("fault", "link_lost", "not_localized")
+LINK_LOST_CODE = "link_lost"
+MODE_CODES = ("fault", LINK_LOST_CODE, "not_localized")
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,140 @@
+"""What a robot tells an application that only looks: nothing is sent to it, and nobody loses control of it.
+
+What would hinder a test is what hinders one in the window, see station/checks.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+import time
+from dataclasses import dataclass, replace
+from typing import Callable, Iterator
+
+from mtr_operator import __version__
+from mtr_operator.domain.absent_car import NO_ADAPTER
+from mtr_operator.domain.actions.control_loop import MAX_BLIND_S
+from mtr_operator.domain.ports import LockState, RobotLink
+from mtr_operator.domain.robot_status import EmergencyStop, RobotStatus
+from mtr_operator.station.checks.check_texts import check_advice, check_text, check_title
+from mtr_operator.station.checks.checklist import Facts, checklist
+from mtr_operator.station.checks.finding import Check, Finding, Item, State
+from mtr_operator.station.events import RobotSnapshot
+from mtr_operator.station.mailbox import Mailbox
+from mtr_operator.station.readiness import LINK_LOST_CODE
+
+# A robot tells of its preflight once a second, and lets another application take over after 3 s of silence.
+LISTEN_S = 3.0
+_POLL_S = 0.1
+# Of Car, laptop and chosen test, which nobody asks a robot for.
+_NOT_OF_ROBOT = (Check.WAY, Check.BUS, Check.LOCKS, Check.CLOCK, Check.KEY, Check.DISK, Check.LIMITS)
+# Twice this and nothing that moves is sent: the robot would stop again and again.
+_LONG_GAP_S = MAX_BLIND_S / 2
+_MS_PER_S = 1000.0
+
+
+@dataclass(frozen=True)
+class Said:
+    """One sentence about the robot. what: a word or two."""
+
+    what: str
+    state: State
+    sentence: str
+
+
+@dataclass(frozen=True)
+class Heard:
+    """What came within a while. robot: the newest, None when nothing came. silent_s: since then. longest_gap_s: between
+    two Statuses or after the last one; count: of Statuses; lost: those on the way. is_abandoned: the application that
+    controls the robot was silent all the time, and the next one takes over."""
+
+    robot: RobotSnapshot | None
+    silent_s: float
+    longest_gap_s: float
+    count: int
+    lost: int
+    is_abandoned: bool = False
+
+
+def listen(link: RobotLink, listen_s: float, clock: Callable[[], float] = time.monotonic) -> Heard:
+    """Take what comes over a connected link, and answer nothing. clock: wall time in s."""
+    mailbox = Mailbox()
+    begun_s = newest_s = clock()
+    count, gaps_s, is_abandoned = 0, [0.0], True
+    while clock() - begun_s < listen_s:
+        status = link.next_status(_POLL_S)
+        if status is None:
+            continue
+        now_s = clock()
+        # What passes before the first one is the robot's period, and the subscription's way.
+        gaps_s += [now_s - newest_s] if count else []
+        newest_s, count = now_s, count + 1
+        is_abandoned = is_abandoned and _is_abandoned(status)
+        mailbox.put_robot(RobotSnapshot(status, LockState.UNKNOWN, NO_ADAPTER, is_secret=link.is_secret,
+                                        is_exposed=link.is_exposed))
+    silent_s = clock() - newest_s
+    return Heard(mailbox.take().robot, silent_s, max(*gaps_s, silent_s), count, link.statistics.lost, is_abandoned)
+
+
+def _is_abandoned(status: RobotStatus) -> bool:
+    """A robot obeys an application that was killed, and tells that it misses it, until another one sends."""
+    return status.controlled_by_other and any(each.code == LINK_LOST_CODE for each in status.notifications)
+
+
+def robot_items(heard: Heard) -> tuple[Item, ...]:
+    """The checklist's items of the robot, as the window has them."""
+    robot = heard.robot
+    if robot is not None and heard.is_abandoned:
+        robot = replace(robot, status=replace(robot.status, controlled_by_other=False))
+    return tuple(item for item in checklist(Facts(robot, heard.silent_s))
+                 if item.check not in _NOT_OF_ROBOT and item.finding is not Finding.UNHEARD)
+
+
+def robot_sentences(heard: Heard, round_trip_s: float) -> Iterator[Said]:
+    """All that is to be said; round_trip_s: of a connection, NaN where there is no network."""
+    for item in robot_items(heard):
+        yield Said(check_title(item.check), item.state, f"{check_text(item)} {check_advice(item)}".rstrip())
+        # The first is in the sentence above.
+        further = [sentence for state, sentence in item.parts if state is State.BAD][1:]
+        yield from (Said(check_title(item.check), State.BAD, sentence) for sentence in further)
+        if item.check is Check.LINK and heard.robot is not None:
+            yield _link(heard, round_trip_s)
+    if heard.robot is not None:
+        yield _mode(heard.robot.status)
+        yield _control(heard.robot.status, heard.is_abandoned)
+        yield _software(heard.robot)
+
+
+def _link(heard: Heard, round_trip_s: float) -> Said:
+    is_slow = heard.longest_gap_s > _LONG_GAP_S or round_trip_s > _LONG_GAP_S
+    trip = "" if math.isnan(round_trip_s) else f"A round trip takes {_MS_PER_S * round_trip_s:.1f} ms. "
+    advice = (f" The robot stops after {MAX_BLIND_S:g} s of silence: bring laptop and robot nearer, or choose another "
+              "channel of the Wi-Fi.") if is_slow else ""
+    return Said("Round trip", State.NOTE if is_slow else State.GOOD,
+                f"{trip}{heard.count} messages came, {heard.lost} were lost, the longest gap was "
+                f"{heard.longest_gap_s:.2f} s.{advice}")
+
+
+def _mode(status: RobotStatus) -> Said:
+    return Said("State", State.GOOD, f"The robot says: {status.mode.name.lower().replace('_', ' ')}.")
+
+
+def _control(status: RobotStatus, is_abandoned: bool) -> Said:
+    """Whether that hinders a test the checklist says."""
+    if not status.controlled_by_other:
+        return Said("Control", State.GOOD, "No application controls the robot.")
+    who = f"an application with the key of {status.controller_name}" if status.controller_name else "an application"
+    if is_abandoned:
+        return Said("Control", State.NOTE, f"The robot waits for {who} that fell silent; the next one takes over.")
+    return Said("Control", State.NOTE, f"The robot obeys {who}.")
+
+
+def _software(robot: RobotSnapshot) -> Said:
+    """The link's contract has no version: what is added to it a robot of before does not tell."""
+    status = robot.status
+    untold = [what for what, is_untold in (
+        ("its steady clock", math.isnan(status.steady_s)), ("its preflight", robot.preflight is None),
+        ("its emergency stop", status.emergency_stop is EmergencyStop.UNKNOWN)) if is_untold]
+    versions = f"The robot runs {status.software_version or 'an unnamed version'}, this application is {__version__}"
+    if untold:
+        return Said("Software", State.NOTE, f"{versions}; the robot does not tell {', '.join(untold)}: upgrade it.")
+    return Said("Software", State.GOOD, f"{versions}; the robot tells all that this application asks of the link.")

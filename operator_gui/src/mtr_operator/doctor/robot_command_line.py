@@ -1,0 +1,55 @@
+"""The command that looks at a robot and sends it nothing."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import contextlib
+import math
+
+from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.robot_link.address import RobotAddress
+from mtr_operator.station.checks.checklist import hindrances
+from mtr_operator.station.checks.finding import State
+from mtr_operator.station.connection import SIMULATED, LinkOpener, RobotChoice
+
+from .robot import LISTEN_S, listen, robot_items, robot_sentences
+
+_SIGNS = {State.GOOD: "ok", State.NOTE: "note", State.UNKNOWN: "unknown", State.BAD: "bad"}
+
+
+# Wall time that opening a connection may take.
+_TIMEOUT_S = 2.0
+
+
+def look_at(choice: RobotChoice) -> bool:
+    """Print a line for each thing that a robot tells of itself. True when a test could begin.
+
+    InvalidParameter for an address that cannot be right.
+    """
+    link = LinkOpener().robot(choice)
+    try:
+        with contextlib.closing(link):
+            link.connect()
+            heard = listen(link, LISTEN_S)
+            said = list(robot_sentences(heard, _round_trip_s(choice)))
+    except ConnectionFailed as error:
+        _print(State.BAD, "Link", str(error))
+        print("No test could begin: the robot is not connected.")
+        return False
+    for each in said:
+        _print(each.state, each.what, each.sentence)
+    is_hindered = bool(hindrances(robot_items(heard)))
+    print("No test could begin before what is bad is mended; nothing was sent to the robot." if is_hindered else
+          "A test could begin, as far as the robot is concerned; nothing was sent to it.")
+    return not is_hindered
+
+
+def _round_trip_s(choice: RobotChoice) -> float:
+    """NaN for a robot within the application."""
+    if choice.host == SIMULATED:
+        return math.nan
+    from mtr_operator.robot_link.probe import round_trip_s
+    return round_trip_s(RobotAddress(choice.host, choice.subscriber_port, choice.publisher_port), _TIMEOUT_S)
+
+
+def _print(state: State, what: str, sentence: str) -> None:
+    print(f"{_SIGNS[state]:<8}{what}: {' '.join(sentence.split())}")

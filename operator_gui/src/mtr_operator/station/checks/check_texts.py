@@ -1,0 +1,226 @@
+"""The checklist in words: what was found, and what to do about it; in English, or by the window's translator."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Callable
+
+from mtr_operator.domain.clocks.clock_offset import span_text
+
+from .finding import Check, Finding, Item
+
+# Takes context and text; by this name pylupdate5 finds what it is given.
+Translate = Callable[[str, str], str]
+
+_CM_PER_M, _MS_PER_S, _MB_PER_GB = 100.0, 1000.0, 1000.0
+
+
+@dataclass(frozen=True)
+class Speech:
+    """How a view speaks; as it is, English.
+
+    translate: of the sentences here. sentence: translates one from elsewhere, word: one of the domain's words.
+    number: takes a value and its decimals. duration: takes seconds.
+    """
+
+    translate: Translate = lambda context, text: text
+    sentence: Callable[[str], str] = str
+    word: Callable[[str], str] = str
+    number: Callable[[float, int], str] = lambda value, digits: f"{value:.{digits}f}"
+    duration: Callable[[float], str] = span_text
+
+
+ENGLISH = Speech()
+
+
+def check_title(check: Check, speech: Speech = ENGLISH) -> str:
+    """What is looked at."""
+    translate = speech.translate
+    return {
+        Check.LINK: translate("Check", "Link"), Check.ENCRYPTION: translate("Check", "Encryption"),
+        Check.ROBOT: translate("Check", "Robot"), Check.PREFLIGHT: translate("Check", "Preflight"),
+        Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
+        Check.POSITION: translate("Check", "Position"), Check.SIZE: translate("Check", "Car's size"),
+        Check.WAY: translate("Check", "Way of the lines"),
+        Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
+        Check.BATTERY: translate("Check", "Battery"),
+        Check.BUS: translate("Check", "CAN bus"), Check.LOCKS: translate("Check", "Car's locks"),
+        Check.CLOCK: translate("Check", "Clocks"), Check.ROBOT_CLOCK: translate("Check", "Robot's clock"),
+        Check.KEY: translate("Check", "Remote key"),
+        Check.DISK: translate("Check", "Disk"), Check.LIMITS: translate("Check", "Limits"),
+    }[check]
+
+
+def check_text(item: Item, speech: Speech = ENGLISH) -> str:
+    """What was found, in a sentence."""
+    translate = speech.translate
+    # Robot, link and file may say braces.
+    finding, said = item.finding, speech.sentence(item.said).replace("{", "{{").replace("}", "}}")
+    first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
+    texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said),
+             **_of_place(translate, said, bool(item.numbers)), **_of_way(translate, said), **_of_battery(translate),
+             **_of_car(translate, said, is_cyclic=not math.isnan(second)), **_of_files(translate, said)}
+    return texts[finding].format(first=_shown(speech, item, first), second=_shown(speech, item, second, 1),
+                                 age="" if math.isnan(third) else speech.duration(third),
+                                 said=speech.word(item.said) if finding is Finding.LOCKS_HEARD else "")
+
+
+def _of_link(translate: Translate) -> dict[Finding, str]:
+    return {
+        Finding.UNHEARD: translate("Check", "Not known while the robot is silent."),
+        Finding.LINK_ALIVE: translate("Check", "The robot's newest message is {first} s old."),
+        Finding.LINK_SILENT: translate("Check", "The robot has not answered for {first} s."),
+        Finding.ENCRYPTED: translate("Check", "The link to the robot is encrypted."),
+        Finding.NOT_ENCRYPTED: translate("Check", "The link is not encrypted: whoever is in its network can listen and "
+                                                  "send."),
+        Finding.LOCAL_LINK: translate("Check", "Not encrypted; it does not leave this computer."),
+    }
+
+
+def _of_robot(translate: Translate, said: str) -> dict[Finding, str]:
+    return {
+        Finding.ROBOT_READY: translate("Check", "It takes orders, and reports nothing against a test."),
+        Finding.ROBOT_STARTING: translate("Check", "The robot is still starting."),
+        Finding.ROBOT_FAULT: said or translate("Check", "The robot reports a fault."),
+        Finding.OTHER_OPERATOR: translate("Check", "Another application controls the robot."),
+        Finding.ROBOT_SAYS: said, Finding.PART_TROUBLED: said,
+        Finding.STOP_RELEASED: translate("Check", "The one by hand is heard, and released."),
+        Finding.STOP_ENGAGED: translate("Check", "The one by hand is engaged: the robot stands."),
+        Finding.STOP_ABSENT: translate("Check", "The robot has none by hand."),
+        Finding.STOP_UNKNOWN: translate("Check", "The robot does not say whether it has one by hand."),
+        Finding.ROBOT_CLOCK_FINE: translate("Check", "Within {first} s of this laptop's."),
+        Finding.ROBOT_CLOCK_APART: said,
+        Finding.ROBOT_CLOCK_SIMULATED: translate("Check", "The robot tells simulated time."),
+        Finding.LIDARS_FINE: translate("Check", "The robot reports nothing against them."),
+        Finding.BOARD_FINE: translate("Check", "The robot reports nothing against them."),
+    }
+
+
+def _of_preflight(translate: Translate, said: str) -> dict[Finding, str]:
+    return {
+        Finding.PREFLIGHT_FINE: translate("Check", "{first} of {second} right, {age} ago."),
+        Finding.PREFLIGHT_OLD: translate("Check", "{first} of {second} right, but {age} ago."),
+        Finding.PREFLIGHT_BAD: " ".join((translate("Check", "{first} of {second} wrong, {age} ago."), said)),
+        Finding.PREFLIGHT_NEVER: translate("Check", "Never made since the robot was started."),
+        Finding.PREFLIGHT_UNTOLD: translate("Check", "The robot does not say whether one was made."),
+    }
+
+
+def _of_place(translate: Translate, said: str, has_sigma: bool) -> dict[Finding, str]:
+    return {
+        Finding.POSITION_KNOWN: translate("Check", "Known beside the Car to {first} cm (1 sigma).")
+        if has_sigma else translate("Check", "Known beside the Car."),
+        Finding.POSITION_TO_COME: translate("Check", "Not known yet: a test begins with a drive around the Car."),
+        Finding.POSITION_LOST: said or translate("Check", "The robot does not know its position."),
+        Finding.SIZE_KNOWN: translate("Check", "The robot has it from the data sheet."),
+        Finding.SIZE_OF_PLANE: translate("Check", "Only as the LiDARs see it at their height: distances from the Car's "
+                                                  "outline may be up to {first} cm too long."),
+        Finding.SIZE_TO_COME: translate("Check", "Not known before the Car is mapped."),
+    }
+
+
+def _of_way(translate: Translate, lines: str) -> dict[Finding, str]:
+    return {
+        Finding.WAY_FREE: translate("Check", "As far as the robot has seen, nothing stands on the lines."),
+        Finding.WAY_HINDERED: translate("Check", "Something stands in the way of lines {lines}, the nearest {distance} "
+                                                 "m from the Car.").format(lines=lines, distance="{first}"),
+        Finding.WAY_UNSEEN: translate("Check", "The robot has not seen all of the way of lines {lines}.").format(
+            lines=lines),
+        Finding.WAY_TO_COME: translate("Check", "Looked at when the Car is mapped and a test is chosen."),
+    }
+
+
+def _of_battery(translate: Translate) -> dict[Finding, str]:
+    return {
+        Finding.BATTERY_FINE: translate("Check", "At {first} %; what a test takes is told when it is chosen."),
+        Finding.BATTERY_SUFFICES: translate("Check", "At {first} %; the test takes about {second} %."),
+        Finding.BATTERY_SHORT: translate("Check", "At {first} % it may not suffice: the test takes about {second} %."),
+        Finding.BATTERY_LOW: translate("Check", "Low: {first} %."),
+        Finding.BATTERY_EMPTY: translate("Check", "Nearly empty: {first} %."),
+        Finding.BATTERY_UNKNOWN: translate("Check", "The robot does not say its charge."),
+    }
+
+
+def _of_car(translate: Translate, said: str, is_cyclic: bool) -> dict[Finding, str]:
+    return {
+        Finding.BUS_TROUBLED: said, Finding.CLOCK_NOT_MAPPED: said,
+        Finding.BUS_FINE: translate("Check", "Load {first} %, lock message every {second} ms.")
+        if is_cyclic else translate("Check", "Load {first} %, no lock message yet."),
+        Finding.BUS_SIMULATED: translate("Check", "There is none: the Car is a substitute inside the application."),
+        Finding.BUS_FULL: translate("Check", "Load {first} %: messages may be late, and so the time of events."),
+        Finding.BUS_SLOW: translate("Check", "The lock message comes every {first} ms; the profile says {second} ms."),
+        Finding.NO_ADAPTER: translate("Check", "No CAN adapter is chosen."),
+        Finding.LOCKS_HEARD: translate("Check", "The Car says: {said}."),
+        Finding.LOCKS_UNKNOWN: translate("Check", "The Car does not say whether it is locked."),
+        Finding.CLOCK_MAPPED: translate("Check", "Events of the Car have a time on the robot's clock."),
+        Finding.CLOCK_UNKNOWN: translate("Check", "Not known without an adapter."),
+        Finding.KEY_ANSWERED: translate("Check", "The Car has reacted {first} s ago: the key is awake."),
+        Finding.KEY_UNKNOWN: translate("Check", "Whether it is awake nobody knows before the Car reacts to it."),
+    }
+
+
+def _of_files(translate: Translate, said: str) -> dict[Finding, str]:
+    return {
+        Finding.LIMITS_UNFIT: said,
+        Finding.DISK_FINE: translate("Check", "{first} GB are free."),
+        Finding.DISK_SHORT: translate("Check", "Only {first} GB are free."),
+        Finding.DISK_FULL: translate("Check", "Nearly full: {first} GB are free."),
+        Finding.DISK_UNKNOWN: translate("Check", "The system does not say how much room there is."),
+        Finding.LIMITS_LOADED: translate("Check", "Limits loaded: {first}."),
+        Finding.NO_LIMITS: translate("Check", "None: the lines get no verdict."),
+    }
+
+
+def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
+    """What to do about it; empty where nothing is to be done, or the sentence says it already."""
+    translate = speech.translate
+    return {
+        Finding.LINK_SILENT: translate("Check", "Check the Wi-Fi and that the robot is on; the link comes back by "
+                                                "itself."),
+        Finding.NOT_ENCRYPTED: translate("Check", "Pair this laptop with the robot in the connection window, and "
+                                                  "have the robot encrypt its link."),
+        Finding.ROBOT_STARTING: translate("Check", "Wait a moment."),
+        Finding.ROBOT_FAULT: translate("Check", "Make sure that nothing blocks the robot; if the fault stays, switch "
+                                                "it off and on."),
+        Finding.OTHER_OPERATOR: translate("Check", "End the other application; control comes here by itself."),
+        Finding.PREFLIGHT_OLD: translate("Check", "Make it again on the robot: rosrun mtr_bringup preflight"),
+        Finding.PREFLIGHT_BAD: translate("Check", "Then make it again on the robot: rosrun mtr_bringup preflight"),
+        Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
+        Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
+        Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),
+        Finding.POSITION_LOST: translate("Check", "Drive or turn it by hand where it sees the Car; if it stays lost, "
+                                                  "map the Car again under Calibrate."),
+        Finding.SIZE_OF_PLANE: translate("Check", "Start the robot with length and width of the data sheet (car_file), "
+                                                  "and map the Car again."),
+        Finding.SIZE_TO_COME: translate("Check", "Have length and width of the Car's data sheet ready: the robot is "
+                                                 "started with them (car_file)."),
+        Finding.BATTERY_SHORT: translate("Check", "Charge it, or measure fewer lines; an interrupted test can be gone "
+                                                  "on with."),
+        Finding.BATTERY_LOW: translate("Check", "Charge it soon."),
+        Finding.BATTERY_EMPTY: translate("Check", "Charge it before the test."),
+        Finding.BUS_FULL: translate("Check", "Check bit rate and other testers on the bus."),
+        Finding.BUS_SLOW: translate("Check", "Check whether the profile is that of this Car."),
+        Finding.NO_ADAPTER: translate("Check", "Choose one under Settings, CAN adapter."),
+        Finding.BUS_TROUBLED: translate("Check", "If the adapter is the wrong one, choose another under Settings."),
+        Finding.LOCKS_UNKNOWN: translate("Check", "Wake the Car, e.g. open a door; check the car profile."),
+        Finding.KEY_UNKNOWN: translate("Check", "Press one of its buttons under Calibrate; a test notices a key that "
+                                                "sleeps."),
+        Finding.DISK_SHORT: translate("Check", "Make room, or choose another folder under Settings."),
+        Finding.DISK_FULL: translate("Check", "Make room, or choose another folder under Settings."),
+        Finding.NO_LIMITS: translate("Check", "Choose a limits file below the parameters if there are limits."),
+        Finding.LIMITS_UNFIT: translate("Check", "Choose another file below the parameters, or none."),
+    }.get(item.finding, "")
+
+
+def _shown(speech: Speech, item: Item, value: float, index: int = 0) -> str:
+    """A number in the unit of its sentence."""
+    if math.isnan(value):
+        return ""
+    if item.check in (Check.POSITION, Check.SIZE):
+        return speech.number(value * _CM_PER_M, 1)
+    if item.check is Check.BUS and (index or item.finding is Finding.BUS_SLOW):
+        return speech.number(value * _MS_PER_S, 0)
+    if item.check is Check.DISK:
+        return speech.number(value / _MB_PER_GB, 1)
+    return speech.number(value, 1 if item.check in (Check.LINK, Check.WAY) else 0)
