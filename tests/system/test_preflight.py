@@ -13,7 +13,7 @@ from mtr_core import names
 TOP = pathlib.Path(__file__).resolve().parents[2]
 PROGRAM = TOP / "launch" / "scripts" / "preflight"
 LIMIT_S = 60.0
-# Commands the wheels to stand, and says where the base is, as a node that was forgotten; then waits for its end.
+# Commands the wheels to stand, says where base and front LiDAR are, as forgotten nodes would; then waits for its end.
 INTRUDER = """
 import rospy
 from geometry_msgs.msg import TransformStamped, Twist
@@ -26,6 +26,11 @@ transform.header.frame_id = "odom"
 transform.transform.rotation.w = 1.0
 transforms = rospy.Publisher("/tf", TFMessage, queue_size=1, latch=True)
 transforms.publish(TFMessage([transform]))
+mount = TransformStamped(child_frame_id="front_lidar")
+mount.header.frame_id = "base_link"
+mount.transform.translation.x = mount.transform.rotation.w = 1.0
+mounts = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+mounts.publish(TFMessage([mount]))
 print("ready", flush=True)
 rospy.spin()
 """
@@ -70,5 +75,7 @@ def test_node_that_does_not_belong_there_is_named(robot, out):
         finally:
             intruder.terminate()
     told = {finding["subject"]: finding["text"] for finding in of_robot(findings)}
-    assert status == 1 and set(told) == {names.WHEEL_COMMAND, "odom -> base_link"}
+    assert status == 1 and set(told) == {names.WHEEL_COMMAND, "odom -> base_link", "base_link -> front_lidar",
+                                         names.FRONT_LIDAR}
     assert all("/intruder" in text for text in told.values()) and "publish_odom_tf" in told["odom -> base_link"]
+    assert "/intruder has front_lidar at (1.000, 0.000, 0.000) m" in told[names.FRONT_LIDAR]

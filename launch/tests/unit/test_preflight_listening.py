@@ -13,7 +13,7 @@ from mtr_bringup.preflight import listening
 from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.listening import Listener, content_of, sample_of, setup_of_robot
 from mtr_bringup.preflight.obedience import obedience_findings
-from mtr_bringup.preflight.records import ScanContent
+from mtr_bringup.preflight.records import SaidTransform, ScanContent
 from mtr_core import names
 from mtr_msgs.msg import DriveStatus, Problem
 
@@ -101,8 +101,12 @@ def test_transforms_are_kept_by_the_node_that_sent_them(robot):
     listener = Listener()
     for node in ("/base", "/localization", "/base"):
         each = TransformStamped(child_frame_id="base_link")
-        each.header.frame_id = "/odom"
+        each.header.frame_id, each.transform.rotation.w = "/odom", 1.0
+        each.transform.translation.x += len(node)
         message = TFMessage([each])
         message._connection_header = {"callerid": node}
         listener._take_transforms(message)
-    assert listener.record("/none").transforms == {("odom", "base_link"): {"/base", "/localization"}}
+    record = listener.record("/none")
+    assert record.transforms == {("odom", "base_link"): {"/base", "/localization"}}
+    assert record.said == {("odom", "base_link", node): SaidTransform((len(node), 0.0, 0.0), (0.0, 0.0, 0.0, 1.0))
+                           for node in ("/base", "/localization")}

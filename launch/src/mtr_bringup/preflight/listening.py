@@ -15,7 +15,7 @@ from mtr_msgs.msg import DriveStatus, FirmwareState
 
 from .expected import CONTROLLER_OWNER, Setup
 from .motion.recording import ImuSample, Recording, ScanSample, Sweep, WheelSample, scan_sample
-from .records import RobotRecord, ScanContent, TopicRecord
+from .records import RobotRecord, SaidTransform, ScanContent, TopicRecord
 
 TYPES: Dict[str, Type[Any]] = {
     names.FRONT_SCAN: numpy_msg(LaserScan), names.REAR_SCAN: numpy_msg(LaserScan), names.WHEEL_ODOMETRY: Odometry,
@@ -74,6 +74,7 @@ class Listener:
         self.drive_control: Dict[str, str] = {}
         self._topics: Dict[str, TopicRecord] = {}
         self._transforms: Dict[Tuple[str, str], Set[str]] = {}
+        self._said: Dict[Tuple[str, str, str], SaidTransform] = {}
         self._clock: Callable[[], float] = rospy.get_time if rospy.get_param("/use_sim_time", False) else time.monotonic
         self._begun_s = self._clock()
         self._keepers: Dict[str, Callable[[Any], None]] = {
@@ -95,7 +96,7 @@ class Listener:
         base = rospy.get_param(base_parameters, None)
         failures = rospy.get_param(names.START_FAILURES, {})
         transforms = {pair: set(nodes) for pair, nodes in list(self._transforms.items())}
-        return RobotRecord(dict(self._topics), transforms, self._clock() - self._begun_s,
+        return RobotRecord(dict(self._topics), transforms, dict(self._said), self._clock() - self._begun_s,
                            base if isinstance(base, dict) else None,
                            {str(node): str(why) for node, why in failures.items()})
 
@@ -120,6 +121,7 @@ class Listener:
         for each in message.transforms:
             pair = (each.header.frame_id.lstrip("/"), each.child_frame_id.lstrip("/"))
             self._transforms.setdefault(pair, set()).add(node)
+            self._said[(*pair, node)] = said_transform(each.transform)
 
     def _keep_front(self, message: Any) -> None:
         self._topics[names.FRONT_SCAN].scans.append(content_of(message))
@@ -137,6 +139,12 @@ class Listener:
         rate, force = message.angular_velocity, message.linear_acceleration
         self.recording.imu.append(ImuSample(message.header.stamp.to_sec(), (rate.x, rate.y, rate.z),
                                             (force.x, force.y, force.z)))
+
+
+def said_transform(transform: Any) -> SaidTransform:
+    """Of a message."""
+    at, turn = transform.translation, transform.rotation
+    return SaidTransform((at.x, at.y, at.z), (turn.x, turn.y, turn.z, turn.w))
 
 
 def content_of(message: Any) -> ScanContent:

@@ -15,6 +15,13 @@ class ScanContent(NamedTuple):
     sweep_s: float
 
 
+class SaidTransform(NamedTuple):
+    """parent_from_child as one node said it last: position in m, quaternion as x, y, z, w."""
+
+    position_m: Tuple[float, float, float]
+    quaternion: Tuple[float, float, float, float]
+
+
 @dataclass
 class TopicRecord:
     """What came on a topic.
@@ -43,6 +50,7 @@ class RobotRecord:
     Attributes:
         topics: by name.
         transforms: (parent, child) -> nodes that published it.
+        said: (parent, child, node) -> that transform, as that node said it last.
         listened_s: for so long.
         base: parameters of the base's controller; None: there are none.
         start_failures: node -> why it cannot start.
@@ -50,6 +58,7 @@ class RobotRecord:
 
     topics: Dict[str, TopicRecord] = field(default_factory=dict)
     transforms: Dict[Tuple[str, str], Set[str]] = field(default_factory=dict)
+    said: Dict[Tuple[str, str, str], SaidTransform] = field(default_factory=dict)
     listened_s: float = 0.0
     base: Optional[Dict[str, Any]] = None
     start_failures: Dict[str, str] = field(default_factory=dict)

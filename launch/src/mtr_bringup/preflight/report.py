@@ -11,6 +11,7 @@ from .base import base_findings, start_findings
 from .expected import Setup
 from .finding import Finding, exit_code
 from .frames import frame_findings
+from .mounts import mount_findings
 from .records import RobotRecord
 from .topics import topic_findings
 from .transforms import transform_findings
@@ -22,7 +23,7 @@ VERSION = 1
 def standing_findings(record: RobotRecord, setup: Setup, geometry: Optional[RobotGeometry], shipped: BaseController
                       ) -> List[Finding]:
     """All checks of what was heard of the robot. Without geometry no frames are checked."""
-    frames = frame_findings(record, setup, geometry) if geometry else []
+    frames = [*frame_findings(record, setup, geometry), *mount_findings(record, setup, geometry)] if geometry else []
     return [*start_findings(record), *topic_findings(record, setup), *frames, *transform_findings(record.transforms),
             *base_findings(record, setup, shipped)]
 
