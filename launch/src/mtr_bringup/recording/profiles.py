@@ -5,8 +5,8 @@ from typing import Callable, Dict, List, Tuple
 
 from mtr_core import names
 from mtr_core.errors import RobotError
+from mtr_dispatcher.disks.room import MEGA, RESERVE_BYTES
 
-MEGA = 1e6
 # What is decided, and on what poses: some minutes fit into an e-mail.
 SMALL: Tuple[str, ...] = (
     names.DESIRED_STATE, names.ROBOT_MODE, names.CAR_ESTIMATE, names.CAR_CHECK, names.MAPPING_ORDER,
@@ -29,8 +29,6 @@ REPLAYED: Tuple[str, ...] = (names.FRONT_SCAN, names.REAR_SCAN, names.IMU_DATA, 
 PARTS = 8
 MIN_LIMIT_MB, MAX_LIMIT_MB = 80.0, 1e6
 DEFAULT_LIMIT_MB: Dict[str, float] = {"small": 400.0, "full": 4000.0}
-# Left on the disk beside the whole recording; with less of it logs and nodes fail.
-RESERVE_MB = 1000.0
 
 
 class CannotRecord(RobotError):
@@ -42,8 +40,8 @@ class CannotReplay(RobotError):
 
 
 def check_room(folder: pathlib.Path, limit_mb: float, free_bytes: float) -> None:
-    """CannotRecord unless the whole recording fits."""
-    free_mb, needed_mb = free_bytes / MEGA, limit_mb + RESERVE_MB
+    """CannotRecord unless the whole recording fits, and leaves what a day of work needs."""
+    free_mb, needed_mb = free_bytes / MEGA, limit_mb + RESERVE_BYTES / MEGA
     if free_mb < needed_mb:
         raise CannotRecord(f"{folder} has {free_mb:.0f} MB free; a recording of {limit_mb:.0f} MB needs "
                            f"{needed_mb:.0f} MB. Make room, or record less (--limit).")
