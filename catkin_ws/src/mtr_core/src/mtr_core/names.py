@@ -21,6 +21,8 @@ ROBOT_TOPICS = "/robot_topics"
 ROBOT_FRAMES = "/robot_frames"
 # Of the robot: how many turns a second its LiDARs make by the data sheet of their kind, where it is named
 LIDAR_TURN_RATE = "/robot_lidar/turn_rate_hz"
+# Of the robot: folders into which its nodes write by themselves, logs for one
+WRITTEN_FOLDERS = "/robot_written_folders"
 # Of the robot: what the last preflight of this run of the ROS master found, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
 # What the last preflight with --drive found in motion, for those without.

@@ -34,6 +34,7 @@ from .access.key_folder import FOLDER_NAME, KeyFolder
 from .access.rates import Rates
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
+from .disks.watch import DiskWatch
 from .link_server import LinkError, LinkServer, Ports, Received
 from .master_watch import MasterWatch
 from .memory import end_beyond, give_back, resident_mib
@@ -77,6 +78,8 @@ class DispatcherNode:
         self._emergency = EmergencyWatch(parameters.emergency_stop)
         self._master = MasterWatch(lambda parameter: rospy.get_param(parameter, None))
         self._master.start()
+        self._disks = DiskWatch(_written_folders(parameters), parameters.full_disk_mb, parameters.disk_period_s)
+        self._disks.start()
         self._topics = (
             TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0),
             TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR),
@@ -220,7 +223,7 @@ class DispatcherNode:
             topic.fresh_at(now_ns, STALE_AFTER_S) for topic in self._topics)
         return Inputs(now_ns * NS, pose, car, mode, peripherals, check, drive, motion, steady_s,
                       self._clock_watch.steps, self._emergency.at(steady_s), self._master.failures,
-                      preflight=self._master.preflight)
+                      preflight=self._master.preflight, full_disk=self._disks.full)
 
     def _publish_status(self, now_ns: int, inputs: Optional[Inputs] = None) -> None:
         inputs = inputs or self._inputs(now_ns)
@@ -252,6 +255,12 @@ def _listed(counts: Mapping[str, int]) -> str:
     return ", ".join(f"{count} {what}" for what, count in counts.items())
 
 
+def _written_folders(parameters: Parameters) -> List[pathlib.Path]:
+    """Where nodes of this robot write by themselves, by the environment that all of them were started with."""
+    folders = (rospkg.get_ros_home(), rospkg.get_log_dir(), parameters.memory_folder)
+    return [pathlib.Path(folder) for folder in folders if folder]
+
+
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
     robot = described_robot()
@@ -268,6 +277,8 @@ def make(parameters: Parameters) -> DispatcherNode:
     server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port), curve)
     server.bind()
     try:
+        # For a preflight, whose environment is that of whoever makes it.
+        rospy.set_param(names.WRITTEN_FOLDERS, [str(folder) for folder in _written_folders(parameters)])
         identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
                             key.x_m, key.y_m)
         return DispatcherNode(parameters, Dispatcher(parameters, identity), server,

@@ -6,6 +6,7 @@ from mtr_core.errors import ConfigurationError, check_range
 from mtr_core.parameters import ParameterSet, number
 
 from .access.curve import is_loopback
+from .disks.room import FULL_MB
 
 
 @dataclass(frozen=True)
@@ -31,6 +32,10 @@ class Parameters(ParameterSet):
         key_folder: of the robot's key pair and the list of paired keys; empty for mtr_link in $ROS_HOME.
         max_commands_per_s: Commands of one key that are looked at.
         memory_limit_mib: memory of the process at which all connections of the link are cut off.
+        memory_folder: of localization and Car locator; with those of ROS and of its logs it is one of those whose disk
+            may not be full; empty: they remember nothing.
+        full_disk_mb: free space below which the Operator reads that a disk is full, and no test begins.
+        disk_period_s: wall time between two looks at it.
     """
 
     bind_address: str = "127.0.0.1"
@@ -51,6 +56,9 @@ class Parameters(ParameterSet):
     key_folder: str = ""
     max_commands_per_s: float = number(500.0, 50.0, 10000.0, "1/s")
     memory_limit_mib: int = number(400, 150, 4000, "MiB")
+    memory_folder: str = ""
+    full_disk_mb: float = number(FULL_MB, 1.0, 100000.0, "MB")
+    disk_period_s: float = number(10.0, 0.05, 600.0, "s")
 
     def __post_init__(self) -> None:
         super().__post_init__()

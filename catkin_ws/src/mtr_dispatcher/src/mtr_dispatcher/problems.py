@@ -56,7 +56,7 @@ PRESS_STRENGTH = Sentence("dispatcher.press_strength",
 PRESS_DURATION = Sentence("dispatcher.press_duration",
                           "Button press {id}: duration is {value} s; allowed is {low} to {high} s.")
 
-# Nodes and battery
+# Nodes, battery and disk
 NODE_CANNOT_START = Sentence("dispatcher.node_cannot_start", "The node {node} cannot start: {why}")
 STATE_MACHINE_SILENT = Sentence("dispatcher.state_machine_silent",
                                 "The robot's state machine is silent; the robot stands still.")
@@ -65,3 +65,6 @@ POSITION_UNKNOWN = Sentence("dispatcher.position_unknown", "The robot does not k
 NO_EMERGENCY_STOP = Sentence("dispatcher.no_emergency_stop",
                              "The robot has no manual controller: there is no emergency stop but the one on the robot.")
 LOW_BATTERY = Sentence("dispatcher.low_battery", "The battery is at {percent:.0f} %.")
+DISK_FULL = Sentence("dispatcher.disk_full",
+                     "The robot's disk is full ({folder}); no test begins until {needed_mb:.0f} MB are free: delete "
+                     "old logs and bags.")

@@ -6,6 +6,7 @@ import sys
 import time
 import unittest
 
+import rospkg
 import rospy
 import rostest
 import zmq
@@ -148,6 +149,10 @@ class DispatcherLink(unittest.TestCase):
         status = self.application.status_where(rejected)
         self.assertEqual(status.session_id, self.application.session_id)
         other.close()
+
+    def test_folders_of_the_robot_are_left_for_a_preflight(self):
+        written = rospy.get_param(names.WRITTEN_FOLDERS)
+        self.assertEqual(written, [rospkg.get_ros_home(), rospkg.get_log_dir(), "/robot/memory"])
 
     def test_lidars_and_obstacle_are_seen(self):
         scan = rospy.Publisher(names.FRONT_SCAN, LaserScan, queue_size=1)

@@ -1,5 +1,6 @@
 """What the Operator reads of the robot's parts."""
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
 from http.client import CannotSendRequest
 from xml.parsers.expat import ExpatError
 from xmlrpc.client import Fault, ProtocolError
@@ -9,6 +10,7 @@ from dispatcher_link import Link
 
 from mtr_core import names
 from mtr_dispatcher.core import Dispatcher
+from mtr_dispatcher.disks.watch import DiskWatch
 from mtr_dispatcher.master_watch import MasterWatch
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.status.builder import Identity
@@ -36,6 +38,36 @@ def test_operator_reads_which_node_cannot_start_and_why_until_it_has():
     assert notice.severity == link.SEVERITY_ERROR and "walker" in notice.text and why in notice.text
     later = link.Status.FromString(core.status(Inputs(2.0)))
     assert "node_cannot_start" not in {note.code for note in later.notifications}
+
+
+def disk_watch(free_mb):
+    """A look at two folders, of disks with this room; one that is not named tells nothing."""
+    def usage(path):
+        if str(path) not in free_mb:
+            raise FileNotFoundError(path)
+        return 10 ** 10, 0, int(1e6 * free_mb[str(path)])
+    return DiskWatch([pathlib.Path("/ros"), pathlib.Path("/logs")], 200.0, 10.0, usage)
+
+
+def test_operator_reads_that_a_disk_is_full_and_what_to_do_until_there_is_room():
+    free_mb, told = {"/ros": 900.0, "/logs": 900.0}, []
+    watch = disk_watch(free_mb)
+    for free_mb["/logs"] in (900.0, 199.0, 240.0, 250.0):
+        watch.update()
+        told.append([(notice.severity, notice.text) for notice in Link().status(full_disk=watch.full).notifications
+                     if notice.code == "disk_full"])
+    full = (link.SEVERITY_ERROR, "The robot's disk is full (/logs); no test begins until 250 MB are free: "
+                                 "delete old logs and bags.")
+    assert told == [[], [full], [full], []]
+
+
+def test_disk_that_tells_nothing_is_none_that_is_full():
+    watch = disk_watch({})
+    watch.update()
+    assert watch.full is None
+    half = disk_watch({"/logs": 10.0})
+    half.update()
+    assert half.full.folder == "/logs"
 
 
 @pytest.mark.parametrize("code, is_told", [("drive_control.imu_frozen", True), ("drive_control.lidar_silent", True),

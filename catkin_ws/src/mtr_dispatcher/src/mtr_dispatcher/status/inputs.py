@@ -5,6 +5,7 @@ from typing import Any, Mapping, NamedTuple, Optional, Protocol, Sequence
 
 from mtr_core.problems import ProblemFields
 
+from ..disks.watch import FullDisk
 from ..preflight_report import PreflightReport
 from .emergency import EmergencyStop
 from .surroundings import Surroundings
@@ -136,6 +137,7 @@ class Inputs(NamedTuple):
         start_failures: why nodes cannot start, by their names.
         surroundings: what the robot sees, None in a Status that does not carry it.
         preflight: what the last one found, None before one was made.
+        full_disk: a disk of the robot that has no room, None while all have.
     """
 
     now_s: float
@@ -152,3 +154,4 @@ class Inputs(NamedTuple):
     start_failures: Mapping[str, str] = MappingProxyType({})
     surroundings: Optional[Surroundings] = None
     preflight: Optional[PreflightReport] = None
+    full_disk: Optional[FullDisk] = None

@@ -90,6 +90,9 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
         yield Notice("unencrypted", ERROR, problems.UNENCRYPTED())
     for node, why in fresh.start_failures.items():
         yield Notice("node_cannot_start", ERROR, problems.NODE_CANNOT_START(node=node, why=why))
+    if fresh.full_disk is not None:
+        yield Notice("disk_full", ERROR, problems.DISK_FULL(folder=fresh.full_disk.folder,
+                                                            needed_mb=fresh.full_disk.needed_mb))
     yield from _mode_notices(fresh)
     if fresh.pose is not None and not fresh.pose.valid:
         yield Notice("not_localized", ERROR, problem_of(fresh.pose.problems, fresh.pose.message)

@@ -1,0 +1,45 @@
+"""Whether a disk that the robot writes to is full, asked beside everything else. No ROS inside."""
+# SPDX-License-Identifier: Apache-2.0
+import pathlib
+import shutil
+import threading
+import time
+from typing import NamedTuple, Optional, Sequence
+
+from .room import DiskLimit, Usage, room_at
+
+
+class FullDisk(NamedTuple):
+    """A disk without room. needed_mb: with so much free it is full no more."""
+
+    folder: str
+    needed_mb: float
+
+
+class DiskWatch:
+    """Asks from a thread of its own: a disk that is broken or far away answers late, or never.
+
+    Attributes:
+        full: the first full disk, by the order of the folders; None while none is.
+    """
+
+    def __init__(self, folders: Sequence[pathlib.Path], full_mb: float, period_wall_s: float,
+                 usage: Usage = shutil.disk_usage):
+        self.full: Optional[FullDisk] = None
+        self._folders, self._period_wall_s, self._usage = folders, period_wall_s, usage
+        self._limit = DiskLimit(full_mb)
+
+    def start(self) -> None:
+        """Begin to ask."""
+        threading.Thread(target=self._run, name="disk watch", daemon=True).start()
+
+    def update(self) -> None:
+        """Ask once; a disk that tells nothing counts as one with room."""
+        rooms = (room_at(folder, self._usage) for folder in self._folders)
+        found = self._limit.full(room for room in rooms if room is not None)
+        self.full = FullDisk(str(found.folder), self._limit.needed_mb) if found else None
+
+    def _run(self) -> None:
+        while True:
+            self.update()
+            time.sleep(self._period_wall_s)
