@@ -99,6 +99,14 @@ def test_master_that_does_not_take_them_is_a_sentence(monkeypatch, capsys):
     assert capsys.readouterr().err.startswith("The Operator's application will not show this")
 
 
+def test_disk_of_the_robots_folders_is_looked_at_beside_that_of_the_home(monkeypatch):
+    looked = []
+    monkeypatch.setattr(command_line, "machine_findings", lambda machine: looked.extend(machine.folders) or [])
+    monkeypatch.setattr(command_line, "chrony_output", lambda: None)
+    command_line.computer_findings("http://127.0.0.1:11311", Setup(written_folders=("/var/log/mtr",)))
+    assert looked == [pathlib.Path.home(), pathlib.Path("/var/log/mtr")]
+
+
 class Heard:
     """Of a robot that stands and says nothing wrong."""
 

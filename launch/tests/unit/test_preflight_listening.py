@@ -52,6 +52,8 @@ def test_setup_is_what_the_parameters_say(robot):
     assert (setup_of_robot().turn_rate_hz, setup_of_robot().lidar_timeout_s) == (15.0, 0.2)
     robot[names.ROBOT_FRAMES] = {names.FRONT_LIDAR: "front_laser"}
     assert setup_of_robot().frames == {names.FRONT_LIDAR: "front_laser"}
+    robot[names.WRITTEN_FOLDERS] = ["/var/lib/mtr/ros", "/var/log/mtr"]
+    assert setup_of_robot().written_folders == ("/var/lib/mtr/ros", "/var/log/mtr")
 
 
 def test_record_has_messages_publishers_types_parameters_and_failures(robot):

@@ -20,7 +20,7 @@ WIRELESS = """Inter-| sta-|   Quality        |   Discarded packets              
 
 def machine(root, total=100e9, free=50e9):
     """A computer with these files and this disk."""
-    return Machine(root, pathlib.Path("/home"), lambda path: (int(total), int(total - free), int(free)))
+    return Machine(root, [pathlib.Path("/home")], lambda path: (int(total), int(total - free), int(free)))
 
 
 def write(root, name, text):
@@ -32,6 +32,26 @@ def write(root, name, text):
     (100e9, 5.1e9, False), (100e9, 4.9e9, True), (10e9, 1.1e9, False), (10e9, 0.9e9, True), (10e9, 0.0, True)])
 def test_disk_needs_a_gigabyte_and_a_twentieth(tmp_path, total, free, is_bad):
     assert disk_finding(machine(tmp_path, total, free)).is_bad is is_bad
+
+
+@pytest.mark.parametrize("free, told", [
+    ({"/home": 50e9, "/var": 0.9e9}, (True, "/var/log/robot")), ({"/home": 0.9e9, "/var": 50e9}, (True, "/home")),
+    ({"/home": 50e9, "/var": 40e9}, (False, "/var/log/robot")),
+    ({"/home": 0.5e9, "/var": 0.4e9}, (True, "/var/log/robot"))])
+def test_disk_of_the_robots_logs_counts_like_that_of_the_home(tmp_path, free, told):
+    def usage(path):
+        if str(path) not in free:
+            raise FileNotFoundError(path)
+        return int(60e9), 0, int(free[str(path)])
+    finding = disk_finding(Machine(tmp_path, [pathlib.Path("/home"), pathlib.Path("/var/log/robot")], usage))
+    assert finding.is_bad is told[0] and f"free on {told[1]}" in finding.text
+
+
+def test_disk_that_tells_nothing_is_bad(tmp_path):
+    def usage(path):
+        raise OSError(5, "Input/output error")
+    finding = disk_finding(Machine(tmp_path, [pathlib.Path("/home")], usage))
+    assert finding.is_bad and "look at the disk" in finding.text
 
 
 def test_masters_are_told_by_the_command_lines_of_ros(tmp_path):

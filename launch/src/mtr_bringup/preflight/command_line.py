@@ -102,7 +102,8 @@ def shown(findings: List[Finding]) -> List[Finding]:
 
 def computer_findings(uri: str, setup: Setup) -> List[Finding]:
     """Clock, network, disk and the like."""
-    machine = Machine(pathlib.Path("/"), pathlib.Path.home())
+    # Bags are begun in the home of whoever looks; where the nodes write, the robot says.
+    machine = Machine(pathlib.Path("/"), [pathlib.Path.home(), *map(pathlib.Path, setup.written_folders)])
     return [*network_findings(os.environ, uri),
             masters_finding(uri, machine.ros_master_ports(), setup.is_simulated),
             clock_finding(chrony_output(), setup.is_simulated), *machine_findings(machine)]

@@ -1,7 +1,7 @@
 """Topics that the robot's nodes need, and how often they have to come."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
-from typing import List, Mapping, NamedTuple
+from typing import List, Mapping, NamedTuple, Sequence
 
 from mtr_core import names
 from mtr_core.schedule import CONTROLLER_INPUT, FIRMWARE, LIDAR, SENSORS, Slot
@@ -31,6 +31,7 @@ class Setup:
         base_guard: the node in front of a base without limits runs.
         base_controller: namespace of the base's parameters.
         is_simulated: time or robot are simulated.
+        written_folders: into which its nodes write.
         frames: link of the description -> frame in which the sensor speaks, where that has another name.
         time_increment_s: from beam to beam, as the nodes take it where the scans do not say it; 0: they do not know.
         turn_rate_hz: of the LiDARs by the data sheet of their kind; where none is named, that of the simulated ones.
@@ -46,6 +47,7 @@ class Setup:
     turn_rate_hz: float = 1e9 / LIDAR.period_ns
     lidar_timeout_s: float = LIDAR_TIMEOUT_S
     frames: Mapping[str, str] = field(default_factory=dict)
+    written_folders: Sequence[str] = ()
 
     @property
     def base_parameters(self) -> str:

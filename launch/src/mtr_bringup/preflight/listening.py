@@ -50,7 +50,8 @@ def setup_of_robot() -> Setup:
         float(rospy.get_param("/localization/time_increment_s", default.time_increment_s)),
         float(rospy.get_param(names.LIDAR_TURN_RATE, default.turn_rate_hz)),
         float(drive.get("lidar_timeout_s", default.lidar_timeout_s)),
-        {str(link): str(frame) for link, frame in rospy.get_param(names.ROBOT_FRAMES, {}).items()})
+        {str(link): str(frame) for link, frame in rospy.get_param(names.ROBOT_FRAMES, {}).items()},
+        tuple(str(folder) for folder in rospy.get_param(names.WRITTEN_FOLDERS, ())))
 
 
 def publishers() -> Dict[str, Tuple[str, ...]]:

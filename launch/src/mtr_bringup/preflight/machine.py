@@ -5,13 +5,13 @@ import pathlib
 import re
 import shutil
 from dataclasses import dataclass
-from typing import Callable, List, Optional, Tuple
+from typing import List, Optional, Sequence, Tuple
+
+from mtr_dispatcher.disks.room import Usage, room_at
 
 from .finding import Finding, bad, good
 
 DISK, HEAT, MEMORY, WIFI = "machine.disk", "machine.temperature", "machine.memory", "machine.wifi"
-# A day of logs and some bags; ROS stops writing logs, and nodes fail at odd places, when a disk is full.
-MIN_FREE_BYTES, MIN_FREE_SHARE = 1e9, 0.05
 # Intel's and AMD's processors slow down at 95 to 105 C.
 MAX_TEMPERATURE_C = 85.0
 # A chosen reserve: the nodes of the robot need less, and without any the kernel ends the largest process.
@@ -29,13 +29,13 @@ class Machine:
 
     Attributes:
         root: under which proc and sys lie.
-        disk: of whose free space is asked.
+        folders: of whose disks' free space is asked.
         usage: total, used and free bytes of a path's disk.
     """
 
     root: pathlib.Path
-    disk: pathlib.Path
-    usage: Callable[[pathlib.Path], Tuple[int, int, int]] = shutil.disk_usage
+    folders: Sequence[pathlib.Path]
+    usage: Usage = shutil.disk_usage
 
     def temperature_c(self) -> Optional[float]:
         """The hottest zone; None where there are none."""
@@ -89,14 +89,17 @@ def machine_findings(machine: Machine) -> List[Finding]:
 
 
 def disk_finding(machine: Machine) -> Finding:
-    """Free space for logs and bags."""
-    total, _, free = machine.usage(machine.disk)
-    limit = max(MIN_FREE_BYTES, MIN_FREE_SHARE * total)
-    text, value = f"{free / GIGA:.1f} of {total / GIGA:.0f} GB are free on {machine.disk}", free / GIGA
-    if free >= limit:
-        return good(DISK, "disk", f"{text}.", value, limit / GIGA, unit="GB")
-    return bad(DISK, "disk", f"{text}, at least {limit / GIGA:.1f} GB are needed: delete old logs and bags (rosclean "
-               "purge).", value, limit / GIGA, unit="GB")
+    """Free space for logs and bags, of the disk that lacks most."""
+    rooms = [room for room in (room_at(folder, machine.usage) for folder in machine.folders) if room]
+    if not rooms:
+        return bad(DISK, "disk", "This computer does not tell what is free on it: look at the disk (dmesg).")
+    least = min(rooms, key=lambda room: room.free_bytes / room.reserve_bytes)
+    value, limit = least.free_bytes / GIGA, least.reserve_bytes / GIGA
+    text = f"{value:.1f} of {least.total_bytes / GIGA:.0f} GB are free on {least.folder}"
+    if value >= limit:
+        return good(DISK, "disk", f"{text}.", value, limit, unit="GB")
+    return bad(DISK, "disk", f"{text}, at least {limit:.1f} GB are needed: delete old logs and bags (rosclean purge).",
+               value, limit, unit="GB")
 
 
 def temperature_finding(machine: Machine) -> Finding:
