@@ -138,6 +138,14 @@ def test_no_test_begins_on_a_robot_whose_preflight_found_something_wrong(session
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
 
 
+def test_no_test_begins_on_a_robot_whose_disk_is_full(session, spoil, robot_link):
+    full = Notification("disk_full", 3, "The robot's disk is full.")
+    spoil(lambda status: True, notifications=(full,))
+    with pytest.raises(RobotFailed, match=r"^The robot's disk is full\.$"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
+
+
 @pytest.mark.parametrize("spoiled", [
     told(FINE), told(PreflightReport()), told(replace(FULL, made_s=1e6)), told(FULL, every=10**6)],
     ids=["nothing is wrong", "none was made", "of another run", "a robot of before does not tell"])

@@ -26,7 +26,16 @@ from mtr_operator.station.disk_watch import free_bytes
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.mailbox import Mailbox
-from mtr_operator.station.readiness import Cause, Phase, Readiness, ReadinessWord, Reason, can_resume, readiness_of
+from mtr_operator.station.readiness import (
+    RUNNING,
+    Cause,
+    Phase,
+    Readiness,
+    ReadinessWord,
+    Reason,
+    can_resume,
+    readiness_of,
+)
 from mtr_operator.station.sight.ways import Ways
 
 STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
@@ -121,6 +130,7 @@ def test_each_item_says_what_was_found(robot, check, state, finding):
     snapshot(notifications=(Notification("held", 3, "Held."),)),
     snapshot(notifications=(Notification("no_emergency_stop", 3, "None."),)),
     snapshot(notifications=(Notification("link_lost", 3, "Lost."),)),
+    snapshot(notifications=(Notification("disk_full", 3, "Full."),)),
     snapshot(notifications=(Notification("x", 3, "Stands.", (LIDAR,)),)),
     snapshot(notifications=(Notification("peripherals_silent", 3, "Silent."),)),
     after_preflight(FINE), after_preflight(FINE, age_s=1e6), after_preflight(FULL, FINE),
@@ -179,6 +189,16 @@ def test_bad_preflight_hinders_a_start_and_not_a_test_that_runs():
     assert readiness_of(robot, 0.1, Phase.IDLE).reasons == (Reason(Cause.PREFLIGHT_BAD, True, "disk: Full."),)
     assert not can_resume(readiness_of(robot, 0.1, Phase.PAUSED))
     assert readiness_of(robot, 0.1, Phase.MEASURING) == Readiness(ReadinessWord.MEASURING)
+
+
+def test_full_disk_of_the_robot_hinders_a_start_and_not_a_test_that_runs():
+    robot = snapshot(notifications=(Notification("disk_full", 3, "The disk is full."),))
+    assert readiness_of(robot, 0.1, Phase.IDLE) == Readiness(
+        ReadinessWord.NOT_READY, (Reason(Cause.NOTIFICATION, True, "The disk is full."),))
+    assert not can_resume(readiness_of(robot, 0.1, Phase.PAUSED))
+    for phase in RUNNING:
+        assert readiness_of(robot, 0.1, phase) == Readiness(
+            ReadinessWord.MEASURING, (Reason(Cause.NOTIFICATION, False, "The disk is full."),))
 
 
 def test_preflight_is_kept_between_its_statuses_and_ends_with_the_robot():

@@ -149,6 +149,10 @@ class CarCheck:
     problems: tuple[Problem, ...] = ()
 
 
+# Code of the notification with which no test begins; the measurement itself is on the laptop, so one that runs goes on.
+DISK_FULL_CODE = "disk_full"
+
+
 @dataclass(frozen=True)
 class Notification:
     """A sentence that concerns the Operator now.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import Mode, RobotStatus, WaypointResult
+from mtr_operator.domain.robot_status import DISK_FULL_CODE, Mode, RobotStatus, WaypointResult
 
 from .events import RobotSnapshot
 from .motion import Motion, is_driving
@@ -71,6 +71,8 @@ class Cause(enum.Enum):
 HELD_CODE = "held"
 # Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
 NOT_BLOCKING = ("no_emergency_stop", "unencrypted", HELD_CODE)
+# Red, and no reason to stop what runs: the lines of the test are written on the laptop.
+NOT_BLOCKING_A_RUN = (DISK_FULL_CODE,)
 # In these the robot itself says what is the matter.
 LINK_LOST_CODE = "link_lost"
 MODE_CODES = ("fault", LINK_LOST_CODE, "not_localized")
@@ -105,7 +107,7 @@ def readiness_of(robot: RobotSnapshot | None, silent_s: float, phase: Phase, mot
     """
     if robot is None or silent_s >= SILENCE_LIMIT_S:
         return Readiness(ReadinessWord.LOST, (Reason(Cause.ROBOT_SILENT, True, f"{silent_s:.0f}"),))
-    found = [*_robot_reasons(robot.status), *_car_reasons(robot), *_preflight_reasons(robot, phase)]
+    found = [*_robot_reasons(robot.status, phase), *_car_reasons(robot), *_preflight_reasons(robot, phase)]
     reasons = sorted(found, key=lambda reason: not reason.is_blocking)
     word = _word_of_motion(robot.status, phase, motion)
     if word is not None:
@@ -145,7 +147,7 @@ def can_resume(readiness: Readiness) -> bool:
     return readiness.word is ReadinessWord.PAUSED and not any(reason.is_blocking for reason in readiness.reasons)
 
 
-def _robot_reasons(status: RobotStatus) -> list[Reason]:
+def _robot_reasons(status: RobotStatus, phase: Phase) -> list[Reason]:
     reasons = []
     notified = {notification.code: notification for notification in status.notifications}
     if status.controlled_by_other:
@@ -162,8 +164,8 @@ def _robot_reasons(status: RobotStatus) -> list[Reason]:
         is_empty = status.battery_percent < EMPTY_BATTERY_PERCENT
         reasons.append(Reason(Cause.BATTERY_EMPTY if is_empty else Cause.BATTERY_LOW, is_empty,
                               str(status.battery_percent)))
-    reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR and code not in NOT_BLOCKING,
-                       notification.text)
+    harmless = (*NOT_BLOCKING, *(NOT_BLOCKING_A_RUN if phase in RUNNING else ()))
+    reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR and code not in harmless, notification.text)
                 for code, notification in notified.items()
                 if notification.severity >= WARNING and code not in (*MODE_CODES, "low_battery")]
     return reasons

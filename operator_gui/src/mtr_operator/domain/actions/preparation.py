@@ -6,7 +6,7 @@ from typing import Callable
 
 from ..errors import RobotFailed
 from ..geometry.ray import Ray
-from ..robot_status import CarCheck, Mode, RobotStatus
+from ..robot_status import DISK_FULL_CODE, CarCheck, Mode, RobotStatus
 from .car import Car
 from .control_loop import ControlLoop
 from .robot import Robot
@@ -30,6 +30,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     car.prepare()
     _wait_for_control(loop)
     _refuse_after_bad_preflight(loop)
+    _refuse_with_full_disk(loop.status)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)
@@ -83,6 +84,12 @@ def _refuse_after_bad_preflight(loop: ControlLoop) -> None:
     if report is not None and report.hinders(loop.status.steady_s):
         raise RobotFailed(f"No test begins, because the robot's preflight found: {report.first_bad} Mend it, then run "
                           "`rosrun mtr_bringup preflight` on the robot again.")
+
+
+def _refuse_with_full_disk(status: RobotStatus) -> None:
+    for notification in status.notifications:
+        if notification.code == DISK_FULL_CODE:
+            raise RobotFailed(notification.text)
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:
