@@ -77,7 +77,8 @@ class FaultyRobot:
         self._kind, self._open = kind, contextlib.ExitStack()
         self._disk = folder.resolve() / "ros"
         parameters = folder.resolve() / "parameters.yaml"
-        parameters.write_text(PATIENCE, encoding="utf-8")
+        own = "".join(f"{name}: {value:g}\n" for name, value in kind.parameters.items())
+        parameters.write_text(PATIENCE + own, encoding="utf-8")
         self._ports = free_port(), free_port()
         arguments = {**ARGUMENTS, **kind.arguments, "node_parameters": str(parameters),
                      "fault_relay_status_port": str(self._ports[0]), "fault_relay_command_port": str(self._ports[1])}

@@ -12,6 +12,8 @@ from .matrix import CAR_BUS, GUARDED, LOCKSTEP, MACHINE_CLOCK, PACED, SATELLITES
 
 # Of a disk that is filled: room for logs until then.
 SMALL_DISK_SIZE = "24m"
+# It is full below that, MB, and looked at so often, s of wall time: a fault lasts 2 s.
+SMALL_DISK_LIMITS = {"/dispatcher/full_disk_mb": 2.0, "/dispatcher/disk_period_s": 0.1}
 
 
 @dataclass(frozen=True)
@@ -20,6 +22,7 @@ class RobotKind:
 
     Attributes:
         arguments: of sim.launch. variables: of its environment.
+        parameters: of its nodes, by their whole names.
         real_time_factor: simulated seconds per second, 0: as fast as the machine can.
         by_relay: the Operator reaches the robot through the relay that has the link's faults, and time waits for no
             answer of his; else it waits.
@@ -31,6 +34,7 @@ class RobotKind:
 
     arguments: Dict[str, str] = field(default_factory=dict)
     variables: Dict[str, str] = field(default_factory=dict)
+    parameters: Dict[str, float] = field(default_factory=dict)
     real_time_factor: float = 0.0
     by_relay: bool = False
     is_simulated: bool = True
@@ -51,9 +55,10 @@ ROBOTS = {
     MACHINE_CLOCK: RobotKind({**_RESPAWN, "machine_clock": "true"}, real_time_factor=1.0, by_relay=True,
                              is_simulated=False),
     # In lock-step the simulator waits for drive control's own word; a guard before the base goes by the wall clock.
-    GUARDED: RobotKind({**_RESPAWN, "machine_clock": "true", "graph_watch": "true", "base_guard": "true"}, _CLOSED, 1.0,
-                       by_relay=True, is_simulated=False),
-    SMALL_DISK: RobotKind(has_small_disk=True),
+    GUARDED: RobotKind({**_RESPAWN, "machine_clock": "true", "graph_watch": "true", "base_guard": "true"}, _CLOSED,
+                       real_time_factor=1.0, by_relay=True, is_simulated=False),
+    # Room on a disk is asked for by the wall clock, which simulated time must not run away from.
+    SMALL_DISK: RobotKind(parameters=SMALL_DISK_LIMITS, real_time_factor=1.0, has_small_disk=True),
     SATELLITES: RobotKind(has_receiver=True),
 }
 
