@@ -1,8 +1,10 @@
 """The car locator: at each tick from tasks, poses, scans and maps to the estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
+from concurrent.futures import Executor
 from dataclasses import replace
 from typing import Optional, Tuple
 
+from mtr_core.executors import InlineExecutor
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
@@ -27,9 +29,10 @@ NOWHERE = Rectangle(Pose2(0.0, 0.0, 0.0), 0.0, 0.0)
 class CarLocator:
     """Maps the Car while the mode says so, and then keeps its frame unless there is evidence against it."""
 
-    def __init__(self, parameters: LocatorParameters, remembered: Optional[RememberedCar] = None):
-        """remembered: what a locator before this one has found, to go on with."""
-        self._parameters = parameters
+    def __init__(self, parameters: LocatorParameters, remembered: Optional[RememberedCar] = None,
+                 fits: Optional[Executor] = None):
+        """remembered: what a locator before this one has found, to go on with; fits: where the Car is fitted."""
+        self._parameters, self._fits = parameters, fits or InlineExecutor()
         self._poses: Optional[PoseHistory] = None
         self._survey: Optional[Survey] = None
         self._located: Optional[LocatedCar] = None
@@ -113,7 +116,7 @@ class CarLocator:
             prior = prior_at(self._located.fit.rectangle)
         else:
             prior = prior_from_start(robot, self._parameters)
-        return Survey(prior, map_id, self._next_waypoint_id, self._parameters)
+        return Survey(prior, map_id, self._next_waypoint_id, self._parameters, self._fits)
 
     def _is_new(self, task: LocatorTask) -> bool:
         if self._state == CarState.UNKNOWN or task.map_car_id != self._map_car_id:

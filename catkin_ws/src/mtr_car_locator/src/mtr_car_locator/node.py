@@ -1,7 +1,7 @@
 """The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import Executor, ThreadPoolExecutor
 from dataclasses import replace
 from typing import Optional, Tuple
 
@@ -14,6 +14,7 @@ from mtr_core.conversions import goal_report_from
 from mtr_core.executors import InlineExecutor
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_held, stamp_of
+from mtr_core.process_executor import ProcessExecutor
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 from mtr_description.robot_description import described_robot
@@ -36,6 +37,7 @@ from .parameters import LocatorParameters
 from .rectangle import Rectangle
 from .sensors import MapSource, PoseSource, ScanSource
 from .steps import LocatorSteps
+from .survey import survey
 
 
 class CarLocatorNode:
@@ -44,10 +46,10 @@ class CarLocatorNode:
     def __init__(self, parameters: LocatorParameters):
         lidars = described_robot().lidars(parameters.rear_lidar)
         self._parameters = parameters
-        # In lock-step and in a replay time waits for the fit.
-        executor = InlineExecutor() if is_held() else ThreadPoolExecutor(1)
+        # In lock-step and in a replay time waits for the fit; else neither it nor the other steps hold up a tick.
+        executor, fits = _executors()
         self._keeper = CarKeeper(_memory_file(parameters.memory_folder), ThreadPoolExecutor(1), rospy.logwarn)
-        self._steps = LocatorSteps(CarLocator(parameters, self._keeper.read()), executor)
+        self._steps = LocatorSteps(CarLocator(parameters, self._keeper.read(), fits), executor)
         self._ticker = Ticker(schedule.CAR_LOCATOR)
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._drive = TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
@@ -99,6 +101,13 @@ class CarLocatorNode:
         if estimate.fit and estimate.fit.warning and estimate.revision != self._said[1]:
             rospy.logwarn("%s", estimate.fit.warning)
         self._said = said
+
+
+def _executors() -> Tuple[Executor, Executor]:
+    """Of the locator's steps and of the fits among them."""
+    if is_held():
+        return InlineExecutor(), InlineExecutor()
+    return ThreadPoolExecutor(1), ProcessExecutor([survey.__name__], rospy.logwarn)
 
 
 def _memory_file(folder: str) -> Optional[MemoryFile]:

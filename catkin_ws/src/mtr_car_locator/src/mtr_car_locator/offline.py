@@ -68,7 +68,7 @@ def close_up_of(folder: pathlib.Path, scans: Iterable[Scan], car: Pose2) -> Opti
         seen = returns_in_map(scan, history) if history else None
         if seen is not None:
             way.add(seen, scan.base_from_lidar)
-    return way.close_up(frames, _range_bias(folder)) if rows is not None else None
+    return way.sweeps().close_up(frames, _range_bias(folder)) if rows is not None else None
 
 
 def _with_pose(history: Optional[PoseHistory], row: FloatArray) -> Optional[PoseHistory]:

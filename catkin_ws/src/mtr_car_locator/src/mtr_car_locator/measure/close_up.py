@@ -15,6 +15,7 @@ from ..surfels import rotated_back
 HALF_SIDE_M = 4.5
 # A robot that stands sees the same again; a way round has some 2500 sweeps of two LiDARs.
 MIN_MOTION_M, MIN_TURN_RAD, MAX_SWEEPS = 0.005, 0.005, 10_000
+SWEEP_COLUMNS = 8
 
 
 @dataclass(frozen=True)
@@ -48,22 +49,45 @@ class WayRound:
         self._sweeps.append(Returns(seen.points[near].astype(np.float32), seen.viewer, seen.time_s, seen.robot,
                                     seen.is_rear))
 
+    def sweeps(self) -> "Sweeps":
+        """What was collected so far."""
+        if not self._sweeps:
+            return Sweeps(np.empty((0, 2), np.float32), np.empty((0, SWEEP_COLUMNS)))
+        rows = [(sweep.time_s, sweep.robot.x, sweep.robot.y, sweep.robot.heading, *sweep.viewer, sweep.is_rear,
+                 len(sweep.points)) for sweep in self._sweeps]
+        return Sweeps(np.concatenate([sweep.points for sweep in self._sweeps]), np.array(rows, dtype=float))
+
+
+@dataclass(frozen=True)
+class Sweeps:
+    """Returns of many sweeps as two arrays: thousands of objects would take long to get to another process.
+
+    Attributes:
+        points: of all sweeps one after another, (n, 2) in map, by the poses of before the adjustment.
+        rows: of each sweep: time in s, the robot's x, y and heading, the LiDAR's x and y, 1 of the rear LiDAR, number
+            of its points.
+    """
+
+    points: FloatArray
+    rows: FloatArray
+
     def close_up(self, key_frames: FloatArray, range_bias: RangeBias) -> Optional[CloseUp]:
         """What was collected between the first and the last key-frame; None when that is nothing.
 
         key_frames: rows (time in s, x, y, heading) after adjustment. Each sweep is moved as the key-frames before and
         after it were.
         """
-        if len(self._sweeps) < 2 or len(key_frames) < 2:
+        if len(self.rows) < 2 or len(key_frames) < 2:
             return None
-        times = np.array([sweep.time_s for sweep in self._sweeps])
+        times = self.rows[:, 0]
         order = np.argsort(times, kind="stable")
         frames = key_frames[(key_frames[:, 0] >= times.min()) & (key_frames[:, 0] <= times.max())]
         if len(frames) < 2:
             return None
-        raw = np.array([[sweep.robot.x, sweep.robot.y, sweep.robot.heading] for sweep in self._sweeps])[order]
-        changes = _changes(frames, times[order], raw)
-        moved = [_moved(self._sweeps[index], change, range_bias)
+        changes = _changes(frames, times[order], self.rows[order, 1:4])
+        ends = np.cumsum(self.rows[:, -1]).astype(int)
+        moved = [_moved(self.points[ends[index] - int(self.rows[index, -1]):ends[index]], self.rows[index], change,
+                        range_bias)
                  for index, change in zip(order, _interpolated(times[order], frames[:, 0], changes))
                  if frames[0, 0] <= times[index] <= frames[-1, 0]]
         return CloseUp(*(np.concatenate(columns) for columns in zip(*moved))) if moved else None
@@ -87,8 +111,9 @@ def _interpolated(wanted_s: FloatArray, known_s: FloatArray, rows: FloatArray) -
     return np.column_stack([np.interp(wanted_s, known_s, rows[:, column]) for column in range(3)])
 
 
-def _moved(sweep: Returns, change: FloatArray, range_bias: RangeBias) -> Tuple[FloatArray, FloatArray]:
-    bias_m = range_bias.rear_m if sweep.is_rear else range_bias.front_m
-    away = sweep.points - sweep.viewer
+def _moved(points: FloatArray, row: FloatArray, change: FloatArray,
+           range_bias: RangeBias) -> Tuple[FloatArray, FloatArray]:
+    bias_m = range_bias.rear_m if row[6] else range_bias.front_m
+    away = points - row[4:6]
     beams = rotated_back(away / np.maximum(np.linalg.norm(away, axis=1), 1e-6)[:, np.newaxis], -change[2])
-    return rotated_back(sweep.points, -change[2]) + change[:2] - bias_m * beams, beams
+    return rotated_back(points, -change[2]) + change[:2] - bias_m * beams, beams

@@ -1,6 +1,7 @@
 """One mapping of the Car: the way round it, and the Car from what localization made of it."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
+from concurrent.futures import Executor
 from typing import Optional, Sequence, Tuple
 
 from mtr_core import names
@@ -14,11 +15,10 @@ from ..find.errors import NotLocated
 from ..find.fit import fit_car, rough_car
 from ..find.prior import Prior
 from ..measure.car_fit import CarFit
-from ..measure.close_up import CloseUp, WayRound
+from ..measure.close_up import Sweeps, WayRound
 from ..parameters import LocatorParameters
 from ..poses import PoseHistory, PoseMode, RobotPose
 from ..scan import Scan, returns_in_map
-from ..surfels import Surfels
 from .ring import Ring
 from .surface_map import MapPhase, SurfaceMap
 from .surfel_grid import SurfelGrid
@@ -33,11 +33,12 @@ class Survey:
         car: what is known of the Car so far, the prior before it was seen.
         was_seen: True when car comes from points.
         fit: the Car, once it was found.
-        surfels: what it was found among.
     """
 
-    def __init__(self, prior: Prior, map_id: int, first_waypoint_id: int, parameters: LocatorParameters):
-        self._parameters = parameters
+    def __init__(self, prior: Prior, map_id: int, first_waypoint_id: int, parameters: LocatorParameters,
+                 fits: Executor):
+        """fits: where the Car is fitted; it is waited for."""
+        self._parameters, self._fits = parameters, fits
         self._grid = SurfelGrid(prior.car.pose.x, prior.car.pose.y)
         self._way = WayRound(prior.car.pose.x, prior.car.pose.y)
         self._ring: Optional[Ring] = None
@@ -50,7 +51,6 @@ class Survey:
         self.prior, self.car = prior, prior.car
         self.was_seen = False
         self.fit: Optional[CarFit] = None
-        self.surfels: Optional[Surfels] = None
 
     @property
     def phase(self) -> MapPhase:
@@ -112,11 +112,13 @@ class Survey:
             self._frozen_since_s = now_s
         if not self._is_mapped and robot.mode is PoseMode.DEAD_RECKONING:
             # A localization of wheels and gyro alone makes no map: what the locator has seen itself must do.
-            self._fit(self._grid.surfels(robot.position_sigma_m))
+            self.fit = self._fits.submit(fit_car, self._grid.surfels(robot.position_sigma_m), self.prior,
+                                         self._parameters).result()
         elif surfaces is not None and surfaces.map_id == self.map_id:
             self.judge(surfaces)
             if robot.map_revision == surfaces.revision:
-                self._fit(surfaces.surfels, self._way.close_up(surfaces.key_frames, surfaces.range_bias))
+                self.fit = self._fits.submit(_fit_to_map, surfaces, self._way.sweeps(), self.prior,
+                                             self._parameters).result()
         elif now_s - self._frozen_since_s > self._parameters.map_limit_s:
             raise NotLocated(problems.MAP_LATE(limit_s=self._parameters.map_limit_s))
 
@@ -144,10 +146,6 @@ class Survey:
         self._waypoint_id += 1
         self._blocked_since_s = None
 
-    def _fit(self, surfels: Surfels, close_up: Optional[CloseUp] = None) -> None:
-        self.surfels = surfels
-        self.fit = fit_car(surfels, self.prior, self._parameters, close_up)
-
     def _find_first(self, since_s: float, robot: RobotPose) -> None:
         """Begin the way round once the Car is seen: nobody goes round what may stand elsewhere."""
         if since_s < self._parameters.look_first_s:
@@ -162,5 +160,11 @@ class Survey:
 
     def _find(self, robot: RobotPose) -> None:
         """A better idea of the Car for the rest of the way; NotLocated when the points give none."""
-        self.car = rough_car(self._grid.surfels(robot.position_sigma_m), self.prior, self._parameters)
+        seen = self._grid.surfels(robot.position_sigma_m)
+        self.car = self._fits.submit(rough_car, seen, self.prior, self._parameters).result()
         self.was_seen = True
+
+
+def _fit_to_map(surfaces: SurfaceMap, sweeps: Sweeps, prior: Prior, parameters: LocatorParameters) -> CarFit:
+    """The Car in the adjusted map, its size by all returns of the way round."""
+    return fit_car(surfaces.surfels, prior, parameters, sweeps.close_up(surfaces.key_frames, surfaces.range_bias))

@@ -1,0 +1,107 @@
+"""Long work in a process of its own, so that it takes neither the interpreter's lock nor processor time from a node.
+
+In a thread of the node it does: the thread holds the lock of the interpreter while the scheduler lets others run, and
+whoever speaks for the node waits for that. Run as a program, this module is that process.
+"""
+# SPDX-License-Identifier: Apache-2.0
+import contextlib
+import importlib
+import os
+import subprocess
+import sys
+import threading
+from concurrent.futures import Executor, Future
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
+from typing import Any, Callable, List, Optional, TypeVar
+
+from .executors import InlineExecutor
+
+Value = TypeVar("Value")
+# Beside the nodes it comes second: what they say has a time by which it must be said.
+NICENESS = 5
+GONE = (EOFError, ConnectionError)
+
+
+class ProcessExecutor(Executor):
+    """Does its work before it returns, one piece at a time; function, arguments and result are pickled.
+
+    The process starts at once and ends with this one, however that ends. When it has died, killed for its memory
+    maybe, the work is done here and another process is started.
+    """
+
+    def __init__(self, modules: List[str], tell: Callable[[str], None]):
+        """modules: what the work needs, imported at once; tell: takes the sentence that the process has died."""
+        self._modules, self._tell = modules, tell
+        self._lock = threading.Lock()
+        self._inline = InlineExecutor()
+        self._start()
+
+    @property
+    def process_id(self) -> int:
+        """Of the process that does the work."""
+        return self._process.pid
+
+    def submit(self, fn: Callable[..., Value], *args: Any, **kwargs: Any) -> "Future[Value]":
+        """The work's result."""
+        with self._lock:
+            try:
+                self._connection.send((fn, args, kwargs))
+                value, error = self._connection.recv()
+            except GONE:
+                self._replace()
+                return self._inline.submit(fn, *args, **kwargs)
+        done: Future[Value] = Future()
+        if error is not None:
+            done.set_exception(error)
+        else:
+            done.set_result(value)
+        return done
+
+    def shutdown(self, wait: bool = True, **_: Any) -> None:
+        """End the process."""
+        self._connection.close()
+        if wait:
+            self._process.wait()
+
+    def _start(self) -> None:
+        self._connection, far = Pipe()
+        with far:
+            # In a session of its own no Ctrl-C reaches it, and a scheduler that shares by sessions gives it its own.
+            self._process = subprocess.Popen(
+                [sys.executable, "-m", __name__, str(far.fileno()), *self._modules], pass_fds=[far.fileno()],
+                stdin=subprocess.DEVNULL, start_new_session=True)
+
+    def _replace(self) -> None:
+        self._connection.close()
+        self._process.kill()
+        status = self._process.wait()
+        self._tell(f"The process {self._process.pid} for long work has ended with status {status}; this node does the "
+                   "work itself and starts another one.")
+        self._start()
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """Work until whoever has started this process is gone."""
+    handle, *modules = sys.argv[1:] if arguments is None else arguments
+    os.nice(NICENESS)
+    for module in modules:
+        importlib.import_module(module)
+    with Connection(int(handle)) as connection, contextlib.suppress(*GONE):
+        while True:
+            _work(connection)
+    return 0
+
+
+def _work(connection: Connection) -> None:
+    function, arguments, options = connection.recv()
+    try:
+        connection.send((function(*arguments, **options), None))
+    except GONE:
+        raise
+    except Exception as error:
+        connection.send((None, error))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
