@@ -67,11 +67,10 @@ void Outputs::publish_map(const MapResult& result, bool with_grid) {
 }
 
 void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom) {
-  // Sweeps of two LiDARs may end at one instant; tf takes no second transform of a time, and complains of each.
-  if (stamp_ns == map_stamp_ns_) {
+  // Sweeps of two LiDARs may end at one instant, or at that of a pose.
+  if (!map_stamps_.note(stamp_ns)) {
     return;
   }
-  map_stamp_ns_ = stamp_ns;
   transforms_.sendTransform(transform_message(
       stamp_ns, {names::kMap, names::kOdom, map_from_odom.x(), map_from_odom.y(), map_from_odom.z()}));
 }
@@ -79,8 +78,7 @@ void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map
 void Outputs::publish_transforms(const Estimate& estimate, bool with_map) {
   const auto& odom = publish_odom_tf_ ? estimate.odom : estimate.wheel_odom;
   std::vector<geometry_msgs::TransformStamped> messages;
-  if (with_map && estimate.stamp_ns != map_stamp_ns_) {
-    map_stamp_ns_ = estimate.stamp_ns;
+  if (with_map && map_stamps_.note(estimate.stamp_ns)) {
     messages.push_back(map_from_odom_message(estimate, odom));
   }
   if (publish_odom_tf_) {

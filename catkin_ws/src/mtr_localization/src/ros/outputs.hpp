@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pose_source.hpp"
+#include "recent_stamps.hpp"
 #include "ros/memory_files.hpp"
 #include "ros/work_load.hpp"
 
@@ -45,7 +46,7 @@ class Outputs {
   ros::Publisher diagnostics_;
   tf2_ros::TransformBroadcaster transforms_;
   std::int64_t published_second_ = -1;
-  std::int64_t map_stamp_ns_ = -1;
+  RecentStamps map_stamps_;
   std::string logged_kind_;
 };
 
