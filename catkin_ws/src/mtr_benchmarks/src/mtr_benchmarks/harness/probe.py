@@ -1,6 +1,7 @@
 """A process with a ROS name and a ROS master of its own, which measures one node on the machine's clock."""
 # SPDX-License-Identifier: Apache-2.0
 import os
+import pathlib
 import subprocess
 import sys
 from typing import Dict, List
@@ -34,7 +35,18 @@ def run_probe(module: str, arguments: List[str], limit_s: float) -> Dict[str, Li
 
 
 def cpu_s(process: int) -> float:
-    """Processor time that all threads of a process have used so far, user and system."""
+    """Processor time that all threads of a process, and of those that it has started, have used so far, user and
+    system."""
+    return _own_cpu_s(process) + sum(cpu_s(child) for child in _children(process))
+
+
+def _own_cpu_s(process: int) -> float:
     with open(f"/proc/{process}/stat", encoding="ascii") as line:
         fields = line.read().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) * CLOCK_TICK_S
+
+
+def _children(process: int) -> List[int]:
+    """Processes that run; a thread of this one may have started them."""
+    lists = pathlib.Path(f"/proc/{process}/task").glob("*/children")
+    return [int(child) for each in lists for child in each.read_text(encoding="ascii").split()]
