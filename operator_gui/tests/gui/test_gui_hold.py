@@ -142,7 +142,7 @@ def test_status_word_lists_everything_that_was_looked_at__B10(operator):
     texts = rows(operator)
     assert [text.split()[1] for text in texts] == [
         "Link", "Encryption", "Robot", "Preflight", "Emergency", "Position", "Car's", "Way", "LiDARs", "Lift",
-        "Battery", "CAN", "Car's", "Clocks", "Remote", "Disk", "Limits"]
+        "Battery", "CAN", "Car's", "Clocks", "Robot's", "Remote", "Disk", "Limits"]
     assert "\N{CHECK MARK} Encryption Not encrypted; it does not leave this computer." in texts
     assert "\N{CHECK MARK} Battery At 80 %; what a test takes is told when it is chosen." in texts
     assert "\N{CHECK MARK} Car's locks The Car says: locked." in texts
