@@ -14,8 +14,6 @@ from mtr_operator.station.connection import SIMULATED, LinkOpener, RobotChoice
 from .robot import LISTEN_S, listen, robot_items, robot_sentences
 
 _SIGNS = {State.GOOD: "ok", State.NOTE: "note", State.UNKNOWN: "unknown", State.BAD: "bad"}
-
-
 # Wall time that opening a connection may take.
 _TIMEOUT_S = 2.0
 
