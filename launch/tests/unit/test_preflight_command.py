@@ -102,9 +102,19 @@ def test_master_that_does_not_take_them_is_a_sentence(monkeypatch, capsys):
 def test_disk_of_the_robots_folders_is_looked_at_beside_that_of_the_home(monkeypatch):
     looked = []
     monkeypatch.setattr(command_line, "machine_findings", lambda machine: looked.extend(machine.folders) or [])
-    monkeypatch.setattr(command_line, "chrony_output", lambda: None)
+    monkeypatch.setattr(command_line, "said_by", lambda _: None)
     command_line.computer_findings("http://127.0.0.1:11311", Setup(written_folders=("/var/log/mtr",)))
     assert looked == [pathlib.Path.home(), pathlib.Path("/var/log/mtr")]
+
+
+def test_program_that_is_not_there_is_none():
+    assert command_line.said_by(["mtr-no-such-program"]) is None
+    assert command_line.said_by(["echo", "heard"]) == "heard\n"
+
+
+def test_program_that_does_not_answer_says_nothing(monkeypatch):
+    monkeypatch.setattr(command_line, "PROGRAM_TIMEOUT_S", 0.05)
+    assert command_line.said_by(["cat", "/dev/zero"]) == ""
 
 
 class Heard:

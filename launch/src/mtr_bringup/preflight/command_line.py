@@ -37,12 +37,13 @@ from .machine import Machine, machine_findings
 from .motion.judge import MotionJudge, is_finished
 from .obedience import obedience_findings
 from .report import standing_findings, write
+from .wifi import own_stations, wifi_finding
 
 CANNOT_CHECK = 2
 MIN_SECONDS, MAX_SECONDS, DEFAULT_SECONDS = 2.0, 60.0, 5.0
 # A person drives within it, and the sensors are asked so often whether that is enough.
 DRIVE_S, JUDGE_EVERY_S = 20.0, 1.0
-MASTER_TIMEOUT_S, CHRONY_TIMEOUT_S = 3.0, 5.0
+MASTER_TIMEOUT_S, PROGRAM_TIMEOUT_S = 3.0, 5.0
 CHRONY = ["chronyc", "-c", "tracking"]
 
 
@@ -106,15 +107,16 @@ def computer_findings(uri: str, setup: Setup) -> List[Finding]:
     machine = Machine(pathlib.Path("/"), [pathlib.Path.home(), *map(pathlib.Path, setup.written_folders)])
     return [*network_findings(os.environ, uri),
             masters_finding(uri, machine.ros_master_ports(), setup.is_simulated),
-            clock_finding(chrony_output(), setup.is_simulated), *machine_findings(machine)]
+            clock_finding(said_by(CHRONY), setup.is_simulated), *machine_findings(machine),
+            wifi_finding(machine.signal_dbm(), own_stations(said_by))]
 
 
-def chrony_output() -> Optional[str]:
-    """What chrony says; None when it is not installed, empty when it does not answer."""
-    if shutil.which(CHRONY[0]) is None:
+def said_by(command: List[str]) -> Optional[str]:
+    """What a program says; None when it is not installed, empty when it does not answer."""
+    if shutil.which(command[0]) is None:
         return None
     try:
-        return subprocess.run(CHRONY, check=False, capture_output=True, text=True, timeout=CHRONY_TIMEOUT_S).stdout
+        return subprocess.run(command, check=False, capture_output=True, text=True, timeout=PROGRAM_TIMEOUT_S).stdout
     except (OSError, subprocess.TimeoutExpired):
         return ""
 

@@ -11,13 +11,11 @@ from mtr_dispatcher.disks.room import Usage, room_at
 
 from .finding import Finding, bad, good
 
-DISK, HEAT, MEMORY, WIFI = "machine.disk", "machine.temperature", "machine.memory", "machine.wifi"
+DISK, HEAT, MEMORY = "machine.disk", "machine.temperature", "machine.memory"
 # Intel's and AMD's processors slow down at 95 to 105 C.
 MAX_TEMPERATURE_C = 85.0
 # A chosen reserve: the nodes of the robot need less, and without any the kernel ends the largest process.
 MIN_MEMORY_BYTES = 3e8
-# 802.11 at its lowest rates receives down to about -82 dBm; 7 dB are for the robot's turning about.
-MIN_SIGNAL_DBM = -75.0
 GIGA = 1e9
 # As roslaunch and roscore start it, behind an interpreter and its options; the port where none is named.
 MASTER_PROGRAM, MASTER_OPTION, MASTER_WITHIN_WORDS, MASTER_PORT = "rosmaster", "--core", 3, 11311
@@ -84,8 +82,8 @@ def master_ports_in(command: List[str]) -> List[int]:
 
 
 def machine_findings(machine: Machine) -> List[Finding]:
-    """All four."""
-    return [disk_finding(machine), temperature_finding(machine), memory_finding(machine), wifi_finding(machine)]
+    """But for the Wi-Fi, of which programs tell, too."""
+    return [disk_finding(machine), temperature_finding(machine), memory_finding(machine)]
 
 
 def disk_finding(machine: Machine) -> Finding:
@@ -123,15 +121,3 @@ def memory_finding(machine: Machine) -> Finding:
         return good(MEMORY, "memory", f"{text}.", value, MIN_MEMORY_BYTES / GIGA, unit="GB")
     return bad(MEMORY, "memory", f"{text}, at least {MIN_MEMORY_BYTES / GIGA:.1f} GB are needed: end other programs.",
                value, MIN_MEMORY_BYTES / GIGA, unit="GB")
-
-
-def wifi_finding(machine: Machine) -> Finding:
-    """Level of the Wi-Fi connection; an access point has none of its own."""
-    signal = machine.signal_dbm()
-    if signal is None:
-        return good(WIFI, "Wi-Fi", "No connection to an access point; one's own, or a cable, is not judged.")
-    name, level = signal
-    if level >= MIN_SIGNAL_DBM:
-        return good(WIFI, "Wi-Fi", f"{name} receives {level:.0f} dBm.", level, MIN_SIGNAL_DBM, unit="dBm")
-    return bad(WIFI, "Wi-Fi", f"{name} receives {level:.0f} dBm, at least {MIN_SIGNAL_DBM:.0f} dBm are needed: bring "
-               "the access point nearer, or let the robot be one itself.", level, MIN_SIGNAL_DBM, unit="dBm")
