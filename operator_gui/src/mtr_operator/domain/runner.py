@@ -32,7 +32,15 @@ from .results.line_result import LineResult
 from .results.notebook import Notebook
 from .results.progress import Progress
 from .results.refusals import Refusals
-from .results.session_record import ENDED_BY, MEASURED_AGAIN, RECOVERED, again_text, clock_record, controller_record
+from .results.session_record import (
+    ENDED_BY,
+    MEASURED_AGAIN,
+    RECOVERED,
+    again_text,
+    clock_record,
+    controller_record,
+    preflight_record,
+)
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 from .verdict.assessment import Assessor
@@ -76,8 +84,9 @@ class Runner:
             self._warn(*(sentence for sentence in self._car.notices if sentence not in notices))
             ahead_s = self._loop.clock_offset.ahead_s
             self._warn(*filter(None, (offset_sentence(ahead_s),)))
-            record = {**controller_record(self._loop.status.controller_name), **clock_record(ahead_s),
-                      **self._car.record}
+            told = self._loop.status
+            record = {**controller_record(told.controller_name), **clock_record(ahead_s),
+                      **preflight_record(self._loop.preflight, told.steady_s), **self._car.record}
             if record:
                 self._notebook.add(SESSION, record)
             lines = self._lines()

@@ -8,6 +8,9 @@ from typing import Mapping, Sequence
 
 from mtr_operator import __version__
 
+from ..clocks.clock_offset import span_text
+from ..robot_status import PreflightReport
+
 STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
 # Only in the record of a test in which it happened.
 ENDED_BY, RECOVERED = "ended before its end", "recovered"
@@ -25,6 +28,8 @@ CAN_ADAPTER_OF_BUS = CAN_ADAPTER + " of the bus {}"
 CAR_PROFILE = "car profile"
 # Only in the record of a test with a robot that tells the time of day.
 CLOCK_OFFSET = "robot's clock ahead of the laptop's by"
+# Only in the record of a test whose robot had one since it was started.
+PREFLIGHT = "robot's preflight"
 # What stands in the record for the robot or the profile where a substitute took its part.
 SUBSTITUTE = "substitute"
 # Only in the record of a test in which something tells the distance of a phone.
@@ -53,6 +58,14 @@ def controller_record(name: str) -> dict[str, str]:
 def clock_record(ahead_s: float) -> dict[str, str]:
     """By how much the robot's clock is ahead of the laptop's; nothing where it is not known (NaN)."""
     return {} if math.isnan(ahead_s) else {CLOCK_OFFSET: f"{ahead_s:.3f} s"}
+
+
+def preflight_record(report: PreflightReport | None, steady_s: float) -> dict[str, str]:
+    """What the robot's last preflight found, and how long ago by its steady clock; nothing where none was made."""
+    if report is None or not report.was_made_before(steady_s):
+        return {}
+    age_s = max(steady_s - report.made_s, 0.0)
+    return {PREFLIGHT: f"{report.checks} checks, {report.bad} bad, {span_text(age_s)} before"}
 
 
 def again_text(session: Mapping[str, str], numbers: Sequence[int]) -> str:
