@@ -10,10 +10,11 @@ import os
 import subprocess
 import sys
 import threading
-from concurrent.futures import Executor, Future
+from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from multiprocessing import Pipe
 from multiprocessing.connection import Connection
-from typing import Any, Callable, List, Optional, TypeVar
+from queue import SimpleQueue
+from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar
 
 from .executors import InlineExecutor
 
@@ -79,6 +80,35 @@ class ProcessExecutor(Executor):
         self._tell(f"The process {self._process.pid} for long work has ended with status {status}; this node does the "
                    "work itself and starts another one.")
         self._start()
+
+
+class ProcessesExecutor(Executor):
+    """Does several pieces at once, each in a process of its own, beside whoever asks for them."""
+
+    def __init__(self, count: int, modules: List[str], tell: Callable[[str], None]):
+        """count: of processes; the rest as ProcessExecutor."""
+        self._threads = ThreadPoolExecutor(count)
+        self._processes = [ProcessExecutor(modules, tell) for _ in range(count)]
+        self._idle: SimpleQueue[ProcessExecutor] = SimpleQueue()
+        for process in self._processes:
+            self._idle.put(process)
+
+    def submit(self, fn: Callable[..., Value], *args: Any, **kwargs: Any) -> "Future[Value]":
+        """The work's result; it can be cancelled until a process is free for it."""
+        return self._threads.submit(self._do, fn, args, kwargs)
+
+    def shutdown(self, wait: bool = True, **_: Any) -> None:
+        """Let what was asked for be done, and end the processes."""
+        self._threads.shutdown(wait)
+        for process in self._processes:
+            process.shutdown(wait)
+
+    def _do(self, function: Callable[..., Value], arguments: Tuple[Any, ...], options: Dict[str, Any]) -> Value:
+        process = self._idle.get()
+        try:
+            return process.submit(function, *arguments, **options).result()
+        finally:
+            self._idle.put(process)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

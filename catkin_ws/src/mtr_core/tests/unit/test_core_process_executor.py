@@ -12,7 +12,7 @@ import pytest
 
 from mtr_core.errors import RobotError
 from mtr_core.problems import Problem, ProblemError
-from mtr_core.process_executor import NICENESS, ProcessExecutor
+from mtr_core.process_executor import NICENESS, ProcessesExecutor, ProcessExecutor
 
 LIMIT_S = 60.0
 # Makes an executor, tells its process and waits.
@@ -109,3 +109,22 @@ def is_running(process):
     except FileNotFoundError:
         return False
     return state not in "ZX"
+
+
+def test_several_pieces_are_done_at_once_in_processes_of_their_own(told):
+    with ProcessesExecutor(2, [], told.append) as executor:
+        begun = executor.submit(time.sleep, 0.3), executor.submit(time.sleep, 0.3)
+        waiting = executor.submit(math.sqrt, 9.0)
+        assert not any(each.done() for each in (*begun, waiting))
+        pids = {executor.submit(os.getpid).result() for _ in range(4)}
+        assert waiting.result() == 3.0 and os.getpid() not in pids
+        with pytest.raises(ValueError, match="math domain error"):
+            executor.submit(math.sqrt, -1.0).result()
+    assert not told
+
+
+def test_piece_that_waits_for_a_process_can_be_cancelled(told):
+    with ProcessesExecutor(1, [], told.append) as executor:
+        executor.submit(time.sleep, 0.3)
+        assert executor.submit(time.sleep, LIMIT_S).cancel()
+        assert executor.submit(math.sqrt, 4.0).result() == 2.0

@@ -1,6 +1,5 @@
 """The motion planner as a ROS node: topics in, velocity and status out, 25 times a second."""
 # SPDX-License-Identifier: Apache-2.0
-from concurrent.futures import ThreadPoolExecutor
 
 import rospy
 from geometry_msgs.msg import PoseStamped
@@ -13,6 +12,7 @@ from mtr_core.executors import InlineExecutor
 from mtr_core.liveness import NS
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_lockstep, stamp_of, steady_at
+from mtr_core.process_executor import ProcessesExecutor
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 
@@ -32,6 +32,7 @@ from .nav_goal import NavGoals
 from .parameters import MotionParameters
 from .picture import picture_of
 from .planner import MotionPlanner
+from .search import planning
 
 # The tool "2D Nav Goal" of rviz publishes here.
 NAV_GOAL = "/move_base_simple/goal"
@@ -47,7 +48,8 @@ class MotionPlannerNode:
     def __init__(self, parameters: MotionParameters):
         self._parameters = parameters
         # In lock-step time waits for the plan.
-        executor = InlineExecutor() if is_lockstep() else ThreadPoolExecutor(PLANS_AT_ONCE)
+        executor = (InlineExecutor() if is_lockstep() else
+                    ProcessesExecutor(PLANS_AT_ONCE, [planning.__name__], rospy.logwarn))
         self._planner = MotionPlanner(parameters, described_robot().footprint(), executor)
         self._ticker = Ticker(schedule.MOTION_PLANNER)
         self._pose = TickInput(names.LOCALIZED_POSE, LocalizedPose, schedule.LOCALIZATION, lag_ns=0)

@@ -1,7 +1,7 @@
 """Makes plans while the robot goes on: each begins where the present motion will be when the plan is due.
 
-On the robot's own clock a plan is made in a thread and may be late; in simulation it is made within the tick that asks
-for it, however long that takes, so that the result does not depend on the machine's speed.
+On the robot's own clock a plan is made in a process of its own and may be late; in simulation it is made within the
+tick that asks for it, however long that takes, so that the result does not depend on the machine's speed.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math

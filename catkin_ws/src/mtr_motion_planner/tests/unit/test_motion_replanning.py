@@ -1,6 +1,7 @@
 """A moving robot follows its old plan until the new one is due; the newest goal wins; a late plan stops it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import pickle
 from concurrent.futures import Executor, Future
 
 import pytest
@@ -15,26 +16,26 @@ START = Pose2(4.0, 2.6, math.radians(-147.0))
 
 
 class Later(Executor):
-    """Does its work when a test says so."""
+    """Does its work when a test says so, with copies that pickle makes, as another process does."""
 
     def __init__(self):
         self.jobs = []
 
     def submit(self, work, *arguments, **named):
         """Remember it."""
-        self.jobs.append((Future(), work, arguments, named))
+        self.jobs.append((Future(), *pickle.loads(pickle.dumps((work, arguments, named)))))
         return self.jobs[-1][0]
 
     def work(self, which=-1):
         """Do one job."""
         done, work, arguments, named = self.jobs[which]
         if not done.cancelled():
-            done.set_result(work(*arguments, **named))
+            done.set_result(pickle.loads(pickle.dumps(work(*arguments, **named))))
 
     def fail(self, error):
         """The newest job ends by an error."""
         if not self.jobs[-1][0].done():
-            self.jobs[-1][0].set_exception(error)
+            self.jobs[-1][0].set_exception(pickle.loads(pickle.dumps(error)))
 
 
 @pytest.fixture(name="later")
