@@ -7,6 +7,7 @@ whoever speaks for the node waits for that. Run as a program, this module is tha
 import contextlib
 import importlib
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -114,6 +115,8 @@ class ProcessesExecutor(Executor):
 def main(arguments: Optional[List[str]] = None) -> int:
     """Work until whoever has started this process is gone."""
     handle, *modules = sys.argv[1:] if arguments is None else arguments
+    # A service's end interrupts all its processes; this one ends with its owner, without a traceback in the log.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(NICENESS)
     for module in modules:
         importlib.import_module(module)

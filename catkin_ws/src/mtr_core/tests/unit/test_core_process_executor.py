@@ -85,6 +85,12 @@ def test_killed_while_it_works_it_is_replaced(executor, told):
     assert len(told) == 1 and executor.submit(math.sqrt, 9.0).result() == 3.0
 
 
+def test_interrupted_with_all_of_a_service_it_waits_for_its_owner(executor, told):
+    executor.submit(len, "four").result()
+    os.kill(executor.process_id, signal.SIGINT)
+    assert executor.submit(math.sqrt, 4.0).result() == 2.0 and not told
+
+
 def test_it_ends_with_the_executor(told):
     executor = ProcessExecutor([], told.append)
     executor.submit(len, "four").result()
