@@ -7,6 +7,7 @@ clocks drift apart, or a second in which all are behind it, says that the clock 
 from __future__ import annotations
 
 import collections
+import itertools
 import math
 from typing import NamedTuple
 
@@ -42,15 +43,18 @@ class DelayWatch:
         self._best_s = -math.inf
         self.in_time_s = self.in_time_arrival_s = -math.inf
 
-    def add(self, stamp_s: float, arrival_s: float) -> bool:
-        """A stamp of the clock arrived; True when the clock was set since the one before, and all begins anew."""
+    def add(self, stamp_s: float, arrival_s: float, may_be_late: bool = False) -> bool:
+        """A stamp of the clock arrived; True when the clock was set since the one before, and all begins anew.
+
+        may_be_late: being late tells nothing, for who stamps says himself when he was set back.
+        """
         ahead_s = stamp_s - arrival_s
         if ahead_s > self._best_s + self._step_s and self._pieces:
             return self._begin(ahead_s, arrival_s)
         self._keep(ahead_s, arrival_s)
         if ahead_s >= self._best_s - self._step_s:
             self.in_time_s, self.in_time_arrival_s = stamp_s, arrival_s
-        return self._is_behind(arrival_s) and self._begin(ahead_s, arrival_s)
+        return not may_be_late and self._is_behind(arrival_s) and self._begin(ahead_s, arrival_s)
 
     def _begin(self, ahead_s: float, arrival_s: float) -> bool:
         self._pieces.clear()
@@ -71,9 +75,8 @@ class DelayWatch:
         self._best_s = max(self._best_s, ahead_s)
 
     def _is_behind(self, arrival_s: float) -> bool:
-        since_s = arrival_s - _PATIENCE_S
-        if self._pieces[0].begin_s > since_s or self._pieces[-1].ahead_s > self._best_s - self._step_s:
-            return False
-        newest = [piece for piece in self._pieces if piece.begin_s > since_s]
-        return (sum(piece.stamps for piece in newest) >= _MIN_STAMPS
-                and max(piece.ahead_s for piece in newest) < self._best_s - self._step_s)
+        """All of some time was late; what a stall held back comes at once, and the last of it in time."""
+        late = list(itertools.takewhile(lambda piece: piece.ahead_s < self._best_s - self._step_s,
+                                        reversed(self._pieces)))
+        return (bool(late) and arrival_s - late[-1].begin_s >= _PATIENCE_S
+                and sum(piece.stamps for piece in late) >= _MIN_STAMPS)

@@ -50,7 +50,7 @@ class RobotClock:
             self.is_simulated = is_simulated(status)
             self.is_real_time = not self.is_simulated
         # Fed before it counts, so that it knows the fastest by then.
-        was_set = self._delays.add(sent_s(status), arrival_s)
+        was_set = self._delays.add(sent_s(status), arrival_s, may_be_late=not math.isnan(status.steady_s))
         return was_set and self.is_real_time
 
     @property
