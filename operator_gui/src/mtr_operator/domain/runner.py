@@ -199,9 +199,9 @@ class Runner:
         if progress.limits is None or progress.calibration is None:
             return
         assessor = Assessor(self._scenario, self._parameters, progress.measured_car, progress.calibration)
-        until_s = self._robot.now_s + progress.limits.further_time_limit_s
+        until_s = self._loop.waited_s + progress.limits.further_time_limit_s
         waiting = {line.number: line for line in lines if line.number not in progress.skipped}
-        while self._robot.now_s < until_s:
+        while self._loop.waited_s < until_s:
             undecided = assessor.assess(progress).undecided()
             number = next((number for number in waiting if number in undecided), None)
             if number is None:

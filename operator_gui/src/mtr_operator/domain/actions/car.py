@@ -63,13 +63,13 @@ class Car:
 
         A Car that unlocks while a person is asked has been asked by the handle: nobody has to say so.
         """
-        handle, asked_s = self._loop.handle, self._loop.now_s
+        handle, asked_s, until_s = self._loop.handle, self._loop.now_s, self._loop.waited_s + patience_s
         if handle is None:
             raise RobotFailed(_NOBODY)
         handle.request(distance_m)
         try:
             while not handle.is_taken() and self.change_to(LockState.UNLOCKED, asked_s) is None:
-                if self._loop.now_s >= asked_s + patience_s:
+                if self._loop.waited_s >= until_s:
                     raise RobotFailed(f"Nobody has taken the Car's handle within {patience_s:g} s; continue the test "
                                       "when somebody is there to do it, or increase handle_timeout_s.")
                 self._loop.step()
@@ -87,13 +87,13 @@ class Car:
 
         RobotFailed when nobody does it within patience_s of robot time.
         """
-        extender, until_s = self._loop.extender, self._loop.now_s + patience_s
+        extender, until_s = self._loop.extender, self._loop.waited_s + patience_s
         if extender is None:
             raise RobotFailed(_NO_SWITCH)
         extender.switch(is_on)
         try:
             while not extender.is_switched():
-                if self._loop.now_s >= until_s:
+                if self._loop.waited_s >= until_s:
                     raise RobotFailed(f"Nobody has switched the extender within {patience_s:g} s; continue the test "
                                       "when somebody is there to do it, or increase switch_timeout_s.")
                 self._loop.step()
@@ -119,9 +119,9 @@ class Car:
 
     def wait_for_phone(self) -> None:
         """Wait until a trouble of what tells the phone's distance is over; LinkLost when it lasts."""
-        until_s = self._loop.now_s + _RECOVERY_LIMIT_S
+        until_s = self._loop.waited_s + _RECOVERY_LIMIT_S
         while self.phone_problem:
-            if self._loop.now_s >= until_s:
+            if self._loop.waited_s >= until_s:
                 raise LinkLost(f"Nothing tells the phone's distance any more: {self.phone_problem}")
             self._loop.step()
 
@@ -164,9 +164,9 @@ class Car:
             raise LinkLost(f"The Car fell silent: {self._reason()}")
 
     def _receives_locks(self, limit_s: float) -> bool:
-        until_s = self._loop.now_s + limit_s
+        until_s = self._loop.waited_s + limit_s
         while self._reason():
-            if self._loop.now_s >= until_s:
+            if self._loop.waited_s >= until_s:
                 return False
             self._loop.step()
         return True

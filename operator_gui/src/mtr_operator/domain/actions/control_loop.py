@@ -12,6 +12,7 @@ from typing import Any, Callable, Iterator
 
 from ..assistance import ExtenderPort, HandlePort
 from ..clocks.clock_offset import ClockOffset
+from ..clocks.waiting_time import WaitingTime
 from ..distance_feed import DistanceFeed, Reported
 from ..errors import LinkLost, RobotFailed, StoodStill
 from ..eventlog.event_log import EventLog
@@ -88,6 +89,7 @@ class ControlLoop:
         self.switcher: ExtenderPort | None = None
         self.standstill = Standstill(SILENCE_LIMIT_S)
         self.clock_offset = ClockOffset()
+        self._waiting_time = WaitingTime()
         self.skipping = Skipping()
         self.phone: DistanceFeed | None = None
         self.reported: list[Reported] = []
@@ -116,6 +118,11 @@ class ControlLoop:
     def now_s(self) -> float:
         """Robot time."""
         return self.status.stamp_s
+
+    @property
+    def waited_s(self) -> float:
+        """Robot time for how long is waited: a clock that is set makes no wait shorter or longer."""
+        return self._waiting_time.at(self.status.stamp_s)
 
     @property
     def car_link(self) -> CarLink:
@@ -185,10 +192,11 @@ class ControlLoop:
         self.change(stop=True, press=None)
         if self._status is None or self._status.controlled_by_other:
             return None
-        until_s = self.now_s + _STOP_LIMIT_S
+        until_s = self.waited_s + _STOP_LIMIT_S
         stands = False
         with contextlib.suppress(LinkLost, RobotFailed, StoodStill, Cancelled):
-            while not stands and self._exchange(patience_s=_STOP_LIMIT_S).stamp_s < until_s:
+            while not stands and self.waited_s < until_s:
+                self._exchange(patience_s=_STOP_LIMIT_S)
                 stands = abs(self.status.speed_mps) < STANDING_MPS
             self._robot_link.send(self.desired)
         return stands
@@ -206,6 +214,7 @@ class ControlLoop:
         self.poses.add(status)
         self._preflight.learn(status)
         self.clock_offset.learn(status)
+        self._waiting_time.learn(status)
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
         events = self._car_link.observe(status)

@@ -69,16 +69,16 @@ def _is_ready(status: RobotStatus) -> bool:
 
 
 def _wait_for_control(loop: ControlLoop) -> None:
-    until_s = loop.now_s + CONTROL_LIMIT_S
+    until_s = loop.waited_s + CONTROL_LIMIT_S
     while loop.status.controlled_by_other:
-        if loop.now_s >= until_s:
+        if loop.waited_s >= until_s:
             raise RobotFailed("The robot is controlled by another application; end that one, then start again.")
         loop.step()
 
 
 def _refuse_after_bad_preflight(loop: ControlLoop) -> None:
-    until_s = loop.now_s + PREFLIGHT_LIMIT_S
-    while loop.preflight is None and loop.now_s < until_s:
+    until_s = loop.waited_s + PREFLIGHT_LIMIT_S
+    while loop.preflight is None and loop.waited_s < until_s:
         loop.step()
     report = loop.preflight
     if report is not None and report.hinders(loop.status.steady_s):
@@ -93,9 +93,9 @@ def _refuse_with_full_disk(status: RobotStatus) -> None:
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:
-    until_s = loop.now_s + limit_s
+    until_s = loop.waited_s + limit_s
     while not condition(loop.status):
-        if loop.now_s >= until_s:
+        if loop.waited_s >= until_s:
             texts = [notification.text for notification in loop.status.notifications]
             raise RobotFailed(" ".join([f"The robot {failure} within {limit_s:g} s.", *texts]))
         loop.step()

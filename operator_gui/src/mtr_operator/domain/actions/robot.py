@@ -87,8 +87,8 @@ class Robot:
 
     def wait_until_reached(self, or_when: Callable[[], Answer | None] = lambda: None) -> Answer | None:
         """Wait for the newest waypoint, or until or_when answers; its answer, None when the waypoint was first."""
-        until_s = self.now_s + REACH_LIMIT_S
-        while self.now_s < until_s:
+        until_s = self._loop.waited_s + REACH_LIMIT_S
+        while self._loop.waited_s < until_s:
             self._loop.step()
             answer = or_when()
             if answer or self.is_at_waypoint():
@@ -98,9 +98,9 @@ class Robot:
 
     def wait(self, duration_s: float, or_when: Callable[[], Answer | None] = lambda: None) -> Answer | None:
         """Wait for a duration of robot time, or until or_when answers; its answer."""
-        until_s = self.now_s + duration_s
+        until_s = self._loop.waited_s + duration_s
         answer = or_when()
-        while not answer and self.now_s < until_s:
+        while not answer and self._loop.waited_s < until_s:
             self._loop.step()
             answer = or_when()
         return answer
@@ -109,9 +109,9 @@ class Robot:
         """Move the Remote key to a height and wait until it is there; RobotFailed when it does not get there."""
         tolerance_m = max(_HEIGHT_M, _HEIGHT_PART * height_m)
         self._loop.change(key_height_m=height_m)
-        until_s = self.now_s + HEIGHT_LIMIT_S
+        until_s = self._loop.waited_s + HEIGHT_LIMIT_S
         while not abs(self._loop.step().key_height_m - height_m) <= tolerance_m:
-            if self.now_s >= until_s:
+            if self._loop.waited_s >= until_s:
                 raise RobotFailed(f"The Remote key did not reach the height of {100.0 * height_m:g} cm within "
                                   f"{HEIGHT_LIMIT_S:g} s; it is at {100.0 * self._loop.status.key_height_m:.0f} cm.")
 
@@ -130,8 +130,8 @@ class Robot:
         return confirmation
 
     def _confirmation_of(self, order: Press) -> PressReport:
-        until_s = self.now_s + order.duration_s + PRESS_LIMIT_S
-        while self.now_s < until_s:
+        until_s = self._loop.waited_s + order.duration_s + PRESS_LIMIT_S
+        while self._loop.waited_s < until_s:
             for confirmation in self._loop.step().presses:
                 if confirmation.id == order.id:
                     return confirmation
@@ -146,8 +146,8 @@ class Robot:
         """Look at the Car again from two places; the robot's answer, RobotFailed when none comes."""
         self._check_id += 1
         self._loop.change(stop=False, check_car_id=self._check_id)
-        until_s = self.now_s + CHECK_LIMIT_S
-        while self.now_s < until_s:
+        until_s = self._loop.waited_s + CHECK_LIMIT_S
+        while self._loop.waited_s < until_s:
             check = self._loop.step().car_check
             if check and check.id == self._check_id and check.state in (CheckState.PASSED, CheckState.FAILED):
                 return check
