@@ -11,10 +11,9 @@ from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
 from mtr_core.conversions import goal_report_from
-from mtr_core.executors import InlineExecutor
+from mtr_core.executors import InlineExecutor, ProcessExecutor
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_held, stamp_of
-from mtr_core.process_executor import ProcessExecutor
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 from mtr_description.robot_description import described_robot

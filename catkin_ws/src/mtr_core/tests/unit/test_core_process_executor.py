@@ -11,14 +11,15 @@ import time
 import pytest
 
 from mtr_core.errors import RobotError
+from mtr_core.executors import ProcessesExecutor, ProcessExecutor
+from mtr_core.executors.worker import NICENESS
 from mtr_core.problems import Problem, ProblemError
-from mtr_core.process_executor import NICENESS, ProcessesExecutor, ProcessExecutor
 
 LIMIT_S = 60.0
 # Makes an executor, tells its process and waits.
 OWNER = """
 import sys
-from mtr_core.process_executor import ProcessExecutor
+from mtr_core.executors import ProcessExecutor
 executor = ProcessExecutor([], print)
 print(executor.submit(len, "four").result(), executor.process_id, flush=True)
 sys.stdin.read()

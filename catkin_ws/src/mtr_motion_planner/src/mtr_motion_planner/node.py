@@ -8,11 +8,10 @@ from std_msgs.msg import Header
 from visualization_msgs.msg import MarkerArray
 
 from mtr_core import names, schedule
-from mtr_core.executors import InlineExecutor
+from mtr_core.executors import InlineExecutor, ProcessesExecutor
 from mtr_core.liveness import NS
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_lockstep, stamp_of, steady_at
-from mtr_core.process_executor import ProcessesExecutor
 from mtr_description.robot_description import described_robot
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
 

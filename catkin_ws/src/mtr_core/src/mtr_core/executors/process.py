@@ -1,28 +1,23 @@
 """Long work in a process of its own, so that it takes neither the interpreter's lock nor processor time from a node.
 
 In a thread of the node it does: the thread holds the lock of the interpreter while the scheduler lets others run, and
-whoever speaks for the node waits for that. Run as a program, this module is that process.
+whoever speaks for the node waits for that.
 """
 # SPDX-License-Identifier: Apache-2.0
-import contextlib
-import importlib
-import os
-import signal
 import subprocess
 import sys
 import threading
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from multiprocessing import Pipe
-from multiprocessing.connection import Connection
 from queue import SimpleQueue
-from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar
+from typing import Any, Callable, Dict, List, Tuple, TypeVar
 
-from .executors import InlineExecutor
+from .inline import InlineExecutor
+
+WORKER = f"{__package__}.worker"
+GONE = (EOFError, ConnectionError)
 
 Value = TypeVar("Value")
-# Beside the nodes it comes second: what they say has a time by which it must be said.
-NICENESS = 5
-GONE = (EOFError, ConnectionError)
 
 
 class ProcessExecutor(Executor):
@@ -71,7 +66,7 @@ class ProcessExecutor(Executor):
         with far:
             # In a session of its own no Ctrl-C reaches it, and a scheduler that shares by sessions gives it its own.
             self._process = subprocess.Popen(
-                [sys.executable, "-m", __name__, str(far.fileno()), *self._modules], pass_fds=[far.fileno()],
+                [sys.executable, "-m", WORKER, str(far.fileno()), *self._modules], pass_fds=[far.fileno()],
                 stdin=subprocess.DEVNULL, start_new_session=True)
 
     def _replace(self) -> None:
@@ -110,31 +105,3 @@ class ProcessesExecutor(Executor):
             return process.submit(function, *arguments, **options).result()
         finally:
             self._idle.put(process)
-
-
-def main(arguments: Optional[List[str]] = None) -> int:
-    """Work until whoever has started this process is gone."""
-    handle, *modules = sys.argv[1:] if arguments is None else arguments
-    # A service's end interrupts all its processes; this one ends with its owner, without a traceback in the log.
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    os.nice(NICENESS)
-    for module in modules:
-        importlib.import_module(module)
-    with Connection(int(handle)) as connection, contextlib.suppress(*GONE):
-        while True:
-            _work(connection)
-    return 0
-
-
-def _work(connection: Connection) -> None:
-    function, arguments, options = connection.recv()
-    try:
-        connection.send((function(*arguments, **options), None))
-    except GONE:
-        raise
-    except Exception as error:
-        connection.send((None, error))
-
-
-if __name__ == "__main__":
-    sys.exit(main())

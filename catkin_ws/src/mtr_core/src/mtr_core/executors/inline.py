@@ -1,4 +1,4 @@
-"""Where long work is done: within the tick that asks for it, or beside the ticks."""
+"""Long work within the tick that asks for it."""
 # SPDX-License-Identifier: Apache-2.0
 from concurrent.futures import Executor, Future
 from typing import Any, Callable, TypeVar
