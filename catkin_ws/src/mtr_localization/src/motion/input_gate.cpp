@@ -25,6 +25,10 @@ constexpr int kFrozenSamples = 3;
 constexpr double kMovesMps = 0.02;
 constexpr double kTurnsRadps = 0.05;
 
+// Two stamps of one instant come to lie some microseconds apart on the steady clock (mtr_core/stamp_clock.hpp). In such
+// a time the robot drives 0.1 mm at most.
+constexpr std::int64_t kOneInstantNs = 50'000;
+
 bool is_moving(const WheelSample& wheels) {
   return std::abs(wheels.linear_mps) > kMovesMps || std::abs(wheels.angular_radps) > kTurnsRadps;
 }
@@ -88,8 +92,13 @@ std::optional<GatedSample> InputGate::next() {
   if (pending_.empty()) {
     return std::nullopt;
   }
-  const WheelSample wheels = pending_.front();
-  const bool has_imu = gyro_.newest_received_ns().value_or(0) >= wheels.stamp_ns;
+  WheelSample wheels = pending_.front();
+  const std::int64_t imu_ns = gyro_.newest_received_ns().value_or(0);
+  if (imu_ns < wheels.stamp_ns && wheels.stamp_ns - imu_ns <= kOneInstantNs) {
+    // Else this sample would wait for the next one of the IMU, a whole period.
+    wheels.stamp_ns = imu_ns;
+  }
+  const bool has_imu = imu_ns >= wheels.stamp_ns;
   if (!has_imu && *newest_wheels_ns_ - wheels.stamp_ns <= gap_limit_ns_) {
     return std::nullopt;
   }
