@@ -15,7 +15,8 @@ from ..surfels import rotated_back
 HALF_SIDE_M = 4.5
 # A robot that stands sees the same again; a way round has some 2500 sweeps of two LiDARs.
 MIN_MOTION_M, MIN_TURN_RAD, MAX_SWEEPS = 0.005, 0.005, 10_000
-SWEEP_COLUMNS = 8
+# Columns of the rows of Sweeps.
+_TIME, _ROBOT, _VIEWER, _IS_REAR, _COUNT, _COLUMNS = 0, slice(1, 4), slice(4, 6), 6, 7, 8
 
 
 @dataclass(frozen=True)
@@ -52,7 +53,7 @@ class WayRound:
     def sweeps(self) -> "Sweeps":
         """What was collected so far."""
         if not self._sweeps:
-            return Sweeps(np.empty((0, 2), np.float32), np.empty((0, SWEEP_COLUMNS)))
+            return Sweeps(np.empty((0, 2), np.float32), np.empty((0, _COLUMNS)))
         rows = [(sweep.time_s, sweep.robot.x, sweep.robot.y, sweep.robot.heading, *sweep.viewer, sweep.is_rear,
                  len(sweep.points)) for sweep in self._sweeps]
         return Sweeps(np.concatenate([sweep.points for sweep in self._sweeps]), np.array(rows, dtype=float))
@@ -79,15 +80,15 @@ class Sweeps:
         """
         if len(self.rows) < 2 or len(key_frames) < 2:
             return None
-        times = self.rows[:, 0]
+        times = self.rows[:, _TIME]
         order = np.argsort(times, kind="stable")
         frames = key_frames[(key_frames[:, 0] >= times.min()) & (key_frames[:, 0] <= times.max())]
         if len(frames) < 2:
             return None
-        changes = _changes(frames, times[order], self.rows[order, 1:4])
-        ends = np.cumsum(self.rows[:, -1]).astype(int)
-        moved = [_moved(self.points[ends[index] - int(self.rows[index, -1]):ends[index]], self.rows[index], change,
-                        range_bias)
+        changes = _changes(frames, times[order], self.rows[order, _ROBOT])
+        counts = self.rows[:, _COUNT].astype(int)
+        ends = np.cumsum(counts)
+        moved = [_moved(self.points[ends[index] - counts[index]:ends[index]], self.rows[index], change, range_bias)
                  for index, change in zip(order, _interpolated(times[order], frames[:, 0], changes))
                  if frames[0, 0] <= times[index] <= frames[-1, 0]]
         return CloseUp(*(np.concatenate(columns) for columns in zip(*moved))) if moved else None
@@ -113,7 +114,7 @@ def _interpolated(wanted_s: FloatArray, known_s: FloatArray, rows: FloatArray) -
 
 def _moved(points: FloatArray, row: FloatArray, change: FloatArray,
            range_bias: RangeBias) -> Tuple[FloatArray, FloatArray]:
-    bias_m = range_bias.rear_m if row[6] else range_bias.front_m
-    away = points - row[4:6]
+    bias_m = range_bias.rear_m if row[_IS_REAR] else range_bias.front_m
+    away = points - row[_VIEWER]
     beams = rotated_back(away / np.maximum(np.linalg.norm(away, axis=1), 1e-6)[:, np.newaxis], -change[2])
     return rotated_back(points, -change[2]) + change[:2] - bias_m * beams, beams

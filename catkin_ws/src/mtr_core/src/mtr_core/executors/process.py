@@ -10,12 +10,14 @@ import threading
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from multiprocessing import Pipe
 from queue import SimpleQueue
-from typing import Any, Callable, Dict, List, Tuple, TypeVar
+from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar
 
 from .inline import InlineExecutor
 
 WORKER = f"{__package__}.worker"
 GONE = (EOFError, ConnectionError)
+# The longest work, a Car among all returns of a way round, took 5 s of the wall clock beside 16 processes on two cores.
+PATIENCE_S = 60.0
 
 Value = TypeVar("Value")
 
@@ -24,12 +26,13 @@ class ProcessExecutor(Executor):
     """Does its work before it returns, one piece at a time; function, arguments and result are pickled.
 
     The process starts at once and ends with this one, however that ends. When it has died, killed for its memory
-    maybe, the work is done here and another process is started.
+    maybe, or is stopped, the work is done here and another process is started.
     """
 
-    def __init__(self, modules: List[str], tell: Callable[[str], None]):
-        """modules: what the work needs, imported at once; tell: takes the sentence that the process has died."""
-        self._modules, self._tell = modules, tell
+    def __init__(self, modules: List[str], tell: Callable[[str], None], patience_s: float = PATIENCE_S):
+        """modules: what the work needs, imported at once; tell: takes the sentence that the process does not answer;
+        patience_s: how long it may take for one piece."""
+        self._modules, self._tell, self._patience_s = modules, tell, patience_s
         self._lock = threading.Lock()
         self._inline = InlineExecutor()
         self._start()
@@ -43,8 +46,7 @@ class ProcessExecutor(Executor):
         """The work's result."""
         with self._lock:
             try:
-                self._connection.send((fn, args, kwargs))
-                value, error = self._connection.recv()
+                value, error = self._answer((fn, args, kwargs))
             except GONE:
                 self._replace()
                 return self._inline.submit(fn, *args, **kwargs)
@@ -61,6 +63,18 @@ class ProcessExecutor(Executor):
         if wait:
             self._process.wait()
 
+    def _answer(self, work: Tuple[Any, ...]) -> Tuple[Any, Optional[Exception]]:
+        # A process that is stopped takes nothing in either: to end it is what wakes whoever sends to it.
+        watchdog = threading.Timer(self._patience_s, self._process.kill)
+        watchdog.daemon = True
+        watchdog.start()
+        try:
+            self._connection.send(work)
+            value, error = self._connection.recv()
+        finally:
+            watchdog.cancel()
+        return value, error
+
     def _start(self) -> None:
         self._connection, far = Pipe()
         with far:
@@ -73,8 +87,8 @@ class ProcessExecutor(Executor):
         self._connection.close()
         self._process.kill()
         status = self._process.wait()
-        self._tell(f"The process {self._process.pid} for long work has ended with status {status}; this node does the "
-                   "work itself and starts another one.")
+        self._tell(f"The process {self._process.pid} for long work has ended, or has not answered for "
+                   f"{self._patience_s:g} s (status {status}); this node does the work itself and starts another one.")
         self._start()
 
 
