@@ -11,6 +11,7 @@ import pytest
 
 from mtr_benchmarks.soak.figures import Place, by_halves, trends_of
 from mtr_benchmarks.soak.processes import Usage, below, usage_of, waiting_bytes
+from mtr_benchmarks.soak.samples_file import SamplesFile
 from mtr_benchmarks.soak.trend import Trend, difference, growing, trend_of
 
 
@@ -84,3 +85,10 @@ def test_bytes_that_nobody_reads_are_counted():
         sender.sendall(bytes(1000))
         assert usage_of(os.getpid(), waiting_bytes()).queued_bytes >= 1000
         assert len(receiver.recv(1000)) == 1000
+
+
+def test_samples_are_in_the_file_while_it_is_open(tmp_path):
+    with SamplesFile(tmp_path / "soak" / "samples.csv") as file:
+        file.add(12.34, "dispatcher", Usage(45.6789, 30, 7, 0))
+        assert (tmp_path / "soak" / "samples.csv").read_text(encoding="utf-8").splitlines() == [
+            "time_s,process,private_mib,files,threads,queued_bytes", "12.3,dispatcher,45.679,30,7,0"]

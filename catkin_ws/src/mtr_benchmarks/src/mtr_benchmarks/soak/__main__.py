@@ -1,4 +1,5 @@
-"""Lets the simulated robot work for hours of its time with faults sprinkled in; figures go to soak.json.
+"""Lets the simulated robot work for hours of its time with faults sprinkled in; figures go to soak.json, and what each
+process used, as it is seen, to soak/samples.csv.
 
 Usage: python -m mtr_benchmarks.soak --hours 8 --out out/bench
 """
@@ -35,7 +36,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
     end_in_order()
     begun_s = time.monotonic()
     with FaultyRobot(options.out / "soak", ROBOTS[LOCKSTEP], options.seed) as robot:
-        processes, wanderer = Processes(robot, robot.process), Wanderer(robot, options.seed)
+        processes = Processes(robot, robot.process, options.out / "soak" / "samples.csv")
+        wanderer = Wanderer(robot, options.seed)
         processes.start()
         try:
             is_whole = wanderer.go(options.hours * HOUR_S)

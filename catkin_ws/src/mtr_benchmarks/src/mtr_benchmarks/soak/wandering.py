@@ -1,6 +1,7 @@
 """A robot that goes from state to state at random, with a fault now and then; what its processes use."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import pathlib
 import random
 import threading
 from typing import Dict, List, Tuple
@@ -10,6 +11,7 @@ from ..faults.matrix import LOCKSTEP, Cell, read_matrix
 from ..faults.robot import FaultyRobot, FaultyRobotError
 from .figures import Place
 from .processes import Usage, below, usage_of, waiting_bytes
+from .samples_file import SamplesFile
 
 # s of the robot's time between two looks at the processes; of wall time between two looks at the robot's clock.
 LOOK_S, POLL_S = 10.0, 0.1
@@ -21,26 +23,33 @@ AFTER_S = 3.0
 
 
 class Processes(threading.Thread):
-    """Looks at all processes of a robot while it runs. samples: (time, usage) by the name of node or program."""
+    """Looks at all processes of a robot while it runs, and writes down what it sees.
 
-    def __init__(self, robot: FaultyRobot, parent: int):
+    Attributes:
+        samples: (time, usage) by the name of node or program.
+    """
+
+    def __init__(self, robot: FaultyRobot, parent: int, path: pathlib.Path):
         super().__init__(name="soak", daemon=True)
         self.samples: Dict[str, List[Tuple[float, Usage]]] = {}
         self._robot, self._names, self._over = robot, below(parent), threading.Event()
+        self._path = path
 
     def run(self) -> None:
         """Until it is ended."""
         due_s = self._robot.now_s
-        while not self._over.wait(POLL_S):
-            now_s = self._robot.now_s
-            if now_s < due_s:
-                continue
-            due_s = now_s + LOOK_S
-            waiting = waiting_bytes()
-            for process, name in self._names.items():
-                usage = usage_of(process, waiting)
-                if usage:
-                    self.samples.setdefault(name, []).append((now_s, usage))
+        with SamplesFile(self._path) as file:
+            while not self._over.wait(POLL_S):
+                now_s = self._robot.now_s
+                if now_s < due_s:
+                    continue
+                due_s = now_s + LOOK_S
+                waiting = waiting_bytes()
+                for process, name in self._names.items():
+                    usage = usage_of(process, waiting)
+                    if usage:
+                        self.samples.setdefault(name, []).append((now_s, usage))
+                        file.add(now_s, name, usage)
 
     def end(self) -> None:
         """Look no more."""
