@@ -10,7 +10,7 @@ from typing import Any, Iterator, Mapping
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.storage.atomic import output_folder, write_bytes
-from mtr_operator.storage.journal_file import SUFFIX, journal_path
+from mtr_operator.storage.journal.journal_file import SUFFIX, journal_path
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.progress_file import save_progress
 

@@ -23,7 +23,7 @@ import witness
 
 from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.storage.journal_file import journal_path, read_journal
+from mtr_operator.storage.journal.journal_file import journal_path, read_journal
 from mtr_operator.storage.progress_file import FILE_NAME, load_progress
 
 PARAMETERS = {"autolock": {"measurements_distance_m": 0.2, "minimum_distance_m": 0.5},

@@ -13,7 +13,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.report import results_csv
-from mtr_operator.storage.journal_file import Entry, journal_path, line_of
+from mtr_operator.storage.journal.journal_file import Entry, journal_path, line_of
 from mtr_operator.storage.progress_file import FILE_NAME, save_progress
 
 SCENARIO = SCENARIOS["key_press"]

@@ -17,7 +17,7 @@ from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameter
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.station.connection import Connection
 from mtr_operator.station.test import Test, new_test, report_folder
-from mtr_operator.storage.journal_file import journal_path, read_journal
+from mtr_operator.storage.journal.journal_file import journal_path, read_journal
 from mtr_operator.storage.progress_file import load_progress, open_progress, save_progress
 from mtr_operator.storage.store import Store
 

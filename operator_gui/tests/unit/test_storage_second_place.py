@@ -28,7 +28,8 @@ def second(tmp_path, monkeypatch):
     """The second place."""
     folder = tmp_path / "second"
     (tmp_path / "file").write_text("", encoding="utf-8")
-    monkeypatch.setattr("mtr_operator.storage.second_place.second_places", lambda: (tmp_path / "file" / "no", folder))
+    monkeypatch.setattr("mtr_operator.storage.journal.second_place.second_places",
+                        lambda: (tmp_path / "file" / "no", folder))
     return folder
 
 
@@ -77,7 +78,7 @@ def test_line_is_kept_in_the_second_place_and_the_test_goes_on_from_there(tmp_pa
 
 
 def test_no_second_place_either_is_said(tmp_path, progress, monkeypatch):
-    monkeypatch.setattr("mtr_operator.storage.second_place.second_places", lambda: ())
+    monkeypatch.setattr("mtr_operator.storage.journal.second_place.second_places", lambda: ())
     with Store(tmp_path / "progress.json", progress) as store:
         full_disk(monkeypatch, tmp_path)
         with pytest.raises(OutputError, match="No second place could be written either"):

@@ -15,7 +15,7 @@ from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import results_table
 from mtr_operator.station.test import open_test
 from mtr_operator.station.view_model import ViewModel
-from mtr_operator.storage.journal_file import Entry, journal_path, line_of
+from mtr_operator.storage.journal.journal_file import Entry, journal_path, line_of
 from mtr_operator.storage.progress_file import load_progress, save_progress
 from mtr_operator.storage.store import Store
 

@@ -33,6 +33,7 @@ from mtr_operator.report.verdict_text import verdict_lines
 from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given, calibration_of
+from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.parameter_file import load_parameters
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
@@ -134,9 +135,10 @@ class CommandLineRun:
             display.outlook = Outlook(self._scenario, self._parameters, car.facts, self._progress)
             display.say(display.outlook.before(loop.status))
             try:
-                with events.told_to(self._recording.event), run_told(events, self._progress.has_findings):
-                    Runner(self._scenario, self._parameters, loop, self._progress, lambda _: store.save(),
-                           journal=store).run()
+                with events.told_to(self._recording.event), run_told(events, self._progress.has_findings), \
+                        JournalBeside(store) as journal:
+                    Runner(self._scenario, self._parameters, loop, self._progress, lambda _: journal.save(),
+                           journal=journal).run()
             finally:
                 for problem in filter(None, self._recording.end()):
                     display.say(problem)

@@ -50,8 +50,9 @@ from .verdict.suitability import check_lines
 class Runner:
     """One test from its beginning, or from where its progress ends, to its end.
 
-    journal keeps each finding before the robot goes on. save is called with the progress after each line and has to
-    return only when it is safe. again: numbers of measured lines that the Operator wants measured once more.
+    journal keeps each finding before the robot goes on. save is called with the progress after each line, when all
+    entries are safe; the journal waits for it as for an entry. again: numbers of measured lines that the Operator wants
+    measured once more.
     """
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, loop: ControlLoop, progress: Progress,
@@ -71,47 +72,55 @@ class Runner:
 
     def run(self) -> None:
         """Measure all lines, the invalid ones once more at the end; the robot stands still afterwards in any case."""
-        parameters = self._parameters
-        if self._progress.notice:
-            self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
         try:
-            # Before the robot moves, for mapping too.
-            notices = tuple(self._car.notices)
-            self._scenario.check_means(self._car)
-            self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
-            prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
-            # What bus and clocks have told meanwhile.
-            self._warn(*(sentence for sentence in self._car.notices if sentence not in notices))
-            ahead_s = self._loop.clock_offset.ahead_s
-            self._warn(*filter(None, (offset_sentence(ahead_s),)))
-            told = self._loop.status
-            record = {**controller_record(told.controller_name), **clock_record(ahead_s),
-                      **preflight_record(self._loop.preflight, told.steady_s), **self._car.record}
-            if record:
-                self._notebook.add(SESSION, record)
-            lines = self._lines()
-            # Before the robot drives round for the check: the Car and the robot are still as they were.
-            half = self._finish_half_line(lines)
-            if parameters.self_check:
-                self._check_car()
-            if half is not None:
-                self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame()})
-            self._measure(lines)
-            self._measure_further(lines)
-            self._loop.refusals.keep()
+            try:
+                self._measure_all()
+            finally:
+                # Before anything else, for the disk may be slow.
+                self._halt()
         except OperatorError as error:
             self._note_end(error)
             raise
-        finally:
-            self._halt()
         self._conclude()
+
+    def _measure_all(self) -> None:
+        parameters = self._parameters
+        if self._progress.notice:
+            self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
+        # Before the robot moves, for mapping too.
+        notices = tuple(self._car.notices)
+        self._scenario.check_means(self._car)
+        self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
+        prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+        # What bus and clocks have told meanwhile.
+        self._warn(*(sentence for sentence in self._car.notices if sentence not in notices))
+        ahead_s = self._loop.clock_offset.ahead_s
+        self._warn(*filter(None, (offset_sentence(ahead_s),)))
+        told = self._loop.status
+        record = {**controller_record(told.controller_name), **clock_record(ahead_s),
+                  **preflight_record(self._loop.preflight, told.steady_s), **self._car.record}
+        if record:
+            self._notebook.add(SESSION, record)
+        lines = self._lines()
+        # Before the robot drives round for the check: the Car and the robot are still as they were.
+        half = self._finish_half_line(lines)
+        if parameters.self_check:
+            self._check_car()
+        if half is not None:
+            self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame()})
+        self._measure(lines)
+        self._measure_further(lines)
+        self._loop.refusals.keep()
 
     def _warn(self, *sentences: str) -> None:
         for sentence in sentences:
             self._robot.say(f"warning: {sentence}")
 
     def _note_end(self, error: OperatorError) -> None:
-        """Why a test ended and what was refused until then stands in its record, if anything can still be kept."""
+        """Why a test ended and what was refused until then stands in its record, if anything can still be kept; what
+        was measured before, and is not, is said in its place."""
+        self._notebook.wait()
+        self._notebook.check()
         with contextlib.suppress(OutputError):
             self._loop.refusals.keep()
             self._notebook.add(SESSION, {ENDED_BY: str(error)})
@@ -127,6 +136,8 @@ class Runner:
         revised = self._scenario.concluded(self._parameters, self._progress.results)
         for result in revised:
             self._notebook.add(REVISED, {"result": result.to_document()})
+        self._notebook.wait()
+        self._notebook.check()
         if revised:
             self._save(self._progress)
 
@@ -246,6 +257,8 @@ class Runner:
 
     def _keep_line(self, result: LineResult) -> None:
         self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame()})
+        self._loop.settle()
         self._save(self._progress)
+        self._loop.settle()
         # Shown when it is kept: what a person has read is there after the next start.
         self._loop.observer.on_result(result, len(self._progress.results) - len(self._again), self._total)

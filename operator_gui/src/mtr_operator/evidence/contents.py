@@ -12,7 +12,7 @@ from mtr_operator.domain.results.session_record import SUBSTITUTE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.report.files import FILE_NAMES
-from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.recorded.kept_car import FOLDER as CAR_FOLDER
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs, recording_folder

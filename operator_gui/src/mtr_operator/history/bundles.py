@@ -11,7 +11,7 @@ from typing import Iterator
 
 from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.evidence.container import SUFFIX
-from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.progress_document import MAX_BYTES
 from mtr_operator.storage.progress_file import FILE_NAME
 

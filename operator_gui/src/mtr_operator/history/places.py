@@ -11,7 +11,7 @@ from typing import Iterable
 
 from mtr_operator.evidence.container import SUFFIX as BUNDLE
 from mtr_operator.report.files import FILE_NAMES
-from mtr_operator.storage.journal_file import SUFFIX
+from mtr_operator.storage.journal.journal_file import SUFFIX
 from mtr_operator.storage.progress_file import FILE_NAME
 
 # Sizes and times of the progress file and its journal; zeros where one is missing.

@@ -83,13 +83,18 @@ class Test:
             finally:
                 self._store = None
 
+    @property
+    def has_moved(self) -> bool:
+        """True while it runs and its files are not where they shall be since."""
+        return self._store is not None and self._store.path != self.path
+
     def save(self) -> None:
         """Write the progress, and its folder if need be; an OperatorError says why that fails."""
         if self._store is None:
             with self.opened() as store:
                 store.save()
             return
-        if self._store.path != self.path:
+        if self.has_moved:
             with output_folder(self.path.parent):
                 former = photo_folder(self._store.path)
                 self._store.move(self.path)

@@ -14,17 +14,21 @@ from mtr_operator.domain.results.session_record import STARTED
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
 from .atomic import write_bytes
-from .journal_file import journal_of, journal_path
+from .journal.journal_file import journal_of, journal_path
 from .progress_document import mark_in, read_document
 from .recovery import Recovery, progress_path
 
 FILE_NAME = "progress.json"
 
 
+def progress_content(progress: Progress) -> bytes:
+    """Of the file."""
+    return json.dumps(progress.to_document(), indent=1, allow_nan=False).encode("utf-8") + b"\n"
+
+
 def save_progress(path: pathlib.Path, progress: Progress) -> None:
     """Write the file; OutputError when it fails."""
-    text = json.dumps(progress.to_document(), indent=1, allow_nan=False)
-    write_bytes(path, text.encode("utf-8") + b"\n")
+    write_bytes(path, progress_content(progress))
 
 
 def load_progress(path: pathlib.Path, scenario: AnyScenario, parameters: dict[str, Any]) -> Progress:

@@ -15,7 +15,7 @@ from mtr_operator.domain.results.notebook import apply
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 
-from .journal_file import SUFFIX, Recovered, journal_of
+from .journal.journal_file import SUFFIX, Recovered, journal_of
 from .progress_document import DAMAGED, mark_in, progress_from_document, read_document
 
 

@@ -14,10 +14,10 @@ from mtr_operator.domain.results.journal import Journal
 from mtr_operator.domain.results.progress import JournalMark, Progress
 
 from .atomic import write_bytes
-from .journal_file import Recovered, journal_of, journal_path
-from .kept_journal import KeptJournal
+from .journal.journal_file import Recovered, journal_of, journal_path
+from .journal.kept_journal import KeptJournal
 from .lock import Lock
-from .progress_file import journal_mark, refuse_to_overwrite, save_progress
+from .progress_file import journal_mark, progress_content, refuse_to_overwrite
 
 _ID_BYTES = 8
 
@@ -53,13 +53,18 @@ class Store(Journal):
         """See Journal."""
         self._opened.add(kind, values)
 
-    def save(self) -> None:
-        """Write the progress file; OutputError when that fails, InUse when a newer one is there."""
+    def content(self) -> bytes:
+        """Of the progress file, as the test stands."""
+        return progress_content(self._progress)
+
+    def save(self, content: bytes | None = None) -> None:
+        """Write the progress file; OutputError when that fails, InUse when a newer one is there. content: of a moment
+        before, with all entries of then."""
         self._opened.open()
         if self._stamp() != self._saved:
             self._check(journal_mark(self.path))
         try:
-            save_progress(self.path, self._progress)
+            write_bytes(self.path, self.content() if content is None else content)
         except OutputError as error:
             raise OutputError(f"{error} What was measured is in {self._opened.place}.") from None
         self._saved = self._stamp()

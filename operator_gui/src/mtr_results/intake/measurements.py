@@ -11,7 +11,7 @@ from mtr_operator.domain.verdict.assessment import Assessment, Assessor
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.report.assessed import assess
 from mtr_operator.storage.given_files import calibration_of
-from mtr_operator.storage.journal_file import Entry
+from mtr_operator.storage.journal.journal_file import Entry
 
 from .trials import Row, revisions_of
 

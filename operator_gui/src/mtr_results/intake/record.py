@@ -20,7 +20,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.line_pairs import Side, open_side
 from mtr_operator.history.reading import entry_of
-from mtr_operator.storage.journal_file import Entry, journal_of
+from mtr_operator.storage.journal.journal_file import Entry, journal_of
 from mtr_operator.storage.progress_document import progress_from_document
 from mtr_operator.storage.recovery import progress_path
 

@@ -7,7 +7,7 @@ import pathlib
 from typing import Collection, Iterator
 
 from mtr_operator.history.places import stamps
-from mtr_operator.storage.journal_file import SUFFIX
+from mtr_operator.storage.journal.journal_file import SUFFIX
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME
 from mtr_operator.storage.recovery import progress_path

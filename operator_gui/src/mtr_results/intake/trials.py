@@ -9,7 +9,7 @@ from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.domain.scenarios.line_search.result import SearchedResult
 from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
-from mtr_operator.storage.journal_file import Entry
+from mtr_operator.storage.journal.journal_file import Entry
 
 Row = dict[str, Any]
 NOTHING: Row = {"attempt": 1, "distance_m": None, "sigma_m": None, "x_m": None, "y_m": None, "height_m": None,

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from mtr_operator.history.places import stamps
-from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.lock import is_held
 from mtr_operator.storage.recorded.recording import recorded_runs, recording_folder
 from mtr_operator.storage.recovery import progress_path

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from mtr_operator.domain.results.journal import DECISION, LINE, LINE_BEGUN
-from mtr_operator.storage.journal_file import Entry
+from mtr_operator.storage.journal.journal_file import Entry
 
 
 @dataclass(frozen=True)

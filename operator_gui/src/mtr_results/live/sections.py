@@ -12,7 +12,7 @@ from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.line_pairs import Side, open_side
 from mtr_operator.history.reading import entry_of
-from mtr_operator.storage.journal_file import journal_of
+from mtr_operator.storage.journal.journal_file import journal_of
 from mtr_operator.storage.recorded.course_file import newest_moment
 from mtr_operator.storage.recovery import progress_path
 

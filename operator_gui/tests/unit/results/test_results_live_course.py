@@ -4,7 +4,7 @@ import pytest
 from followed_tests import Measuring
 
 from mtr_operator.domain.results.journal import DECISION, LINE
-from mtr_operator.storage.journal_file import Entry
+from mtr_operator.storage.journal.journal_file import Entry
 from mtr_operator.storage.recorded.course_file import newest_moment
 from mtr_results.live.pace import course_of
 

@@ -14,7 +14,7 @@ from mtr_benchmarks.kills import kept as kept_module
 from mtr_benchmarks.kills.deaths import first_zero_s, kill_of, silence
 from mtr_benchmarks.kills.kept import CHANGED, DOUBLED, LOST, UNKEPT, UNREADABLE, Kept, wrong_distances
 from mtr_benchmarks.kills.killed import Found
-from mtr_operator.storage.journal_file import journal_path
+from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.progress_file import load_progress
 
 PARAMETERS = {"measurements_distance_m": 10.0, "minimum_distance_m": 0.5, "passes": 1}

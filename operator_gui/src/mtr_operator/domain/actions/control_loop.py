@@ -1,7 +1,8 @@
 """The loop between the links and a scenario: one Status, one decision, one answer.
 
 step() answers the Status taken before with the desired state as it is now, and takes the next one. So whatever a
-scenario decides after a step is the answer to that very Status, and each Status gets exactly one.
+scenario decides after a step is the answer to that very Status, and each Status gets exactly one. Only while something
+that was found is not on disk yet, as on a slow one, the answer is the one of before, unless it is a stop.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,10 +13,12 @@ from typing import Any, Callable, Iterator
 
 from ..assistance import ExtenderPort, HandlePort
 from ..clocks.clock_offset import ClockOffset
+from ..clocks.clock_step import counts_clock_step
 from ..clocks.waiting_time import WaitingTime
 from ..distance_feed import DistanceFeed, Reported
 from ..errors import LinkLost, RobotFailed, StoodStill
 from ..eventlog.event_log import EventLog
+from ..kept_orders import KeptOrders, is_kept
 from ..ports import CarEvent, CarLink, RobotLink
 from ..requests import DesiredState
 from ..results.course import Course
@@ -103,6 +106,7 @@ class ControlLoop:
         self._check_line: Callable[[RobotStatus], None] = lambda status: None
         self._was_in_control = False
         self._preflight = KeptPreflight()
+        self._orders = KeptOrders()
 
     @property
     def preflight(self) -> PreflightReport | None:
@@ -166,10 +170,17 @@ class ControlLoop:
         if hold_id != self.desired.resume_hold_id:
             self.change(resume_hold_id=hold_id)
         status = self._exchange()
+        self.journal.check()
         if self._is_cancelled():
             raise Cancelled("The test was interrupted.")
         self.skipping.look()
         return status
+
+    def settle(self) -> None:
+        """Answer the robot, but order nothing new, until all that was found is on disk; OutputError when it cannot."""
+        while not is_kept(self.journal, self._status):
+            self._exchange()
+        self.journal.check()
 
     @contextlib.contextmanager
     def watched(self, check: Callable[[RobotStatus], None] = lambda status: None) -> Iterator[None]:
@@ -205,10 +216,10 @@ class ControlLoop:
         self._check_standstill()
         before = self._status
         if before is not None:
-            self._robot_link.send(self.desired)
+            self._robot_link.send(self._answer())
         status = self._next_status(FIRST_STATUS_LIMIT_S if before is None else patience_s)
         restarted = before is not None and status.robot_session_id != before.robot_session_id
-        if self.frames.add(status) or restarted or _is_clock_set(before, status):
+        if self.frames.add(status) or restarted or counts_clock_step(before, status):
             self.poses.clear()
             self.reported = []
         self.poses.add(status)
@@ -233,6 +244,9 @@ class ControlLoop:
         self._check_control(status)
         self._check(before, status)
         return status
+
+    def _answer(self) -> DesiredState:
+        return self._orders.newest(self.desired, self.journal, self._status)
 
     def _learn_events(self, events: list[CarEvent]) -> None:
         for event in events:
@@ -269,7 +283,8 @@ class ControlLoop:
 
     def _send_blindly(self, stop: bool) -> None:
         """Send the desired state again without knowing what the robot does; a stop waits for no Status."""
-        self._robot_link.send(replace(self.desired, stop=True) if stop else self.desired)
+        answer = self._answer()
+        self._robot_link.send(replace(answer, stop=True) if stop else answer)
 
     def _check_control(self, status: RobotStatus) -> None:
         if status.controlled_by_other and self._was_in_control:
@@ -283,8 +298,3 @@ class ControlLoop:
             trouble = trouble_between(before, status, self._car_link)
             if trouble:
                 raise LineInvalid(trouble)
-
-
-def _is_clock_set(before: RobotStatus | None, status: RobotStatus) -> bool:
-    """True when the robot's clock was set between the two: what was known by time is known no more."""
-    return before is not None and before.interventions.clock_steps != status.interventions.clock_steps

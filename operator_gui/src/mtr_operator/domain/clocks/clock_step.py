@@ -16,3 +16,8 @@ def clock_step_s(before: RobotStatus, status: RobotStatus) -> float:
 def clock_was_set(before: RobotStatus, status: RobotStatus) -> bool:
     """True when the robot says that its clock was set between the two."""
     return abs(clock_step_s(before, status)) > MIN_STEP_S
+
+
+def counts_clock_step(before: RobotStatus | None, status: RobotStatus) -> bool:
+    """True when the robot has counted a step of its clock between the two: what was known by time is known no more."""
+    return before is not None and before.interventions.clock_steps != status.interventions.clock_steps

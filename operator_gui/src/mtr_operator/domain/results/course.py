@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 from typing import Any, Mapping
 
 from ..ports import BusMark
@@ -36,3 +37,11 @@ class CourseJournal(Journal):
         if kind in _OF_JOURNAL:
             self._course.note(kind, values)
         self._journal.add(kind, values)
+
+    def wait(self, patience_s: float = math.inf) -> bool:
+        """See Journal."""
+        return self._journal.wait(patience_s)
+
+    def check(self) -> None:
+        """See Journal."""
+        self._journal.check()

@@ -22,10 +22,18 @@ IDENTITY = "identity"
 
 
 class Journal:
-    """Keeps nothing: for requests that measure nothing, and for tests. The one in storage writes each entry to disk."""
+    """Keeps nothing: for requests that measure nothing, and for tests. Those in storage write each entry to disk."""
 
     def add(self, kind: str, values: Mapping[str, Any]) -> None:
-        """Keep an entry of plain values; returns only when it is safe, OutputError when it cannot be kept."""
+        """Keep an entry of plain values. It is safe when `wait` says so; OutputError when it cannot be kept, from here
+        or from `check`."""
+
+    def wait(self, patience_s: float = math.inf) -> bool:
+        """Wait for so long at most, s of wall time; True when nothing is left to be written. Never raises."""
+        return True
+
+    def check(self) -> None:
+        """Raise what kept an entry from being safe, once."""
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 from typing import Any, Mapping
 
 from ..errors import InvalidIdentity
@@ -43,6 +44,14 @@ class Notebook(Journal):
             self._journal.add(kind, values)
         finally:
             apply(self._progress, self._result_type, kind, values)
+
+    def wait(self, patience_s: float = math.inf) -> bool:
+        """See Journal."""
+        return self._journal.wait(patience_s)
+
+    def check(self) -> None:
+        """See Journal."""
+        self._journal.check()
 
 
 def apply(progress: Progress, result_type: type[LineResult], kind: str, values: Mapping[str, Any]) -> None:

@@ -18,6 +18,7 @@ from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
+from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
 
@@ -107,13 +108,21 @@ class MeasurementRun:
             loop.standstill = self._standstill or loop.standstill
             try:
                 loop.course = recording.begin(self._car)
-                with self._event_log.told_to(recording.event), run_told(self._event_log, test.progress.has_findings):
+                with self._event_log.told_to(recording.event), run_told(self._event_log, test.progress.has_findings), \
+                        JournalBeside(store) as journal:
                     test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
-                    Runner(test.scenario, test.parameters, loop, test.progress, lambda _: test.save(), journal=store,
-                           again=test.again).run()
+                    Runner(test.scenario, test.parameters, loop, test.progress, lambda _: self._save(journal),
+                           journal=journal, again=test.again).run()
             finally:
                 self._end(recording)
             test.again = ()
+
+    def _save(self, journal: JournalBeside) -> None:
+        if self._test.has_moved:
+            # All is safe, so that nothing is written meanwhile.
+            self._test.save()
+        else:
+            journal.save()
 
     def _end(self, recording: Recording) -> None:
         for problem in filter(None, recording.end()):

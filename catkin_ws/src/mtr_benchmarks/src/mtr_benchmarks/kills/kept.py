@@ -7,7 +7,7 @@ from typing import Any, Counter, Dict, Sequence
 
 from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.storage.journal_file import journal_path, read_journal
+from mtr_operator.storage.journal.journal_file import journal_path, read_journal
 from mtr_operator.storage.progress_file import FILE_NAME, load_progress
 from mtr_simulation.truth.distance import Comparison
 

@@ -20,7 +20,7 @@ from mtr_operator.domain.errors import OutputError, ProgressFileError
 from mtr_operator.domain.results.journal import BEGUN, LINE, POINT
 from mtr_operator.domain.results.progress import JournalMark
 
-from .atomic import checked_size, sync_folder
+from ..atomic import checked_size, sync_folder
 
 FORMAT = "mtr-operator journal"
 VERSION = 1

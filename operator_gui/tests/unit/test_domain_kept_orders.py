@@ -1,0 +1,88 @@
+"""Nothing new is ordered before all that was found is on disk; a robot is answered, and stopped, meanwhile."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from dataclasses import replace
+
+import pytest
+
+from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.errors import OutputError
+from mtr_operator.domain.kept_orders import DISK_PATIENCE_S
+from mtr_operator.domain.results.journal import Journal
+
+TODAY_S = 1.8e9
+
+
+class SlowJournal(Journal):
+    """Says so many times that it has not kept all. Attributes: waits: for how long it was waited."""
+
+    def __init__(self, looks=0):
+        self.looks, self.waits, self.failure = looks, [], None
+
+    def wait(self, patience_s=math.inf):
+        self.waits.append(patience_s)
+        self.looks -= 1
+        return self.looks < 0 or math.isinf(patience_s)
+
+    def check(self):
+        failure, self.failure = self.failure, None
+        if failure:
+            raise failure
+
+
+@pytest.fixture
+def loop(world, robot_link, car_link):
+    """Of a robot with a clock that tells the time of day."""
+    world.spoil = lambda status: replace(status, sent_s=TODAY_S + status.stamp_s, steady_s=status.stamp_s)
+    made = ControlLoop(robot_link, car_link)
+    made.step()
+    return made
+
+
+def heights(robot_link):
+    return [desired.key_height_m for _, desired in robot_link.answers]
+
+
+def test_each_status_is_answered_and_the_new_order_leaves_when_the_disk_has_written(loop, robot_link):
+    loop.change(key_height_m=0.5)
+    loop.step()
+    loop.journal = SlowJournal(looks=2)
+    loop.change(key_height_m=0.9)
+    for _ in range(4):
+        loop.step()
+    assert heights(robot_link) == [0.5, 0.5, 0.5, 0.9, 0.9]
+    assert [status for status, _ in robot_link.answers] == [1, 2, 3, 4, 5]
+    assert set(loop.journal.waits) == {DISK_PATIENCE_S}
+
+
+def test_stop_waits_for_no_disk(loop, robot_link):
+    loop.change(stop=False)
+    loop.step()
+    loop.journal = SlowJournal(looks=100)
+    loop.change(stop=True)
+    loop.step()
+    assert robot_link.answers[-1][1].stop
+
+
+def test_simulated_robot_waits_for_the_disk(loop, world, robot_link):
+    world.spoil = lambda status: replace(status, sent_s=status.stamp_s, steady_s=status.stamp_s)
+    loop.step()
+    loop.journal = SlowJournal(looks=100)
+    loop.change(key_height_m=0.9)
+    loop.step()
+    assert heights(robot_link)[-1] == 0.9 and loop.journal.waits == [math.inf]
+
+
+def test_settling_answers_until_all_is_kept(loop, robot_link):
+    answers = len(robot_link.answers)
+    loop.journal = SlowJournal(looks=7)
+    loop.settle()
+    assert len(robot_link.answers) > answers and loop.journal.looks < 0
+
+
+@pytest.mark.parametrize("act", ["step", "settle"])
+def test_what_could_not_be_kept_ends_the_test(loop, act):
+    loop.journal = SlowJournal()
+    loop.journal.failure = OutputError("The disk is full.")
+    with pytest.raises(OutputError, match="full"):
+        getattr(loop, act)()
