@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "localizer.hpp"
 
+#include <malloc.h>
+
 #include <utility>
 
 #include "mtr_surfel_map/adjustment/map_adjustment.hpp"
@@ -25,7 +27,10 @@ const Eigen::Matrix3d kUnseenWay = Eigen::Matrix3d::Identity();
 
 Mapper::Adjust adjustment_with(const Parameters& parameters) {
   return [adjustment = parameters.adjustment](const std::vector<KeyFrame>& key_frames) {
-    return mtr_surfel_map::adjust(key_frames, adjustment);
+    AdjustedMap map = mtr_surfel_map::adjust(key_frames, adjustment);
+    // It takes some 30 MiB for seconds. glibc would keep them, and a little more of them in use after each map.
+    malloc_trim(0);
+    return map;
   };
 }
 
