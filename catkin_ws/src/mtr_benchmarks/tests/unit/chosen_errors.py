@@ -39,7 +39,8 @@ SEGMENTS = [{"kind": "kidnap", "begin_s": 4.0}]
 def errors(key_m, standing=True, on_axis=False, beyond_m=2.0, nees=3.0):
     """A hundred rows of the same."""
     one = np.ones(100)
-    return PoseErrors(0.02 * np.arange(100), key_m * one, 0.1 * one, nees * one, np.full(100, standing),
+    whitened = np.full((100, 3), np.sqrt(nees / 3.0))
+    return PoseErrors(0.02 * np.arange(100), key_m * one, 0.1 * one, whitened, np.full(100, standing),
                   np.full(100, on_axis), beyond_m * one)
 
 
@@ -50,7 +51,7 @@ def kidnapped_errors(key_m):
     for (begin_s, end_s), error_m in key_m.items():
         values[(stamps >= begin_s) & (stamps < end_s)] = error_m
     one = np.ones(len(stamps))
-    return PoseErrors(stamps, values, one, one, one > 0, one < 0, one)
+    return PoseErrors(stamps, values, one, np.ones((len(stamps), 3)), one > 0, one < 0, one)
 
 
 def drive(scene, variant, seed):

@@ -70,7 +70,7 @@ def test_campaign_compares_its_first_with_its_last_part():
     stamps = np.arange(0.0, 8.0 * 3600.0, 1.0)
     one = np.ones(len(stamps))
     grown = 0.001 + 0.01 * stamps / stamps[-1]
-    found = campaign.figures(PoseErrors(stamps, grown, one, one, one > 0, one < 0, one))
+    found = campaign.figures(PoseErrors(stamps, grown, one, np.ones((len(stamps), 3)), one > 0, one < 0, one))
     assert found.first_standstill_p95_m == pytest.approx(0.001 + 0.01 / 8.0, abs=2e-4)
     assert found.last_standstill_p95_m == pytest.approx(0.011, abs=2e-4)
     assert found.part_s == 3600.0

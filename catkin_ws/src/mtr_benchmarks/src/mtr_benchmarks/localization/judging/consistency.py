@@ -6,6 +6,7 @@ from typing import Any, Dict, List, NamedTuple, Optional
 from ...harness.rows import Requirement, Row
 from ..drives.selection import PITCHED, PLAIN, RANGE_BIAS, SCENES, TILT
 from .figures import mean, ratio
+from .honest import Bounds, bounds_of, freedom_of
 from .position_rows import Failures, Outcomes, failed, judged
 
 # Variants whose errors the system knows of, at least as possible.
@@ -28,7 +29,9 @@ def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
     missing = sum(failed(failures, scene, variant) for scene in SCENES for variant in KNOWN_OF)
     surest = max(found, key=lambda each: each.value, default=None)
     most_cautious = min(found, key=lambda each: each.value, default=None)
-    return [_row(SUREST, surest, missing), _row(MOST_CAUTIOUS, most_cautious, missing),
+    honest = honest_bounds(outcomes)
+    return [_row(SUREST, surest, missing, honest and honest.high),
+            _row(MOST_CAUTIOUS, most_cautious, missing, honest and honest.low),
             judged(CPU, mean([each.cpu_ms_per_scan for scene in SCENES
                               for each in outcomes[scene].get(PLAIN, {}).values()]), 0)]
 
@@ -40,6 +43,14 @@ def ratios(outcomes: Outcomes) -> List[DriveRatio]:
     return [DriveRatio(name, value) for name, value in drives if value is not None and math.isfinite(value)]
 
 
+def honest_bounds(outcomes: Outcomes) -> Optional[Bounds]:
+    """Within which all of as many honest drives would be, with 95 %."""
+    drives = [each.errors for scene in SCENES for variant in KNOWN_OF
+              for each in outcomes[scene].get(variant, {}).values()]
+    freedom = freedom_of(drives)
+    return None if freedom is None else bounds_of(freedom, len(ratios(outcomes)))
+
+
 def figures(outcomes: Outcomes) -> Dict[str, Any]:
     """By scene and variant: the mean of all drives, and each drive's."""
     return {scene: {variant: {str(seed): ratio(each.errors.nees) for seed, each in drives.items()}
@@ -47,5 +58,6 @@ def figures(outcomes: Outcomes) -> Dict[str, Any]:
             for scene in SCENES}
 
 
-def _row(requirement: Requirement, drive: Optional[DriveRatio], missing: int) -> Row:
-    return judged(requirement, drive.value if drive else None, missing, remark=drive.name if drive else "")
+def _row(requirement: Requirement, drive: Optional[DriveRatio], missing: int, honest: Optional[float]) -> Row:
+    remark = f"{drive.name}; of as many honest ones {honest:.2f}" if drive and honest is not None else ""
+    return judged(requirement, drive.value if drive else None, missing, remark=remark)

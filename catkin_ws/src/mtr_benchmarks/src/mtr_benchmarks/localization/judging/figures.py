@@ -82,7 +82,8 @@ def scene_figures(outcomes: Sequence[MethodOutcome]) -> SceneFigures:
 def joined(errors: Sequence[PoseErrors]) -> PoseErrors:
     """All rows of all drives."""
     return PoseErrors(*(np.concatenate(columns) for columns in zip(*errors))) if errors else PoseErrors(
-        *(np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0), np.zeros(0, bool), np.zeros(0, bool), np.zeros(0)))
+        np.zeros(0), np.zeros(0), np.zeros(0), np.zeros((0, DIMENSIONS)), np.zeros(0, bool), np.zeros(0, bool),
+        np.zeros(0))
 
 
 def column(cars: Sequence[CarErrors], name: str) -> FloatArray:

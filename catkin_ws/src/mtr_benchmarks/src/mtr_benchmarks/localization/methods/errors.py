@@ -22,18 +22,23 @@ class PoseErrors(NamedTuple):
     Attributes:
         key_m: distance of the key from where it is said to be; NaN where the method says that it does not know.
         yaw_deg: error of the heading, signed.
-        nees: normalised error squared of the pose in frame car; NaN where the method says that it does not know, and
-            from one without covariance.
+        whitened: (n, 3), error of the pose in frame car in independent units of its covariance; NaN where the method
+            says that it does not know, and from one without covariance.
         standing, on_axis, beyond_m: see DriveTruth.
     """
 
     stamps_s: FloatArray
     key_m: FloatArray
     yaw_deg: FloatArray
-    nees: FloatArray
+    whitened: FloatArray
     standing: BoolArray
     on_axis: BoolArray
     beyond_m: FloatArray
+
+    @property
+    def nees(self) -> FloatArray:
+        """Normalised error squared of each pose; its mean over many drives is 3 when the covariances are honest."""
+        return np.sum(self.whitened ** 2, axis=1)
 
 
 class MeasuredCar(NamedTuple):
@@ -51,15 +56,17 @@ def errors_of(track: PoseTrack, car: MeasuredCar, truth: DriveTruth) -> PoseErro
     true = truth.track.poses[judged]
     away = keys(measured) - keys(true)
     key_m = np.hypot(away[:, 0], away[:, 1])
-    nees = np.full(len(stamps), NAN)
+    whitened = np.full((len(stamps), 3), NAN)
     nearest = np.clip(np.searchsorted(track.stamps_s, stamps), 0, len(track.stamps_s) - 1)
     if track.covariances is not None:
-        nees = normalised_squares(measured, true, joined(track.covariances[nearest], car, measured))
+        whitened = whitened_errors(measured, true, joined(track.covariances[nearest], car, measured))
     if track.valid is not None:
         # Who says that he does not know promises nothing.
-        key_m, nees = (np.where(track.valid[nearest], values, NAN) for values in (key_m, nees))
+        key_m = np.where(track.valid[nearest], key_m, NAN)
+        whitened = np.where(track.valid[nearest, np.newaxis], whitened, NAN)
     yaw = np.degrees(wrapped(measured[:, 2] - true[:, 2]))
-    return PoseErrors(stamps, key_m, yaw, nees, truth.standing[judged], truth.on_axis[judged], truth.beyond_m[judged])
+    return PoseErrors(stamps, key_m, yaw, whitened, truth.standing[judged], truth.on_axis[judged],
+                      truth.beyond_m[judged])
 
 
 def keys(poses: FloatArray) -> FloatArray:
@@ -78,11 +85,11 @@ def joined(covariances: FloatArray, car: MeasuredCar, poses_in_car: FloatArray) 
     return own + lever @ car.covariance @ lever.transpose(0, 2, 1)
 
 
-def normalised_squares(measured: FloatArray, true: FloatArray, covariances: FloatArray) -> FloatArray:
-    """e P^-1 e for each pose; its mean over many drives is 3 when the covariances are honest."""
+def whitened_errors(measured: FloatArray, true: FloatArray, covariances: FloatArray) -> FloatArray:
+    """L^-1 e (n, 3) of poses (n, 3) with P = L L^T."""
     difference = measured - true
     difference[:, 2] = wrapped(difference[:, 2])
-    return np.einsum("ni,ni->n", difference, np.linalg.solve(covariances, difference[:, :, np.newaxis])[:, :, 0])
+    return np.linalg.solve(np.linalg.cholesky(covariances), difference[:, :, np.newaxis])[:, :, 0]
 
 
 def percentile(values: FloatArray, share: float = 95.0) -> Optional[float]:

@@ -1,0 +1,85 @@
+"""What a system with honest covariances would show, were its errors to last as long as those that were found.
+
+An error of the map or of the Car is one for the whole drive: the mean normalised error squared of one drive scatters
+about 1 even when the covariances are right, and the worst of many drives more.
+"""
+# SPDX-License-Identifier: Apache-2.0
+from typing import NamedTuple, Optional, Sequence
+
+import numpy as np
+from scipy import stats
+
+from mtr_core.arrays import FloatArray
+
+from ..methods.errors import PoseErrors
+from .figures import DIMENSIONS
+
+SAMPLE_S = 1.0
+CONFIDENCE = 0.95
+
+
+class Bounds(NamedTuple):
+    """Within them are 95 % of single honest drives, or with 95 % all of a set of them."""
+
+    low: float
+    high: float
+
+
+def freedom_of(drives: Sequence[PoseErrors]) -> Optional[float]:
+    """Degrees of freedom of the mean normalised error squared of the median drive: with errors that last for ever 3,
+    and 3 for each independent instant with those that do not. None without any pose.
+
+    Errors are taken to be of mean zero, so that one which stays all the time lasts all the time.
+    """
+    lags = [lag_sums(sampled(each)) for each in drives]
+    longest = max((len(each.counts) for each in lags), default=0)
+    sums, counts = np.zeros(longest), np.zeros(longest)
+    for each in lags:
+        sums[:len(each.sums)] += each.sums
+        counts[:len(each.counts)] += each.counts
+    if not longest or not sums[0] > 0.0:
+        return None
+    alike = np.square(sums / np.maximum(counts, 1.0) * counts[0] / sums[0])
+    found = []
+    for each in lags:
+        # Each lag but zero has two pairs of instants.
+        pairs = np.concatenate((each.counts[:1], 2.0 * each.counts[1:]))
+        if pairs.sum() > 0.0:
+            found.append(DIMENSIONS * pairs.sum() / float(np.dot(pairs, alike[:len(pairs)])))
+    return float(np.median(found))
+
+
+def bounds_of(freedom: float, drives: int = 1) -> Bounds:
+    """Of the mean normalised error squared by its expectation, of one drive or of all of so many."""
+    beyond = 0.5 * (1.0 - CONFIDENCE ** (1.0 / drives))
+    low, high = stats.chi2.ppf((beyond, 1.0 - beyond), freedom) / freedom
+    return Bounds(float(low), float(high))
+
+
+class LagSums(NamedTuple):
+    """By lag: sum of the products of errors so far apart, and how many of them."""
+
+    sums: FloatArray
+    counts: FloatArray
+
+
+def sampled(errors: PoseErrors) -> FloatArray:
+    """Whitened errors (n, 3) of each second."""
+    if not len(errors.stamps_s):
+        return np.zeros((0, DIMENSIONS))
+    wanted = np.arange(errors.stamps_s[0], errors.stamps_s[-1] + 1e-6, SAMPLE_S)
+    return errors.whitened[np.minimum(np.searchsorted(errors.stamps_s, wanted), len(errors.stamps_s) - 1)]
+
+
+def lag_sums(whitened: FloatArray) -> LagSums:
+    """Of all three components alike; an instant without a pose has no part in it."""
+    known = np.isfinite(whitened).all(axis=1)
+    values = np.where(known[:, np.newaxis], whitened, 0.0)
+    if not len(values):
+        return LagSums(np.zeros(0), np.zeros(0))
+    sums = sum(_correlated(values[:, axis]) for axis in range(DIMENSIONS))
+    return LagSums(np.asarray(sums), DIMENSIONS * _correlated(known.astype(float)))
+
+
+def _correlated(values: FloatArray) -> FloatArray:
+    return np.correlate(values, values, "full")[len(values) - 1:]
