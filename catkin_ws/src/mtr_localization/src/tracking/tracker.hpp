@@ -115,8 +115,12 @@ class ScanTracker {
   double patience_s_ = 0.0;
   /// When returns lay exactly on the map, or there were too few to tell.
   std::int64_t fitted_ns_ = 0;
-  /// While lost: since when the view is the expected one again.
-  std::optional<std::int64_t> uncovered_ns_;
+  /// While lost: since when and where the view is the expected one again.
+  struct Uncovered {
+    std::int64_t stamp_ns;
+    PoseVector odom;
+  };
+  std::optional<Uncovered> uncovered_;
   /// While lost: when that was seen first.
   std::optional<std::int64_t> lost_ns_;
   bool degenerate_ = false;

@@ -100,43 +100,6 @@ TEST_F(LocalizerLostTest, KidnappedToWhereNothingIsInViewIsLostToo) {
   EXPECT_LT(lost_after(3.0), 2.0);
 }
 
-/// Beside the Car alone; a robot that turns its back to it sees nothing.
-class LocalizerAloneTest : public ::testing::Test {
- protected:
-  void SetUp() override { ASSERT_TRUE(robot.map().map.valid); }
-
-  /// Turns on the spot until the Car lies in the quarter that the LiDAR does not see.
-  void turn_away() {
-    const double away = std::atan2(robot.truth.y(), robot.truth.x());
-    const double turn = wrapped(away - robot.truth.z());
-    robot.drive(0.0, std::copysign(1.5, turn), std::abs(turn) / 1.5);
-  }
-
-  SceneDrive robot{scenes::open(), Parameters{}};
-};
-
-TEST_F(LocalizerAloneTest, RobotThatTurnsItsBackToTheCarKnowsWhereItIs) {
-  turn_away();
-  EXPECT_TRUE(robot.drive(0.0, 0.0, 3.0).valid) << robot.newest.message.text;
-}
-
-TEST_F(LocalizerAloneTest, ViewThatDisagreedAndThenShowsNothingIsNoAgreement) {
-  const PoseVector before = robot.truth;
-  turn_away();
-  robot.drive(0.0, 0.0, 0.4);
-  // It turns back a little, then something hides all until the Car is out of its view.
-  robot.drive(0.0, wrapped(before.z() - robot.truth.z()) > 0.0 ? 1.5 : -1.5, 0.9);
-  ASSERT_TRUE(robot.newest.valid);
-  robot.world.clear();
-  scenes::add_box(robot.world, robot.truth, 1.4, 1.4);
-  robot.drive(0.0, 0.0, 0.3);
-  turn_away();
-  ASSERT_TRUE(robot.newest.valid) << robot.newest.message.text;
-  robot.world.clear();
-  robot.drive(0.3, 0.0, 1.5);
-  EXPECT_FALSE(robot.newest.valid);
-}
-
 TEST_F(LocalizerLostTest, SurfaceThatTheLidarLooksOverDoesNotLoseThePoseWhileTheRestIsSeen) {
   // The Car sinks below the LiDAR's plane; walls and the other car stay.
   robot.world.erase(robot.world.begin(), robot.world.begin() + 4);
