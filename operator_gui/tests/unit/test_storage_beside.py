@@ -10,11 +10,14 @@ from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.results.journal import DECISION, LINE, LINE_BEGUN, POINT
+from mtr_operator.domain.results.notebook import Notebook
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.station.test import Test
 from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.journal.journal_file import read_journal
+from mtr_operator.storage.progress_document import mark_in, read_document
 from mtr_operator.storage.progress_file import load_progress
 from mtr_operator.storage.store import Store
 
@@ -179,3 +182,22 @@ def test_progress_file_of_any_moment_with_its_journal_has_each_line_once(measure
     measure(hold=("save",))
     assert seen == [list(range(1, number + 1)) for number in range(1, 9)]
     assert kinds(path).count(LINE) == 8
+
+
+def test_progress_that_a_person_saves_meanwhile_has_no_entry_on_its_way(path, disk):
+    test = Test(SCENARIO, PARAMETERS, Progress("autolock", PARAMETERS.to_mapping()), path)
+    with test.opened() as store, test.written_beside(store) as journal:
+        notebook = Notebook(test.progress, SCENARIO.result_type, journal)
+        notebook.add(LINE_BEGUN, {"line": 1})
+        disk.hold()
+        notebook.add(POINT, {"word": "unlock", "status": "ok", "distance": None, "frame": None})
+        wait = journal.wait
+
+        def release_and_wait():
+            assert not wait(0.0)
+            disk.release()
+            return wait()
+        journal.wait = release_and_wait
+        test.save()
+        assert mark_in(read_document(path)).entries == len(read_journal(path.with_suffix(".journal")).entries)
+        journal.wait = wait

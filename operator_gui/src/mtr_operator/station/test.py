@@ -19,6 +19,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given
 from mtr_operator.storage.identity_file import GivenIdentity
+from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.photos import copy_photos, discard_photos, keep_photos, photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME, free_path, holds_no_other, open_progress
 from mtr_operator.storage.recovery import progress_path
@@ -49,6 +50,7 @@ class Test:
     again: tuple[int, ...] = ()
     photos: tuple[pathlib.Path, ...] = ()
     _store: Store | None = field(default=None, init=False, compare=False)
+    _beside: JournalBeside | None = field(default=None, init=False, compare=False)
     _sources: tuple[pathlib.Path, ...] = field(default=(), init=False, compare=False)
 
     @property
@@ -83,6 +85,16 @@ class Test:
             finally:
                 self._store = None
 
+    @contextlib.contextmanager
+    def written_beside(self, store: Store) -> Iterator[JournalBeside]:
+        """Context within `opened` in which a thread writes; what cannot be kept is told as by JournalBeside."""
+        with JournalBeside(store) as journal:
+            self._beside = journal
+            try:
+                yield journal
+            finally:
+                self._beside = None
+
     @property
     def has_moved(self) -> bool:
         """True while it runs and its files are not where they shall be since."""
@@ -90,6 +102,9 @@ class Test:
 
     def save(self) -> None:
         """Write the progress, and its folder if need be; an OperatorError says why that fails."""
+        if self._beside is not None:
+            # A progress file knows how far the journal reached: no entry may be on its way.
+            self._beside.wait()
         if self._store is None:
             with self.opened() as store:
                 store.save()
