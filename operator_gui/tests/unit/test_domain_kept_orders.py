@@ -6,6 +6,7 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.kept_orders import DISK_PATIENCE_S
 from mtr_operator.domain.results.journal import Journal
@@ -78,6 +79,16 @@ def test_settling_answers_until_all_is_kept(loop, robot_link):
     loop.journal = SlowJournal(looks=7)
     loop.settle()
     assert len(robot_link.answers) > answers and loop.journal.looks < 0
+
+
+def test_operator_can_end_a_test_whose_disk_never_writes(loop, robot_link):
+    loop.journal = SlowJournal(looks=10 ** 9)
+    ended = ControlLoop(robot_link, loop.car_link, is_cancelled=lambda: len(robot_link.answers) > 5)
+    ended.step()
+    ended.journal = loop.journal
+    with pytest.raises(Cancelled):
+        ended.settle()
+    assert ended.halt() and robot_link.answers[-1][1].stop
 
 
 @pytest.mark.parametrize("act", ["step", "settle"])

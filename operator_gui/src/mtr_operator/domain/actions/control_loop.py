@@ -179,7 +179,7 @@ class ControlLoop:
     def settle(self) -> None:
         """Answer the robot, but order nothing new, until all that was found is on disk; OutputError when it cannot."""
         while not is_kept(self.journal, self._status):
-            self._exchange()
+            self._step()
         self.journal.check()
 
     @contextlib.contextmanager
