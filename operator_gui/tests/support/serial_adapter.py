@@ -46,15 +46,23 @@ class Adapter:
         """Anything."""
         os.write(self.master, data)
 
-    def close(self):
-        """Pull the plug; safe to call twice."""
+    def pull(self):
+        """The plug; safe to call twice. The terminal's number stays taken: a link that opens it again finds nothing,
+        and not the terminal of another program that was given the number since."""
         if self._thread is None:
             return
         os.write(self._wake[1], b"x")
         self._thread.join()
         self._thread = None
-        for file in (self._slave, self.master, *self._wake):
+        for file in (self.master, *self._wake):
             os.close(file)
+
+    def close(self):
+        """Pull the plug and leave nothing; safe to call twice."""
+        self.pull()
+        slave, self._slave = self._slave, None
+        if slave is not None:
+            os.close(slave)
 
 
 @pytest.fixture(name="adapter")

@@ -109,7 +109,7 @@ def test_bus_off_is_a_problem_while_it_lasts(adapter, link):
 
 def test_pulled_adapter_is_a_problem(adapter, link):
     Course(link, adapter.send).run(4.0)
-    adapter.close()
+    adapter.pull()
     wait_for(lambda: "adapter" in link.problem)
     assert link.lock_state is LockState.UNKNOWN
 
@@ -122,7 +122,7 @@ def test_adapter_that_comes_back_is_used_again(adapter, link, tmp_path):
     other.connect()
     second = Adapter()
     try:
-        adapter.close()
+        adapter.pull()
         wait_for(lambda: "adapter" in other.problem)
         name.unlink()
         name.symlink_to(second.path)

@@ -57,7 +57,7 @@ class Cable:
         self.link.connect()
 
     def pull(self):
-        self._adapter.close()
+        self._adapter.pull()
         wait_for(lambda: "adapter" in self.link.problem)
 
     def plug(self):
