@@ -6,10 +6,12 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.kept_orders import DISK_PATIENCE_S
 from mtr_operator.domain.results.journal import Journal
+from mtr_operator.domain.results.line_result import LineStatus
 
 TODAY_S = 1.8e9
 
@@ -79,6 +81,12 @@ def test_settling_answers_until_all_is_kept(loop, robot_link):
     loop.journal = SlowJournal(looks=7)
     loop.settle()
     assert len(robot_link.answers) > answers and loop.journal.looks < 0
+
+
+def test_point_is_safe_before_anything_else_is_said_or_done(loop):
+    loop.journal = SlowJournal(looks=7)
+    Robot(loop, ()).keep("unlock", LineStatus.OK)
+    assert loop.journal.looks < 0
 
 
 def test_operator_can_end_a_test_whose_disk_never_writes(loop, robot_link):

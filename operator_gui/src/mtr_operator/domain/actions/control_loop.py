@@ -283,8 +283,7 @@ class ControlLoop:
 
     def _send_blindly(self, stop: bool) -> None:
         """Send the desired state again without knowing what the robot does; a stop waits for no Status."""
-        answer = self._answer()
-        self._robot_link.send(replace(answer, stop=True) if stop else answer)
+        self._robot_link.send(replace(self._answer(), stop=True) if stop else self._answer())
 
     def _check_control(self, status: RobotStatus) -> None:
         if status.controlled_by_other and self._was_in_control:

@@ -195,6 +195,8 @@ class Robot:
         self._loop.journal.add(POINT, {
             "word": word, "status": status.value, "distance": None if distance is None else plain_fields(distance),
             "frame": None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)})
+        # Nobody reads of what follows from it before it is safe.
+        self._loop.settle()
 
     @contextlib.contextmanager
     def watched(self, tolerances: Tolerances, *, judges_locks: bool = True) -> Iterator[LineWatch]:
