@@ -31,16 +31,6 @@ constexpr double kStoodM = 0.05;
 // On steeper ground, or braking, a LiDAR looks over and under what is expected, and half of it is what a right pose
 // shows: 1 cm a metre.
 constexpr double kLevelSlope = 0.01;
-// What hid the view has gone when, near the place where it agreed last, the expected one is seen for so long; elsewhere
-// it has to go on over so much of a way, or of a turn, for one place alone may look like another.
-constexpr std::int64_t kUncoveredNs = 1'000'000'000;
-constexpr double kUncoveredWithinM = 1.0;
-constexpr double kUncoveredWithinRad = 0.5;
-constexpr double kUncoveredWayM = 1.0;
-constexpr double kUncoveredTurnRad = 1.0;
-// After surfaces were looked through, only over so much of a way: a robot that was carried would have to be at a place
-// that looks like the one to which wheels and gyro have led, and go on looking like it. A turn shows one place again.
-constexpr double kContradictedWayM = 2.0;
 // A robot that was put down rocks, and looks at the ground or over things: no views for a search before that.
 constexpr std::int64_t kSettledNs = 500'000'000;
 // Of so many returns near surfaces a pose that is what its covariance says puts nearly all on them.
@@ -287,8 +277,6 @@ bool ScanTracker::is_uncovered(const View& view, const PoseVector& pose, const F
                                const FilterStep& step) {
   const Agreement all = agreement_of(view, pose, map_->surfaces, kToleranceM);
   is_contradicted_ = is_contradicted_ || all.is_contradicted();
-  const PoseVector way = relative(agreed_odom_, step.odom);
-  const bool is_near = way.head<2>().norm() <= kUncoveredWithinM && std::abs(way.z()) <= kUncoveredWithinRad;
   const bool is_known = history.newest().filter.position_sigma_m() <= parameters_.lost_sigma_m;
   const bool is_expected = all.is_expected() || (state_ == State::kMapping && all.is_expected_so_far());
   const bool is_wrong = all.is_contradicted() || (is_contradicted_ && state_ == State::kMapping);
@@ -296,14 +284,7 @@ bool ScanTracker::is_uncovered(const View& view, const PoseVector& pose, const F
     uncovered_.reset();
     return false;
   }
-  uncovered_ = uncovered_.value_or(Uncovered{step.stamp_ns, step.odom});
-  const PoseVector since = relative(uncovered_->odom, step.odom);
-  const double gone_m = since.head<2>().norm();
-  if (is_contradicted_) {
-    return gone_m >= kContradictedWayM;
-  }
-  const bool goes_on = gone_m >= kUncoveredWayM || std::abs(since.z()) >= kUncoveredTurnRad;
-  return step.stamp_ns - uncovered_->stamp_ns >= kUncoveredNs && (is_near || goes_on);
+  return uncovered_.add(step.stamp_ns, agreed_odom_, step.odom, is_contradicted_);
 }
 
 }  // namespace mtr_localization

@@ -18,6 +18,7 @@
 #include "tracking/contradiction_watch.hpp"
 #include "tracking/matcher.hpp"
 #include "tracking/relocalization.hpp"
+#include "tracking/uncovered_view.hpp"
 #include "tracking/view.hpp"
 
 namespace mtr_localization {
@@ -115,12 +116,8 @@ class ScanTracker {
   double patience_s_ = 0.0;
   /// When returns lay exactly on the map, or there were too few to tell.
   std::int64_t fitted_ns_ = 0;
-  /// While lost: since when and where the view is the expected one again.
-  struct Uncovered {
-    std::int64_t stamp_ns;
-    PoseVector odom;
-  };
-  std::optional<Uncovered> uncovered_;
+  /// While lost.
+  UncoveredView uncovered_;
   /// While lost: when that was seen first.
   std::optional<std::int64_t> lost_ns_;
   bool degenerate_ = false;

@@ -115,6 +115,13 @@ class SceneDrive {
     poses_.assign(3, truth);
   }
 
+  /// Persons stand round the robot, 1 m away.
+  void surround() {
+    for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.25) {
+      persons.emplace_back(truth.x() + std::cos(angle), truth.y() + std::sin(angle));
+    }
+  }
+
   PoseVector map_truth() const { return relative(start_, truth); }
 
   PoseVector error() const {

@@ -46,9 +46,7 @@ TEST_F(LocalizerAloneTest, ViewThatDisagreedAndThenShowsNothingIsNoAgreement) {
 }
 
 TEST_F(LocalizerAloneTest, PoseIsTakenUpElsewhereWhenTheExpectedViewGoesOnOverAWay) {
-  for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.25) {
-    robot.persons.emplace_back(robot.truth.x() + std::cos(angle), robot.truth.y() + std::sin(angle));
-  }
+  robot.surround();
   ASSERT_EQ(robot.drive(0.0, 0.0, 3.0).mode, PoseMode::kLost);
   robot.persons.clear();
   robot.lidar_works = false;

@@ -54,9 +54,7 @@ TEST_F(LocalizerLostTest, KidnappedRobotFindsItselfAgainOnItsWay) {
 }
 
 TEST_F(LocalizerLostTest, PoseIsTakenUpAgainWhenWhatHidTheViewHasGone) {
-  for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.25) {
-    robot.persons.emplace_back(robot.truth.x() + std::cos(angle), robot.truth.y() + std::sin(angle));
-  }
+  robot.surround();
   lost_after(3.0);
   ASSERT_EQ(robot.newest.mode, PoseMode::kLost);
   robot.drive(0.0, 0.0, 2.0);

@@ -1,0 +1,36 @@
+/// @file
+/// How much of time, way and turn is enough.
+// SPDX-License-Identifier: Apache-2.0
+#include "tracking/uncovered_view.hpp"
+
+#include <cmath>
+
+namespace mtr_localization {
+namespace {
+
+constexpr std::int64_t kTimeNs = 1'000'000'000;
+// Near the place where the view agreed last.
+constexpr double kNearM = 1.0;
+constexpr double kNearRad = 0.5;
+constexpr double kWayM = 1.0;
+constexpr double kTurnRad = 1.0;
+constexpr double kContradictedWayM = 2.0;
+
+bool is_within(const PoseVector& way, double distance_m, double turn_rad) {
+  return way.head<2>().norm() <= distance_m && std::abs(way.z()) <= turn_rad;
+}
+
+}  // namespace
+
+bool UncoveredView::add(std::int64_t stamp_ns, const PoseVector& agreed_odom, const PoseVector& odom,
+                        bool is_contradicted) {
+  since_ = since_.value_or(Beginning{stamp_ns, odom});
+  const PoseVector way = relative(since_->odom, odom);
+  if (is_contradicted) {
+    return way.head<2>().norm() >= kContradictedWayM;
+  }
+  const bool is_near = is_within(relative(agreed_odom, odom), kNearM, kNearRad);
+  return stamp_ns - since_->stamp_ns >= kTimeNs && (is_near || !is_within(way, kWayM, kTurnRad));
+}
+
+}  // namespace mtr_localization
