@@ -21,7 +21,8 @@ struct Waiting {
   std::function<bool(double)> run_callbacks;
   /// Monotonic wall time in s.
   std::function<double()> wall_clock;
-  /// Wall time after which a silent producer is taken for dead.
+  /// Wall time after which a silent producer is taken for dead. One that then speaks again is waited for for a share of
+  /// it (kLateProducerShare), until it is in time.
   double patience_s = kProducerLostAfterWallS;
 };
 
@@ -69,7 +70,7 @@ class Samples {
     if (due_ns <= kSimulationStartNs) {
       return;
     }
-    const double deadline = waiting_->wall_clock() + waiting_->patience_s;
+    const double deadline = waiting_->wall_clock() + waiting_->patience_s * (late_ ? kLateProducerShare : 1.0);
     while (!lost_ && !arrived(due_ns)) {
       const double remaining = deadline - waiting_->wall_clock();
       if (remaining <= 0.0) {
@@ -78,6 +79,7 @@ class Samples {
         return;
       }
     }
+    late_ = !arrived(due_ns);
   }
 
   Slot slot_;
@@ -85,6 +87,7 @@ class Samples {
   std::optional<Waiting> waiting_;
   std::deque<std::pair<std::int64_t, T>> samples_;
   bool lost_ = false;
+  bool late_ = false;
 };
 
 }  // namespace mtr_core

@@ -32,6 +32,7 @@ def schedule_header() -> str:
     lines += [
         f"inline constexpr std::int64_t kSimulationStartNs = {schedule.SIMULATION_START_NS};",
         f"inline constexpr double kProducerLostAfterWallS = {schedule.PRODUCER_LOST_AFTER_WALL_S};",
+        f"inline constexpr double kLateProducerShare = {schedule.LATE_PRODUCER_SHARE};",
         f"inline constexpr std::size_t kKeptSamples = {schedule.KEPT_SAMPLES};",
     ]
     text = _header("Ticks of the periodic nodes, ns of the ROS clock.", "schedule.py", "mtr_core", lines)

@@ -51,5 +51,8 @@ SIMULATION_START_NS = 1_000 * MILLISECOND_NS
 # A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
 # more until it speaks again, and the consumer sees its sample grow old.
 PRODUCER_LOST_AFTER_WALL_S = 4.0
+# Of that, how long a producer is waited for that was given up and has not been in time since: what comes late at every
+# tick, as behind a fault that delays it, would cost the whole of it each time.
+LATE_PRODUCER_SHARE = 0.1
 # A consumer keeps so many of a producer's samples.
 KEPT_SAMPLES = 64

@@ -5,7 +5,14 @@ import threading
 import pytest
 
 from mtr_core.lockstep.samples import Samples
-from mtr_core.schedule import KEPT_SAMPLES, MILLISECOND_NS, MOTION_PLANNER, PRODUCER_LOST_AFTER_WALL_S, SENSORS
+from mtr_core.schedule import (
+    KEPT_SAMPLES,
+    LATE_PRODUCER_SHARE,
+    MILLISECOND_NS,
+    MOTION_PLANNER,
+    PRODUCER_LOST_AFTER_WALL_S,
+    SENSORS,
+)
 
 
 def ms(time_ms):
@@ -135,6 +142,41 @@ def test_producer_that_was_given_up_is_waited_for_again_once_it_speaks(samples):
     assert samples.at(ms(2060)) is None
     samples.add(ms(2080), "back")
     assert not samples._lost
+
+
+class StandingClock:
+    """Wall clock that goes on only while somebody waits."""
+
+    def __init__(self, samples, monkeypatch):
+        self.now_s, self.while_waiting = 0.0, lambda: None
+        samples._wall_clock = lambda: self.now_s
+        monkeypatch.setattr(samples._changed, "wait", self._wait)
+
+    def _wait(self, timeout_s):
+        self.now_s += timeout_s
+        self.while_waiting()
+
+
+@pytest.fixture
+def standing(samples, monkeypatch):
+    return StandingClock(samples, monkeypatch)
+
+
+def test_producer_that_is_late_at_each_tick_costs_its_patience_once(samples, standing):
+    for tick in range(2040, 2040 + 40 * 25, 40):
+        samples.at(ms(tick + 20))
+        samples.add(ms(tick - 400), "late")
+    assert standing.now_s == pytest.approx(PRODUCER_LOST_AFTER_WALL_S * (1.0 + 24 * LATE_PRODUCER_SHARE))
+
+
+def test_late_producer_that_was_in_time_again_is_waited_for_with_all_patience(samples, standing):
+    samples.at(ms(2060))
+    samples.add(ms(2040), "late")
+    standing.while_waiting = lambda: samples.add(ms(2080), "in time")
+    assert samples.at(ms(2100)) == "in time"
+    standing.now_s, standing.while_waiting = 0.0, lambda: None
+    samples.at(ms(2140))
+    assert standing.now_s == PRODUCER_LOST_AFTER_WALL_S
 
 
 def test_stamp_that_is_not_newer_replaces_history(samples):

@@ -75,6 +75,24 @@ TEST_F(SamplesInLockStep, LostProducerThatSpeaksAgainIsWaitedForAgain) {
   EXPECT_FALSE(samples.lost());
 }
 
+TEST_F(SamplesInLockStep, ProducerThatIsLateAtEachTickCostsItsPatienceOnce) {
+  for (int tick_ms = 2040; tick_ms < 2040 + 40 * 25; tick_ms += 40) {
+    samples.at((tick_ms + 20) * kMs);
+    samples.add((tick_ms - 400) * kMs, 1);
+  }
+  EXPECT_NEAR(wall_s, kProducerLostAfterWallS * (1.0 + 24 * kLateProducerShare), 1e-9);
+}
+
+TEST_F(SamplesInLockStep, LateProducerThatWasInTimeAgainIsWaitedForWithAllPatience) {
+  samples.at(2060 * kMs);
+  samples.add(2040 * kMs, 1);
+  samples.add(2080 * kMs, 2);
+  EXPECT_EQ(samples.at(2100 * kMs), 2);
+  wall_s = 0.0;
+  samples.at(2140 * kMs);
+  EXPECT_DOUBLE_EQ(wall_s, kProducerLostAfterWallS);
+}
+
 TEST_F(SamplesInLockStep, ShutdownEndsTheWait) {
   on_wait = [](double) { return false; };
   EXPECT_EQ(samples.at(2060 * kMs), std::nullopt);

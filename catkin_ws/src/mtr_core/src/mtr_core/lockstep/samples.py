@@ -5,7 +5,14 @@ import threading
 import time
 from typing import Callable, Generic, List, Optional, TypeVar
 
-from mtr_core.schedule import CLOCK_STEP, KEPT_SAMPLES, PRODUCER_LOST_AFTER_WALL_S, SIMULATION_START_NS, Slot
+from mtr_core.schedule import (
+    CLOCK_STEP,
+    KEPT_SAMPLES,
+    LATE_PRODUCER_SHARE,
+    PRODUCER_LOST_AFTER_WALL_S,
+    SIMULATION_START_NS,
+    Slot,
+)
 
 T = TypeVar("T")
 
@@ -20,7 +27,8 @@ class Samples(Generic[T]):
         slot: the producer's ticks.
         lag_ns: a sample is due this long after its stamp; 0 for sensors, which precede the clock.
         waits: True in lock-step, where `at` returns the same sample however fast the machine is.
-        patience_s: wall time after which a silent producer is taken for dead.
+        patience_s: wall time after which a silent producer is taken for dead. One that then speaks again is waited for
+            for a share of it, until it is in time.
     """
 
     def __init__(self, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns, waits: bool = True,
@@ -31,7 +39,7 @@ class Samples(Generic[T]):
         self._changed = threading.Condition()
         self._stamps: List[int] = []
         self._values: List[T] = []
-        self._lost = False
+        self._lost = self._late = False
         self._asked_ns = self._wanted_ns = 0
 
     def add(self, stamp_ns: int, value: T) -> None:
@@ -77,10 +85,14 @@ class Samples(Generic[T]):
     def _wait_for(self, due_ns: int) -> None:
         if due_ns <= SIMULATION_START_NS:
             return
-        deadline = self._wall_clock() + self.patience_s
-        while not self._lost and not (self._stamps and self._stamps[-1] >= due_ns):
+        deadline = self._wall_clock() + self.patience_s * (LATE_PRODUCER_SHARE if self._late else 1.0)
+        while not self._lost and not self._has_arrived(due_ns):
             remaining = deadline - self._wall_clock()
             if remaining <= 0.0:
                 self._lost = True
-                return
-            self._changed.wait(remaining)
+            else:
+                self._changed.wait(remaining)
+        self._late = not self._has_arrived(due_ns)
+
+    def _has_arrived(self, due_ns: int) -> bool:
+        return bool(self._stamps) and self._stamps[-1] >= due_ns
