@@ -31,7 +31,7 @@ STATUS = {
     "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
     "car_check": 18, "waypoint_problems": 19, "steady_time_s": 20, "interventions": 21, "emergency_stop": 22,
     "motion_source": 23, "hold_id": 24, "controller_name": 25, "surroundings": 26,
-    "preflight": 27,
+    "preflight": 27, "waits_for_answer": 28,
 }
 PREFLIGHT = {"made_s": 1, "items": 2, "checks": 3, "bad": 4}
 PREFLIGHT_ITEM = {"name": 1, "level": 2, "sentence": 3}

@@ -13,8 +13,6 @@ from mtr_operator.domain.kept_orders import DISK_PATIENCE_S
 from mtr_operator.domain.results.journal import Journal
 from mtr_operator.domain.results.line_result import LineStatus
 
-TODAY_S = 1.8e9
-
 
 class SlowJournal(Journal):
     """Says so many times that it has not kept all. Attributes: waits: for how long it was waited."""
@@ -35,8 +33,8 @@ class SlowJournal(Journal):
 
 @pytest.fixture
 def loop(world, robot_link, car_link):
-    """Of a robot with a clock that tells the time of day."""
-    world.spoil = lambda status: replace(status, sent_s=TODAY_S + status.stamp_s, steady_s=status.stamp_s)
+    """Of a robot whose time goes on."""
+    world.spoil = lambda status: replace(status, waits_for_answer=False)
     made = ControlLoop(robot_link, car_link)
     made.step()
     return made
@@ -67,8 +65,8 @@ def test_stop_waits_for_no_disk(loop, robot_link):
     assert robot_link.answers[-1][1].stop
 
 
-def test_simulated_robot_waits_for_the_disk(loop, world, robot_link):
-    world.spoil = lambda status: replace(status, sent_s=status.stamp_s, steady_s=status.stamp_s)
+def test_robot_whose_time_stands_still_until_it_is_answered_waits_for_the_disk(loop, world, robot_link):
+    world.spoil = lambda status: replace(status, waits_for_answer=True)
     loop.step()
     loop.journal = SlowJournal(looks=100)
     loop.change(key_height_m=0.9)

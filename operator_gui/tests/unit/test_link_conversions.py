@@ -47,7 +47,8 @@ STATUS = robot_status.RobotStatus(
     interventions=robot_status.Interventions(1, 2, 3, 4, 5, 6, 7),
     emergency_stop=robot_status.EmergencyStop.RELEASED, motion_source=robot_status.MotionSource.MANUAL, hold_id=2 ** 62,
     controller_name="Jana", preflight=PreflightReport(40.5, (PreflightItem("disk", True, "Full."),
-                                                              PreflightItem("/imu/data", False, "50 Hz.")), 12, 1))
+                                                              PreflightItem("/imu/data", False, "50 Hz.")), 12, 1),
+    waits_for_answer=True)
 
 
 @pytest.mark.parametrize("desired", DESIRED)
@@ -149,6 +150,6 @@ def test_other_bytes_are_undecodable(payload):
                                      "PreflightReport", "PreflightItem"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 14, "Status": 27, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7,
+    known = {"Command": 14, "Status": 28, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7,
              "PreflightReport": 4, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -119,7 +119,8 @@ def test_what_nobody_has_asked_for_is_told_at_the_end(path, monkeypatch, caplog,
 def measure(world, robot_link, car_link, path, disk):
     """measure(hold): a whole test of a robot in real time; `hold` entries of a kind are on a disk that is held then
     until the robot has been answered three times more."""
-    world.spoil = lambda status: replace(status, sent_s=TODAY_S + status.stamp_s, steady_s=status.stamp_s)
+    world.spoil = lambda status: replace(status, sent_s=TODAY_S + status.stamp_s, steady_s=status.stamp_s,
+                                         waits_for_answer=False)
 
     def measure(hold=()):
         progress = Progress("autolock", PARAMETERS.to_mapping())

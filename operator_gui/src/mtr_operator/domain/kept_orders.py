@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-from .clocks.simulated_time import is_simulated
 from .requests import DesiredState
 from .results.journal import Journal
 from .robot_status import RobotStatus
@@ -27,5 +26,5 @@ class KeptOrders:
 
 
 def is_kept(journal: Journal, status: RobotStatus | None) -> bool:
-    """Whether all that was found is on disk. The time of a simulated robot does not go on while it is waited for."""
-    return journal.wait(math.inf if status is None or is_simulated(status) else DISK_PATIENCE_S)
+    """Whether all that was found is on disk; where the robot's time stands still, it is waited for until it is."""
+    return journal.wait(math.inf if status is None or status.waits_for_answer else DISK_PATIENCE_S)

@@ -232,6 +232,7 @@ class RobotStatus:
     car_check: None for a robot that cannot check the Car's frame.
     controller_name: owner of the key whose Commands the robot obeys; empty on a link that is not encrypted.
     surroundings, preflight: None in most Statuses, and of a robot of before.
+    waits_for_answer: of a simulated robot: its time stands still until this Status is answered.
     hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
     """
 
@@ -282,6 +283,7 @@ class RobotStatus:
     controller_name: str = ""
     surroundings: Surroundings | None = None
     preflight: PreflightReport | None = None
+    waits_for_answer: bool = False
 
     @property
     def key_place(self) -> Point:

@@ -144,7 +144,8 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         motion_source=robot_status.MotionSource(message.motion_source), hold_id=message.hold_id,
         controller_name=message.controller_name,
         surroundings=surroundings_from(message.surroundings) if message.HasField("surroundings") else None,
-        preflight=preflight_from(message.preflight) if message.HasField("preflight") else None)
+        preflight=preflight_from(message.preflight) if message.HasField("preflight") else None,
+        waits_for_answer=message.waits_for_answer)
 
 
 def _press_from(message: pb.PressConfirmation) -> robot_status.PressReport:
@@ -158,6 +159,7 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
         id=status.id, robot_session_id=status.robot_session_id, state=_state_message(status),
         sent_time_s=status.stamp_s if math.isnan(status.sent_s) else status.sent_s,
         emergency_stop=status.emergency_stop.value, motion_source=status.motion_source.value, hold_id=status.hold_id,
+        waits_for_answer=status.waits_for_answer,
         interventions=pb.Interventions(**{name: getattr(status.interventions, name) for name in _COUNTS}),
         mode=status.mode.value, session_id=status.session_id, command_id=status.command_id,
         waypoint_id=status.waypoint_id, waypoint_result=status.waypoint_result.value,

@@ -92,7 +92,8 @@ class Dispatcher:
             self.status_id, inputs, self._interventions.update(inputs), self._confirmations(desired, inputs),
             self.rejected_messages, self.controller, self.log.due(),
             itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.steady_s),
-                            self._recent.at(inputs.steady_s))))
+                            self._recent.at(inputs.steady_s)),
+            self._parameters.lockstep_operator))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
         """What a Status would confirm now; when it changes a Status is due at once."""

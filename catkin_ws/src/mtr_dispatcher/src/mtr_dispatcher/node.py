@@ -3,6 +3,7 @@
 import pathlib
 import secrets
 import time
+from dataclasses import replace
 from typing import Callable, Counter, List, Mapping, Optional
 
 import rospkg
@@ -263,6 +264,8 @@ def _written_folders(parameters: Parameters) -> List[pathlib.Path]:
 
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
+    # What a Status says of it has to be true.
+    parameters = replace(parameters, lockstep_operator=parameters.lockstep_operator and clock.is_lockstep())
     robot = described_robot()
     key = robot.key()
     end_beyond(parameters.memory_limit_mib)

@@ -17,7 +17,7 @@ class Parameters(ParameterSet):
         bind_address: address on which both ports listen; "0.0.0.0" for all interfaces.
         status_port: TCP port on which Status is published.
         command_port: TCP port on which Command is received.
-        lockstep_operator: simulated time waits for the application's answer to each Status.
+        lockstep_operator: in lock-step time waits for the application's answer to each Status.
         operator_lost_after_wall_s: wall time after which it stops waiting.
         link_timeout_s: silence after which the robot stops at the latest; one turn earlier it may.
         command_lifetime_s: age of the answered Status at which a Command has expired.

@@ -49,6 +49,12 @@ def codes(message):
     return {notice.code for notice in message.notifications}
 
 
+@pytest.mark.parametrize("waits", [False, True])
+def test_status_says_whether_time_waits_for_its_answer(waits):
+    core = Dispatcher(Parameters(lockstep_operator=waits), Identity(7, "1.2.3", 0.25, 0.0))
+    assert status(core).waits_for_answer is waits
+
+
 def test_command_survives_the_round_trip():
     sent = link.Command(
         session_id=5, id=6, seen_status_id=7, seen_robot_time_s=8.0, stop=True, max_speed_mps=0.5, device_height_m=1.0,

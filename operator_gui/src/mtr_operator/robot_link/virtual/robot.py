@@ -159,7 +159,7 @@ class VirtualRobot:
         stamp_s = round(self._time_s, 6)
         return RobotStatus(
             id=self._status_id, robot_session_id=self._robot_session_id, stamp_s=stamp_s, sent_s=stamp_s,
-            steady_s=stamp_s, emergency_stop=EmergencyStop.RELEASED, preflight=PreflightReport(),
+            steady_s=stamp_s, waits_for_answer=True, emergency_stop=EmergencyStop.RELEASED, preflight=PreflightReport(),
             x=self._here[0], y=self._here[1], heading=self._heading, speed_mps=self._speed_mps,
             yaw_rate_radps=self._yaw_rate_radps, pose_valid=mapped, position_sigma_m=world.position_sigma_m,
             heading_sigma_rad=world.heading_sigma_rad, key_x=world.key_x_m, key_y=0.0, key_height_m=self._key.height_m,

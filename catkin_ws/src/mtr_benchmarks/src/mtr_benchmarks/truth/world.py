@@ -82,7 +82,7 @@ class World:
         steady_s = clock.steady_s(now_s) - 1e6 if self.tells_steady_clock else math.nan
         return RobotStatus(
             id=self._status_id, robot_session_id=7, stamp_s=clock.at(pose_s), sent_s=clock.at(now_s),
-            steady_s=steady_s, x=x, y=y, heading=heading, speed_mps=speed_mps, pose_valid=True,
+            steady_s=steady_s, waits_for_answer=True, x=x, y=y, heading=heading, speed_mps=speed_mps, pose_valid=True,
             position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M, key_height_m=robot.height_m(now_s),
             mode=Mode.FOLLOWING_WAYPOINT, car=CAR, waypoint_result=robot.result,
             waypoint_id=robot.waypoint.id if robot.waypoint else 0, interventions=robot.interventions(now_s),

@@ -53,6 +53,7 @@ class Report(NamedTuple):
     controller: str
     log: Iterable[Entry]
     notices: Iterable[Notice]
+    waits_for_answer: bool
 
 
 def status_bytes(identity: Identity, report: Report) -> bytes:
@@ -62,7 +63,8 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         session_id=report.confirmations.session_id, command_id=report.confirmations.command_id,
         map_car_id=report.confirmations.map_car_id, rejected_messages=report.rejected_messages,
         software_version=identity.software_version, steady_time_s=report.fresh.steady_s,
-        interventions=link.Interventions(**report.interventions), emergency_stop=report.fresh.emergency_stop)
+        interventions=link.Interventions(**report.interventions), emergency_stop=report.fresh.emergency_stop,
+        waits_for_answer=report.waits_for_answer)
     status.state.key_x, status.state.key_y = identity.key_x_m, identity.key_y_m
     if report.controller:
         status.controller_name = report.controller
