@@ -284,7 +284,9 @@ bool ScanTracker::is_uncovered(const View& view, const PoseVector& pose, const F
     uncovered_.reset();
     return false;
   }
-  return uncovered_.add(step.stamp_ns, agreed_odom_, step.odom, is_contradicted_);
+  const ScanFit fit =
+      matcher_.fit(view.scan, *map_, {pose, step.filter.prior_covariance(), step.filter.pose_covariance()});
+  return uncovered_.add(step.stamp_ns, agreed_odom_, step.odom, is_contradicted_, fit);
 }
 
 }  // namespace mtr_localization

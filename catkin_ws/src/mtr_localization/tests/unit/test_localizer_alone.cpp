@@ -80,5 +80,25 @@ TEST_F(LocalizerAloneTest, RobotThatWasCarriedAndDrivesOnIsNotTakenUpWhereItIsNo
   }
 }
 
+/// While persons hide everything it is carried, in the scene's frame: m, rad.
+class CarriedUnseenTest : public LocalizerAloneTest, public ::testing::WithParamInterface<PoseVector> {};
+
+TEST_P(CarriedUnseenTest, PoseIsNotTakenUpWhereTheCarOnlyLooksTheSame) {
+  robot.surround();
+  ASSERT_EQ(robot.drive(0.0, 0.0, 3.0).mode, PoseMode::kLost);
+  robot.persons.clear();
+  robot.carry(GetParam().x(), GetParam().y(), GetParam().z());
+  for (int tick = 0; tick < 1000; ++tick) {
+    robot.tick(-0.4, 0.0);
+    EXPECT_FALSE(robot.newest.valid && robot.position_error_m() > 0.1) << "tick " << tick;
+  }
+}
+
+// Before returns had to lie on the map, each of these was: the first three within a second, the others on the way.
+INSTANTIATE_TEST_SUITE_P(Places, CarriedUnseenTest,
+                         ::testing::Values(PoseVector(0.21, 0.21, 0.06), PoseVector(0.35, 0.35, 0.12),
+                                           PoseVector(-0.35, -0.35, -0.08), PoseVector(0.35, -0.35, -0.08),
+                                           PoseVector(0.49, 0.49, 0.12), PoseVector(-0.35, 0.35, 0.08)));
+
 }  // namespace
 }  // namespace mtr_localization
