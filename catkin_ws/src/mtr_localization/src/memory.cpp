@@ -5,10 +5,12 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdlib>
 
 namespace mtr_localization {
 namespace {
 
+constexpr std::int64_t kKeepEveryNs = 500'000'000;
 // A robot whose localization ends brakes within 0.5 m, and at most half a second passes since the pose was kept. One
 // that turns at 1.5 rad/s stands 0.9 rad later: 0.3 s until the silence is noticed, 0.1 s until it brakes.
 constexpr double kMaxLedM = 1.0;
@@ -24,6 +26,8 @@ constexpr double kHeadingSigmaPerRad = 0.5;
 double square(double value) { return value * value; }
 
 }  // namespace
+
+bool is_due(std::int64_t stamp_ns, std::int64_t kept_ns) { return std::abs(stamp_ns - kept_ns) >= kKeepEveryNs; }
 
 std::optional<RememberedPose> led_by_wheels(const RememberedPose& from, const std::array<double, 3>& wheel_odom,
                                             std::optional<double> seen_turn_rad) {

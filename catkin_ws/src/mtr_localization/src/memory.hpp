@@ -29,6 +29,10 @@ struct Memory {
   std::optional<RememberedPose> pose;
 };
 
+/// Whether a pose that is valid at stamp_ns is to be kept, when the one of kept_ns was last. Stamps are of a clock that
+/// may have been set either way meanwhile.
+bool is_due(std::int64_t stamp_ns, std::int64_t kept_ns);
+
 /// Where wheels have led from a remembered pose to where their odometry is now; none when they went farther than they
 /// can be trusted, or their odometry began anew.
 /// @param seen_turn_rad how the robot turned meanwhile, where the gyro saw it; none: the wheels' turn

@@ -13,7 +13,6 @@
 namespace mtr_localization {
 namespace {
 
-constexpr std::int64_t kKeepEveryNs = 500'000'000;
 // roslaunch starts a node again after 2 s, on a busy machine later. Longer ago somebody may have carried the robot.
 constexpr double kForgottenAfterS = 30.0;
 
@@ -85,7 +84,7 @@ void MemoryFiles::note(const Estimate& estimate) {
     later(map_path_, [path = map_path_] { remove_file(path); });
   }
   const bool is_sure = estimate.valid && estimate.mode == PoseMode::kLocalized;
-  if (is_sure && (!has_pose_ || estimate.stamp_ns - kept_ns_ >= kKeepEveryNs)) {
+  if (is_sure && (!has_pose_ || is_due(estimate.stamp_ns, kept_ns_))) {
     keep_pose(estimate);
   } else if (!is_sure && has_pose_) {
     has_pose_ = false;

@@ -130,5 +130,12 @@ TEST(LedByWheels, NowhereWhenTheirOdometryBeganAnewOrTheyWentFar) {
   EXPECT_FALSE(led_by_wheels(from, {std::numeric_limits<double>::quiet_NaN(), 5.0, 0.0}));
 }
 
+TEST(KeptPose, IsKeptEveryHalfSecondWhateverIsDoneToTheClock) {
+  constexpr std::int64_t kSecondNs = 1'000'000'000;
+  EXPECT_FALSE(is_due(100 * kSecondNs + kSecondNs / 4, 100 * kSecondNs));
+  EXPECT_TRUE(is_due(100 * kSecondNs + kSecondNs / 2, 100 * kSecondNs));
+  EXPECT_TRUE(is_due(100 * kSecondNs, 3700 * kSecondNs));
+}
+
 }  // namespace
 }  // namespace mtr_localization
