@@ -26,12 +26,11 @@ from mtr_msgs.msg import (
     PeripheralsState,
     RobotMode,
 )
-from mtr_proto.keys import fingerprint
 
+from .access.admission import admission
 from .access.connection_watch import HANDSHAKE_FAILURES
-from .access.curve import Curve, is_possible
+from .access.curve import is_possible
 from .access.gate import ANYBODY, Gate
-from .access.key_folder import FOLDER_NAME, KeyFolder
 from .access.rates import Rates
 from .conversions import desired_message, lock_message
 from .core import Dispatcher
@@ -269,14 +268,10 @@ def make(parameters: Parameters) -> DispatcherNode:
     robot = described_robot()
     key = robot.key()
     end_beyond(parameters.memory_limit_mib)
-    curve = gate = None
-    if parameters.is_encrypted:
-        folder = KeyFolder(pathlib.Path(parameters.key_folder or pathlib.Path(rospkg.get_ros_home()) / FOLDER_NAME))
-        gate = Gate(folder.authorised, parameters.max_commands_per_s, time.monotonic)
-        curve = _curve(parameters, folder, gate)
-    elif parameters.is_exposed:
-        rospy.logerr("The link is not encrypted (allow_unencrypted): whoever reaches %s can move the robot.",
-                     parameters.bind_address)
+    if parameters.is_encrypted and not is_possible():
+        raise LinkError(f"The link cannot listen on {parameters.bind_address}: this ZeroMQ has no encryption; install "
+                        "one with it, bind 127.0.0.1, or set allow_unencrypted.")
+    curve, gate = admission(parameters, pathlib.Path(rospkg.get_ros_home()), rospy.loginfo, rospy.logerr)
     server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port), curve)
     server.bind()
     try:
@@ -290,19 +285,6 @@ def make(parameters: Parameters) -> DispatcherNode:
         # Its thread would keep the process alive.
         server.close()
         raise
-
-
-def _curve(parameters: Parameters, folder: KeyFolder, gate: Gate) -> Curve:
-    if not is_possible():
-        raise LinkError(f"The link cannot listen on {parameters.bind_address}: this ZeroMQ has no encryption; install "
-                        "one with it, bind 127.0.0.1, or set allow_unencrypted.")
-    curve = Curve(folder.own_keys(), gate.admits)
-    keys = folder.authorised()
-    if folder.distrust:
-        rospy.logerr("%s", folder.distrust)
-    rospy.loginfo("The link is encrypted; %d keys are paired. This robot's key: %s", len(keys.entries),
-                  fingerprint(curve.keys.public.decode("ascii")))
-    return curve
 
 
 def main() -> int:
