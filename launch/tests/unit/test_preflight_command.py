@@ -122,7 +122,7 @@ class Heard:
 
     names = {}
 
-    def record(self, _):
+    def listen(self, *_):
         return None
 
 
@@ -134,7 +134,6 @@ def preflight(monkeypatch):
     monkeypatch.setattr(command_line.rospy, "get_param", master.get)
     monkeypatch.setattr(command_line.rospy, "init_node", lambda *_, **__: None)
     monkeypatch.setattr(command_line.clock, "steady_ns", lambda: round(1e9 * now_s[0]))
-    monkeypatch.setattr(command_line.time, "sleep", lambda _: None)
     for name, made in {"master_answers": lambda: True, "setup_of_robot": Setup, "computer_findings": list,
                        "described_robot": lambda: None, "Listener": Heard, "standing_findings": list}.items():
         monkeypatch.setattr(command_line, name, lambda *_, made=made: made())

@@ -71,6 +71,36 @@ def test_record_has_messages_publishers_types_parameters_and_failures(robot):
     assert listener.record("/none").base is None
 
 
+@pytest.fixture
+def come(monkeypatch):
+    """come(topic, seconds, ...) lets messages come then; how many the record has, and when it was ready."""
+    def listened(topic, *times_s, seconds=2.0):
+        listener, now_s, coming = Listener(), [0.0], list(times_s)
+
+        def sleep(for_s):
+            now_s[0] += for_s
+            while coming and coming[0] <= now_s[0]:
+                coming.pop(0)
+                listener._take(Imu(), topic)
+        monkeypatch.setattr(listening.time, "sleep", sleep)
+        monkeypatch.setattr(listening.time, "monotonic", lambda: now_s[0])
+        return len(listener.listen(seconds, Setup()).topic(topic).arrivals_s), now_s[0]
+    return listened
+
+
+@pytest.mark.parametrize("times_s, count, until_s", [
+    ((0.1, 0.2, 1.9), 3, 2.0), ((1.4, 2.4, 3.4), 2, 2.4), ((1.0, 9.0), 1, 6.0), ((), 0, 6.0)],
+    ids=["in time", "seldom", "once", "never"])
+def test_who_speaks_seldom_or_is_reached_late_is_waited_for(robot, come, times_s, count, until_s):
+    heard, ready_s = come(names.IMU_DATA, *times_s)
+    assert (heard, ready_s) == (count, pytest.approx(until_s, abs=0.11))
+
+
+def test_topic_that_no_node_publishes_is_not_waited_for(robot, come, monkeypatch):
+    monkeypatch.setattr(listening, "publishers", dict)
+    assert come(names.IMU_DATA) == (0, 2.0)
+
+
 def test_what_drive_control_says_of_base_and_sensors_is_found_and_what_else_stops_it_is_not(robot):
     listener = Listener()
     said = {"drive_control.base_disobeys": "The base does not obey: told 0.29 m/s.",

@@ -10,7 +10,6 @@ import argparse
 import os
 import pathlib
 import sys
-import time
 from typing import List, Optional
 
 import rospy
@@ -85,9 +84,7 @@ def robot_findings(seconds: float) -> List[Finding]:
     found = shown(description_findings(str(rospy.get_param(names.ROBOT_DESCRIPTION, "")), setup.rear_lidar))
     listener = Listener()
     print(f"Listening for {seconds:g} s ...", flush=True)
-    # Not by the simulated clock, which may stand still.
-    time.sleep(seconds)
-    record = listener.record(setup.base_parameters)
+    record = listener.listen(seconds, setup)
     return found + shown([*start_findings(record), *limit_findings(setup.base_parameters, record.base),
                           *topic_rows(record, setup, wheel_listeners())])
 

@@ -131,9 +131,7 @@ def robot_findings(options: argparse.Namespace) -> List[Finding]:
         found = shown([bad(DESCRIPTION, names.ROBOT_DESCRIPTION, str(error))])
     listener = Listener()
     print(f"Listening for {options.seconds:g} s ...", flush=True)
-    # Not by the simulated clock, which may stand still.
-    time.sleep(options.seconds)
-    record = listener.record(setup.base_parameters)
+    record = listener.listen(options.seconds, setup)
     found += shown(named(standing_findings(record, setup, geometry, shipped_base()), listener))
     if not options.drive:
         kept = report_in(rospy.get_param(names.PREFLIGHT_MOTION, None))

@@ -16,10 +16,14 @@ from mtr_msgs.msg import DriveStatus, FirmwareState
 from .expected import CONTROLLER_OWNER, Setup
 from .motion.recording import ImuSample, Recording, ScanSample, Sweep, WheelSample, scan_sample
 from .records import RobotRecord, SaidTransform, ScanContent, TopicRecord
+from .topics import silent_topics
 
 TYPES: Dict[str, Type[Any]] = {
     names.FRONT_SCAN: numpy_msg(LaserScan), names.REAR_SCAN: numpy_msg(LaserScan), names.WHEEL_ODOMETRY: Odometry,
     names.IMU_DATA: Imu, names.BATTERY: BatteryState, names.FIRMWARE_STATE: FirmwareState, names.JOY: Joy}
+
+# A battery speaks once a second, and on a busy computer a connection takes its time: two messages within it.
+PATIENCE_S, LOOK_EVERY_S = 4.0, 0.1
 
 
 # Arguments of robot.launch for topics -> the topics' names in the nodes.
@@ -87,6 +91,17 @@ class Listener:
         rospy.Subscriber(names.DRIVE_STATUS, DriveStatus, self._take_drive_status)
         for topic in ("/tf", "/tf_static"):
             rospy.Subscriber(topic, TFMessage, self._take_transforms)
+
+    def listen(self, seconds: float, setup: Setup) -> RobotRecord:
+        """What came within that time, and for up to PATIENCE_S more where a node publishes that was not yet heard."""
+        # Not by the simulated clock, which may stand still.
+        time.sleep(seconds)
+        end_s = time.monotonic() + PATIENCE_S
+        record = self.record(setup.base_parameters)
+        while silent_topics(record, setup) and time.monotonic() < end_s:
+            time.sleep(LOOK_EVERY_S)
+            record = self.record(setup.base_parameters)
+        return record
 
     def record(self, base_parameters: str) -> RobotRecord:
         """Everything that came until now, with what the master knows."""

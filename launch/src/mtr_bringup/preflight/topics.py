@@ -65,6 +65,12 @@ def presence_problems(expected: Expected, heard: TopicRecord, listened_s: float)
                   f"s, at least {MIN_MESSAGES} are needed: {expected.remedy}, and look at its log.", came, MIN_MESSAGES)
 
 
+def silent_topics(record: RobotRecord, setup: Setup) -> List[str]:
+    """Topics that a node publishes, and of which too few messages came until now to say anything about them."""
+    heard = {expected.topic: record.topic(expected.topic) for expected in expected_topics(setup)}
+    return [topic for topic, each in heard.items() if each.publishers and len(each.arrivals_s) < MIN_MESSAGES]
+
+
 def rate_hz(heard: TopicRecord) -> float:
     """Mean rate between the first and the last message."""
     span_s = heard.arrivals_s[-1] - heard.arrivals_s[0]
