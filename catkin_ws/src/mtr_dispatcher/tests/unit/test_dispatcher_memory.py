@@ -10,24 +10,24 @@ import time
 from mtr_dispatcher.memory import end_beyond
 end_beyond(100.0)
 kept = [b"x" * (10 * {MIB}) for _ in range({{tens}})]
-time.sleep(1.0)
+time.sleep({{then_s}})
 """
 LIMIT_S = 30.0
 
 
-def ended(tens):
-    """The process that has taken so many times 10 MiB."""
-    return subprocess.run([sys.executable, "-c", FILL.format(tens=tens)], timeout=LIMIT_S, check=False,
+def ended(tens, then_s):
+    """The process that has taken so many times 10 MiB, and lives on for so long."""
+    return subprocess.run([sys.executable, "-c", FILL.format(tens=tens, then_s=then_s)], timeout=LIMIT_S, check=False,
                           capture_output=True, text=True)
 
 
 def test_process_ends_with_a_sentence_when_its_memory_is_beyond_the_last_resort():
-    process = ended(tens=20)
+    process = ended(tens=20, then_s=2.0 * LIMIT_S)
     assert process.returncode == EXIT_STATUS and f"allowed are {100.0 * LAST_RESORT:.0f}" in process.stderr
 
 
 def test_process_within_the_limit_goes_on():
-    assert ended(tens=2).returncode == 0
+    assert ended(tens=2, then_s=1.0).returncode == 0
 
 
 def test_memory_of_this_process_is_known_and_can_be_given_back():
