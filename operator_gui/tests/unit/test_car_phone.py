@@ -65,6 +65,10 @@ def test_a_line_is_a_figure_or_an_object(line, told):
 
 
 @pytest.mark.parametrize(("line", "sentence"), [
+    ("1_5", "The line '1_5' is neither a number nor a JSON object with distance_m."),
+    ('{"distance_m": "1_5"}', "The line '{\"distance_m\": \"1_5\"}' is neither a number nor a JSON object with "
+     "distance_m."),
+    ("\u0661.\u0665", "The line '\u0661.\u0665' is neither a number nor a JSON object with distance_m."),
     ("hello", "The line 'hello' is neither a number nor a JSON object with distance_m."),
     ("nan", "Reported distance is nan m; allowed is -10 to 500 m."),
     ("1e9", "Reported distance is 1e+09 m; allowed is -10 to 500 m."),

@@ -12,8 +12,9 @@ from mtr_operator.car_link.drivers.slcan import StampedSlcanBus
 from mtr_operator.car_link.message_table import MessageTable
 from mtr_operator.car_link.profile import CarProfile, load_profile, profile_names
 
-# As the manual of the Lawicel CAN232 has it: a frame, with or without a stamp of milliseconds.
-FRAME = re.compile(rb"t[0-7][0-9A-Fa-f]{2}[0-8]|T[01][0-9A-Fa-f]{7}[0-8]")
+# As the manual of the Lawicel CAN232 has it: kind, identifier, and nothing but digits to the end of the line.
+FRAME = re.compile(rb"([trdb][0-7][0-9A-Fa-f]{2}|[TRDB][01][0-9A-Fa-f]{7})[0-9A-Fa-f]+")
+LINE_END = re.compile(rb"[\r\a]")
 FD_BYTES = (*range(9), 12, 16, 20, 24, 32, 48, 64)
 MAX_LINES = 64
 DIGITS = b"0123456789ABCDEF"
@@ -30,13 +31,15 @@ def prepare(_: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
         if chance.random() < 0.8:
             data = spoilt_bytes(chance, data, lines)
         bus._buffer[:] = data + b"\r"
-        table, words, nonsense = MessageTable(), set(), ""
+        table, words, nonsense, taken = MessageTable(), set(), "", 0
         for _ in range(data.count(b"\r") + data.count(b"\a") + 1):
             message, _ = bus._recv_internal(0.0)
             words.add("nothing" if message is None else "frame")
             if message is not None:
+                taken += 1
                 nonsense = nonsense or nonsense_in(message, bus.stamp_ms) or use(message, table, profiles, bus.stamp_ms)
-        return " and ".join(sorted(words)), nonsense
+        frames = sum(bool(FRAME.fullmatch(each)) for each in LINE_END.split(data))
+        return " and ".join(sorted(words)), nonsense or ("" if taken <= frames else f"{taken} taken, {frames} there")
     return case
 
 

@@ -23,6 +23,8 @@ from can.interfaces.slcan import slcanBus
 # What the CANable says to V: its version, and where its source lies.
 _CANABLE = re.compile(r"can(able|tact)", re.IGNORECASE)
 _LINE_END = re.compile(rb"[\r\a]")
+# int() would also take signs, spaces and underscores for digits.
+_DIGITS = re.compile(r"[0-9A-Fa-f]*")
 _REFUSED = "\a"
 _MAX_LINE = 512
 _SERIAL_TIMEOUT_S = 0.05
@@ -151,6 +153,8 @@ class StampedSlcanBus(slcanBus):
 
 def _stamp_of(line: str) -> int | None:
     """Stamp at the end of a frame's line, None without; ValueError when the line is no frame."""
+    if not _DIGITS.fullmatch(line[1:-1]):
+        raise ValueError(line)
     head = _HEAD[line[0]]
     is_fd = line[0] in _FD
     length = _FD_LENGTHS[int(line[head - 1], 16)] if is_fd else int(line[head - 1])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from typing import Any, NamedTuple
 
 from mtr_operator.domain.distance_feed import REPORTED
@@ -16,6 +17,8 @@ MAX_LINE_BYTES = 512
 MAX_LINES_PER_S = 200
 DISTANCE, CLOCK, AGE = "distance_m", "time_s", "age_s"
 _NUMBERS = {DISTANCE: REPORTED, CLOCK: Limit(CLOCK, -1e12, 1e12, "s"), AGE: Limit(AGE, 0.0, 1e6, "s")}
+# float() would also take underscores, "1_5" for 15, and the digits of other scripts.
+_NUMBER = re.compile(r"\s*[+-]?(([0-9]+\.?[0-9]*|\.[0-9]+)(e[+-]?[0-9]+)?|nan|inf(inity)?)\s*", re.IGNORECASE)
 _SHOWN = 60
 
 
@@ -95,6 +98,8 @@ def _object(text: str) -> dict[str, Any]:
 
 def _number(name: str, value: Any, text: str) -> float:
     try:
+        if isinstance(value, str) and not _NUMBER.fullmatch(value):
+            raise ValueError(value)
         number = math.nan if isinstance(value, bool) else float(value)
     except (TypeError, ValueError, OverflowError):
         raise ValueError(f"The line {text[:_SHOWN]!r} is neither a number nor a JSON object with {DISTANCE}.") from None
