@@ -120,6 +120,11 @@ def test_example_of_every_scenario_is_shipped():
     ("just text", "parameter: value"),
     ("maximum_distance_m: 1,5\n", "write a decimal point: 1.5"),
     ("maximum_distance_m: .nan\n", "maximum_distance_m is nan"),
+    ("passes: 1\nmaximum_distance_m: 012\n", "says 012 in line 2, which YAML takes for 10; write the number that"),
+    ("maximum_distance_m: 1:30\n", "says 1:30 in line 1, which YAML takes for 90; write the number that is meant"),
+    ("maximum_distance_m: 1:3.5\n", "says 1:3.5 in line 1, which YAML takes for 63.5;"),
+    ("maximum_distance_m: 1_5\n", "says 1_5 in line 1, which YAML takes for 15;"),
+    ("maximum_distance_m: 1_0.5\n", "says 1_0.5 in line 1, which YAML takes for 10.5;"),
     ("? [1, 2]\n: 3\n", "not valid YAML in line 1"),
     ("maximum_distance_m: !!python/object:os.system x\n", "not valid YAML"),
 ])

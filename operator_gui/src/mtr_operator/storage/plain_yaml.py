@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pathlib
+import re
 from typing import Any
 
 import yaml
@@ -10,6 +11,8 @@ import yaml
 # A parameter file has some twenty lines, a car's profile as many. A reader in Python takes a second for 300 kB.
 MAX_BYTES = 64 * 1024
 _MAX_DEPTH = 20
+# As it is read by everybody; identifiers of CAN are written in hexadecimal.
+_WHOLE = re.compile(r"[-+]?[0-9]+|0x[0-9A-Fa-f]+")
 
 
 class BadYaml(Exception):
@@ -17,7 +20,8 @@ class BadYaml(Exception):
 
 
 class _PlainLoader(yaml.SafeLoader):
-    """Loader that knows no references, which may unfold without end, and no second value of a name."""
+    """Loader that knows no references, which may unfold without end, no second value of a name, and no number that YAML
+    takes for another than a person does: 045 is 37 for it, 1:30 is 90, and 1_5 is 15."""
 
     _depth = 0
 
@@ -39,6 +43,30 @@ class _PlainLoader(yaml.SafeLoader):
                 raise BadYaml(f"says {name[:40]} twice")
             seen.add(name)
         return super().construct_mapping(node, deep)
+
+    def whole_number(self, node: yaml.ScalarNode) -> int:
+        """Of a scalar that YAML takes for one."""
+        value: int = self.construct_yaml_int(node)
+        text = node.value
+        if not _WHOLE.fullmatch(text) or not text.startswith("0x") and int(text) != value:
+            raise BadYaml(_ambiguous(node, value))
+        return value
+
+    def number(self, node: yaml.ScalarNode) -> float:
+        """The same with a decimal point."""
+        value: float = self.construct_yaml_float(node)
+        if ":" in node.value or "_" in node.value:
+            raise BadYaml(_ambiguous(node, value))
+        return value
+
+
+_PlainLoader.add_constructor("tag:yaml.org,2002:int", _PlainLoader.whole_number)
+_PlainLoader.add_constructor("tag:yaml.org,2002:float", _PlainLoader.number)
+
+
+def _ambiguous(node: yaml.ScalarNode, value: float) -> str:
+    return (f"says {node.value[:20]} in line {node.start_mark.line + 1}, which YAML takes for {value:.9g}; write the "
+            "number that is meant, or the text in quotes")
 
 
 def load_yaml(path: pathlib.Path) -> Any:

@@ -41,6 +41,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "is not valid YAML: too many lists lie within each other"),
     QT_TRANSLATE_NOOP("Sentence", "refers to another part of itself; write the value out"),
     QT_TRANSLATE_NOOP("Sentence", "says {} twice"),
+    QT_TRANSLATE_NOOP("Sentence", "says {} in line {}, which YAML takes for {}; write the number that is meant, or the "
+                                  "text in quotes"),
     QT_TRANSLATE_NOOP("Sentence", "They are larger than {} KiB."),
     QT_TRANSLATE_NOOP("Sentence", "it is a pipe or a device, and no file"),
     QT_TRANSLATE_NOOP("Sentence", "The folder {} cannot be read: {}."),

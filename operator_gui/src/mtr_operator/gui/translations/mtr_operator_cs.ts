@@ -6859,6 +6859,11 @@
         <source>The robot&apos;s clock is {} behind this laptop&apos;s: distances do not depend on it, dates in the robot&apos;s logs do; set the one that is wrong, or have the laptop take the robot&apos;s (docs/robot-setup.md, Clocks).</source>
         <translation>Hodiny robotu se o {} opožďují za hodinami tohoto notebooku: vzdálenosti na tom nezávisí, data v protokolech robotu ano; seřiďte ty, které jdou špatně, nebo ať notebook převezme čas robotu (docs/robot-setup.md, Clocks).</translation>
     </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>says {} in line {}, which YAML takes for {}; write the number that is meant, or the text in quotes</source>
+        <translation>uvádí {} na řádku {}, což YAML čte jako {}; napište číslo, které máte na mysli, nebo text v uvozovkách</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
