@@ -98,11 +98,13 @@ class FrameParser:
         return found
 
     def forget(self) -> List[SerialFrame]:
-        """The rest of a frame under way will not come: look for frames inside what was taken for its payload."""
-        if not self._buffer:
-            return []
-        self._skip(1)
-        return self.feed(b"")
+        """The rest of a frame under way will not come, nor that of one inside what was taken for its payload, and so
+        on: the good frames among all of it."""
+        found: List[SerialFrame] = []
+        while self._buffer:
+            self._skip(1)
+            found += self.feed(b"")
+        return found
 
     def _seek(self) -> bool:
         """Drop what precedes the next FF FE; True when a whole header is there."""
