@@ -142,6 +142,9 @@ def try_file(path, name, parameters):
     assert list(results_table(test.scenario, test.progress.results)) is not None
     if test.progress.car is not None:
         test.scenario.picture(test.parameters, test.progress.car, test.progress.results)
+    again = open_test(path).progress
+    if again.to_document() != test.progress.to_document():
+        return "taken", "what was kept is not what is read back"
     return "taken", nonsense_in(test)
 
 
