@@ -21,9 +21,12 @@ class SecondOperator:
 
     def __init__(self, kind: Kind, address: str, status_port: int, command_port: int, seed: int):
         self._random, self._over = random.Random(seed), threading.Event()
-        self._context = zmq.Context()
-        self._statuses, self._commands = self._context.socket(zmq.SUB), self._context.socket(zmq.PUB)
-        self._statuses.setsockopt(zmq.SUBSCRIBE, b"")
+        # The context of the process: threads of one for each fault would leave their memory behind.
+        context = zmq.Context.instance()
+        self._statuses, self._commands = context.socket(zmq.SUB), context.socket(zmq.PUB)
+        # Who only babbles hears nothing; what he does not read would wait for him.
+        if kind is Kind.CLAIM:
+            self._statuses.setsockopt(zmq.SUBSCRIBE, b"")
         self._statuses.connect(f"tcp://{address}:{status_port}")
         self._commands.connect(f"tcp://{address}:{command_port}")
         work = self._claim if kind is Kind.CLAIM else self._babble
@@ -34,7 +37,8 @@ class SecondOperator:
         """Say no more."""
         self._over.set()
         self._thread.join()
-        self._context.destroy(linger=0)
+        self._statuses.close(linger=0)
+        self._commands.close(linger=0)
 
     def _claim(self) -> None:
         command = link.Command(session_id=secrets.randbits(63) | 1, id=1,
