@@ -140,7 +140,10 @@ def test_unmapped_car_has_no_dimensions():
 
 @pytest.mark.parametrize("payload", [
     b"", b"\xff\xff\xff", b"GET / HTTP/1.1\r\n\r\n", pb.Status(id=1).SerializeToString(),
-    pb.Status(id=1, robot_session_id=2, sent_time_s=math.nan).SerializeToString()])
+    pb.Status(id=1, robot_session_id=2, sent_time_s=math.nan).SerializeToString(),
+    # An end of a group that nobody has begun, and what would be dropped behind it.
+    pb.Status(id=1, robot_session_id=2, sent_time_s=3.0).SerializeToString() + b"\x0c" + b"\x08\x02"])
+@pytest.mark.filterwarnings("ignore:Unexpected end-group tag")
 def test_other_bytes_are_undecodable(payload):
     with pytest.raises(UndecodableMessage):
         conversions.decode_status(payload)

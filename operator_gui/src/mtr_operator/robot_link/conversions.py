@@ -12,6 +12,7 @@ from google.protobuf.message import DecodeError
 from mtr_operator.domain import requests, robot_status
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_proto import robot_link_pb2 as pb
+from mtr_proto.parsing import parse_whole
 
 from .plausibility import not_finite, plausible, violation_of
 from .preflight import preflight_from, preflight_message
@@ -97,7 +98,7 @@ def decode_status(payload: bytes) -> robot_status.RobotStatus:
 
 def _decode(payload: bytes, message: Any, required: tuple[str, ...]) -> Any:
     try:
-        message.ParseFromString(payload)
+        parse_whole(message, payload)
     except DecodeError:
         raise UndecodableMessage(f"{len(payload)} bytes are no {message.DESCRIPTOR.name}.") from None
     for name in required:

@@ -10,6 +10,7 @@ from mtr_core.problems import ProblemError
 from mtr_core.requests import Press, Waypoint, application
 from mtr_core.se2 import Pose2
 from mtr_proto import robot_link_pb2 as link
+from mtr_proto.parsing import parse_whole
 
 from . import problems
 from .command import Command
@@ -28,7 +29,7 @@ def decode(data: bytes) -> Command:
         raise UndecodableError(problems.OVERSIZED(size=len(data), maximum=MAX_MESSAGE_BYTES))
     message = link.Command()
     try:
-        message.ParseFromString(data)
+        parse_whole(message, data)
     except DecodeError:
         raise UndecodableError(problems.UNDECODABLE(size=len(data))) from None
     if not message.session_id or not message.id:

@@ -80,8 +80,13 @@ def test_waypoint_without_coordinates_is_not_a_place():
     assert math.isnan(decode(command_bytes(waypoint=link.Waypoint(id=1, x=1.0))).waypoint.pose.y)
 
 
-@pytest.mark.parametrize("data", [b"\xff\xff\xff", b"", b"hello", bytes(MAX_MESSAGE_BYTES + 1)],
-                         ids=["garbage", "empty", "text", "oversized"])
+# An end of a group that nobody has begun: the stop behind it would be dropped.
+HALVES = link.Command(session_id=5, id=6), link.Command(stop=True)
+CUT_IN_TWO = b"\x0c".join(each.SerializeToString() for each in HALVES)
+
+
+@pytest.mark.parametrize("data", [b"\xff\xff\xff", b"", b"hello", bytes(MAX_MESSAGE_BYTES + 1), CUT_IN_TWO],
+                         ids=["garbage", "empty", "text", "oversized", "cut in two"])
 @pytest.mark.filterwarnings("ignore:Unexpected end-group tag")
 def test_what_is_no_command_is_counted_and_reported(core, data):
     with pytest.raises(UndecodableError):
