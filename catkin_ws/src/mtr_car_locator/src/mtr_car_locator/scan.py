@@ -1,5 +1,6 @@
 """From a laser scan to points in map, each beam from where the robot was at its own time."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import dataclass
 from typing import NamedTuple, Optional
 
@@ -9,6 +10,10 @@ from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
 from .poses import PoseHistory
+
+# As localization takes a sweep; drivers round the last angle of a whole turn.
+MAX_SWEEP_S = 0.25
+MAX_TURN_RAD = 1.01 * math.tau
 
 
 @dataclass(frozen=True)
@@ -27,6 +32,15 @@ class Scan:
     ranges_m: FloatArray
     base_from_lidar: Pose2
     is_rear: bool = False
+
+    @property
+    def makes_sense(self) -> bool:
+        """Its times, angles and limits are numbers, and those of one turn; a broken driver says anything."""
+        numbers = (self.start_s, self.beam_period_s, self.first_angle_rad, self.beam_angle_rad, self.range_min_m,
+                   self.range_max_m)
+        steps = len(self.ranges_m) - 1
+        return (all(map(math.isfinite, numbers)) and steps * abs(self.beam_angle_rad) <= MAX_TURN_RAD
+                and 0.0 <= steps * self.beam_period_s <= MAX_SWEEP_S and self.range_min_m < self.range_max_m)
 
 
 class RangeBias(NamedTuple):
@@ -48,7 +62,9 @@ class Returns:
 
 
 def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
-    """Returns of a scan; None when the robot's poses do not cover the sweep."""
+    """Returns of a scan; None when it makes no sense or the robot's poses do not cover the sweep."""
+    if not scan.makes_sense:
+        return None
     count = len(scan.ranges_m)
     index = np.arange(count)
     robot = poses.at(scan.start_s + index * scan.beam_period_s)

@@ -1,5 +1,6 @@
 """Parts of the locator: prior, way round, poses at beam times, sides, wheels, maps, parameters."""
 # SPDX-License-Identifier: Apache-2.0
+import dataclasses
 import math
 
 import numpy as np
@@ -120,6 +121,20 @@ def test_sweep_that_poses_do_not_cover_gives_no_points(start_s):
     poses = history((0.02 * k, ORIGIN) for k in range(5))
     scan = Scan(start_s, 0.01, 0.0, 0.1, 0.1, 30.0, np.ones(4), ORIGIN)
     assert returns_in_map(scan, poses) is None
+
+
+SOUND = Scan(0.02, 0.001, 0.0, 0.1, 0.1, 30.0, np.ones(4), ORIGIN)
+
+
+@pytest.mark.parametrize("wrong", [
+    {"first_angle_rad": math.nan}, {"beam_angle_rad": math.inf}, {"beam_angle_rad": -2.5}, {"beam_period_s": -0.001},
+    {"beam_period_s": 1e30}, {"beam_period_s": 0.1}, {"range_min_m": math.nan}, {"range_max_m": -1e30},
+    {"start_s": math.inf}], ids=str)
+@pytest.mark.filterwarnings("error")
+def test_sweep_of_a_driver_that_says_anything_gives_no_points(wrong):
+    poses = history((0.02 * k, ORIGIN) for k in range(5))
+    assert len(returns_in_map(SOUND, poses).points) == 4
+    assert returns_in_map(dataclasses.replace(SOUND, **wrong), poses) is None
 
 
 def test_gap_between_poses_and_change_of_map_are_not_bridged():

@@ -48,6 +48,12 @@ def test_no_returns_are_left_out():
     assert points == pytest.approx(np.array([[-2.2, 0.0]]), abs=1e-9)
 
 
+@pytest.mark.parametrize("angles", [(math.nan, 0.1), (0.0, math.inf), (-math.inf, 0.1)])
+@pytest.mark.filterwarnings("error")
+def test_sweep_whose_angles_are_no_numbers_is_not_shown(angles):
+    assert points_of([sweep([2.0, 1.0], *angles)], AT_REST).shape == (0, 2)
+
+
 def test_returns_are_carried_to_the_time_of_the_pose():
     ahead = points_of([sweep([2.0], mount=Pose2(0.0, 0.0, 0.0), stamp_s=9.9)], Motion(10.0, 1.0, 0.0))
     assert ahead == pytest.approx(np.array([[1.9, 0.0]]), abs=1e-9)

@@ -61,6 +61,9 @@ def points_of(sweeps: Sequence[Sweep], motion: Motion) -> FloatArray:
 
 
 def _carried(sweep: Sweep, motion: Motion) -> FloatArray:
+    # A broken driver says anything; what stops for it is drive control.
+    if not (math.isfinite(sweep.first_rad) and math.isfinite(sweep.step_rad)):
+        return np.empty((0, 2))
     ranges = np.asarray(sweep.ranges_m, dtype=float)
     good = np.isfinite(ranges) & (ranges >= sweep.range_min_m) & (ranges < sweep.range_max_m)
     beams = sweep.first_rad + sweep.step_rad * np.nonzero(good)[0]
