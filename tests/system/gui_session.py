@@ -41,14 +41,14 @@ def connect(person: Person, subscriber_port: str, publisher_port: str, channel: 
 
 
 def measure(person: Person) -> None:
-    """Three radials, with a pause after the first one."""
+    """Two radials, with a pause after the first one."""
     person.click("New test")
     person.click("Key press")
-    person.type_into("Degrees between radials", "120")
-    person.wait_for("3 lines")
+    person.type_into("Degrees between radials", "180")
+    person.wait_for("2 lines")
     person.wait_for("Ready")
     person.hold("Hold to start")
-    person.wait_for("1 of 3 lines measured", MEASURING_LIMIT_S)
+    person.wait_for("1 of 2 lines measured", MEASURING_LIMIT_S)
     person.click("Stop")
     person.wait_for("Paused.")
     person.click("Save progress")

@@ -1,4 +1,7 @@
-"""The kernel `cores` measures what the whole stack does: the same seed gives the same results, to a millimetre."""
+"""The kernel `cores` measures what the whole stack does: the same seed gives the same results, to a millimetre.
+
+`make bench-campaign STACKS=2` compares the tests of the demo, with all their axes and radials.
+"""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 
@@ -14,14 +17,15 @@ from mtr_operator.storage.progress_file import FILE_NAME, open_progress
 SAME_M = 0.001
 TESTS = {
     # Eight axes, one from each side and corner.
-    "autolock": {"car": "honest", "seed": 3, "parameters.passes": 1, "parameters.measuring_speed_mps": 0.3,
+    "autolock": {"car": "honest", "seed": 3, "parameters.passes": 1, "parameters.measuring_speed_mps": 0.5,
                  "parameters.measurements_distance_m": 10.0},
-    # Eight radials.
+    # Four radials.
     "key_press": {"car": "honest_button", "seed": 3, "parameters.minimum_distance_m": 3.0,
                   "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 6,
-                  "parameters.angle_between_radials_deg": 45.0}}
+                  "parameters.angle_between_radials_deg": 90.0}}
 # What is measured, by the names of the results' fields.
 DISTANCES = {"autolock": ("unlock_distance_m", "lock_distance_m"), "key_press": ("d50_m",)}
+MIN_KNOWN = {"autolock": 12, "key_press": 3}
 
 
 def results(kernel, scenario, folder):
@@ -45,7 +49,7 @@ def test_everything_measured_is_what_the_whole_stack_measures(scenario, tmp_path
     ours, stacks = (results(kernel, scenario, tmp_path / kernel) for kernel in ("cores", "stack"))
     assert [result.number for result in ours] == [result.number for result in stacks]
     known = [getattr(result, name) for result in stacks for name in DISTANCES[scenario]]
-    assert len([value for value in known if value is not None]) >= 6
+    assert len([value for value in known if value is not None]) >= MIN_KNOWN[scenario]
     for our, stack in zip(ours, stacks):
         assert [each.status for each in our.distances] == [each.status for each in stack.distances], our.number
         assert metres(our) == pytest.approx(metres(stack), abs=SAME_M), our.number

@@ -30,7 +30,7 @@ def test_csv_and_png_are_saved(session):
     folder, = (session / "results").iterdir()
     lines = (folder / "results.csv").read_text(encoding="utf-8").splitlines()
     rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
-    assert [row["angle_deg"] for row in rows] == ["0.000", "120.000", "240.000"]
+    assert [row["angle_deg"] for row in rows] == ["0.000", "180.000"]
     assert (folder / "protocol.png").read_bytes().startswith(b"\x89PNG")
 
 
