@@ -1,5 +1,6 @@
 """Logs of a CAN bus: read to their end, with a notice or a sentence where they are damaged."""
 # SPDX-License-Identifier: Apache-2.0
+import functools
 import math
 import pathlib
 import random
@@ -7,6 +8,7 @@ import warnings
 from typing import Callable, Dict, Tuple
 
 import can
+import can.io.player
 from spoiling import spoilt_bytes, spoilt_text
 
 from mtr_operator.car_link.log.read_log import ReadLog
@@ -21,6 +23,8 @@ def prepare(folder: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
     """The case of this border; folder: for its files."""
     whole = {kind: _log(folder / f"whole.{kind}") for kind in KINDS}
     warnings.simplefilter("ignore")
+    # python-can looks through all that is installed for each log; what it finds does not change.
+    can.io.player.read_entry_points = functools.lru_cache(None)(can.io.player.read_entry_points)
 
     def case(chance: random.Random) -> Tuple[str, str]:
         kind = chance.choice(KINDS)
