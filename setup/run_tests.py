@@ -8,6 +8,7 @@ Suites that are named run one after the other; all of them run in two lanes, bec
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -52,10 +53,17 @@ def run(name: str) -> Counts:
     """Run one suite in this process."""
     shutil.rmtree(RESULTS / name, ignore_errors=True)
     (RESULTS / name).mkdir(parents=True)
-    started = time.monotonic()
+    started_s, used_s = time.monotonic(), processor_s()
     good, bad = SUITES[name]()
-    print(f"--- {name}: {good} good, {bad} bad, {time.monotonic() - started:.0f} s", flush=True)
+    took_s, used_s = time.monotonic() - started_s, processor_s() - used_s
+    print(f"--- {name}: {good} good, {bad} bad, {took_s:.0f} s, {used_s:.0f} s of a core", flush=True)
     return good, bad
+
+
+def processor_s() -> float:
+    """Processor time of all that was run and has ended."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 def lane(names: Sequence[str]) -> Counts:
