@@ -83,6 +83,10 @@ def test_outline_sigma_is_half_the_dimension_along_the_axis():
     assert outline_sigma(Ray(2.25, 0.9, half, half), CAR) == pytest.approx(half * math.hypot(0.01, 0.02))
 
 
+def test_centre_of_the_car_is_no_origin_on_its_outline():
+    assert outline_sigma(Ray(0.0, 0.0, 1.0, 0.0), CAR) == 0.0
+
+
 def test_gap_to_the_outline():
     assert distance_to_outline(Ray(0.0, 0.0, 1.0, 0.0), 3.0, CAR) == pytest.approx(0.75)
     assert distance_to_outline(Ray(0.0, 0.0, 0.0, 1.0), 0.5, CAR) == 0.0

@@ -59,6 +59,16 @@ def test_border_is_found_on_every_axis_of_the_side(run_scenario, world, output):
     assert len(output.asked) == output.released == sum(result.requests for result in results)
 
 
+def test_place_of_the_key_is_as_unsure_as_the_outline_on_which_the_axis_begins(run_scenario, world, output):
+    def measured(width_sigma):
+        world.car = replace(CAR, width_sigma=width_sigma)
+        return run_scenario(SCENARIO, ONE_AXIS)[-1]
+    sure, unsure = measured(0.0), measured(0.07)
+    assert unsure.uncertainty_m == pytest.approx(math.hypot(sure.uncertainty_m, 0.035), rel=0.01)
+    assert unsure.d50_sigma_m > sure.d50_sigma_m
+    assert unsure.d50_high_m - unsure.d50_low_m > sure.d50_high_m - sure.d50_low_m
+
+
 @pytest.mark.parametrize(("handle_m", "at_border"), [(1.8, (2, 0)), (1.2, (0, 2))])
 def test_decisions_at_the_nominal_border_are_counted(run_scenario, world, output, handle_m, at_border):
     world.handle_m = handle_m

@@ -48,6 +48,22 @@ def test_a_pose_between_two_has_the_worse_accuracy_and_the_mean_speed():
     assert (sample.position_sigma_m, sample.heading_sigma_rad) == (0.05, 0.02)
 
 
+@pytest.mark.parametrize("sigmas_m", [(0.08, 0.004), (0.004, 0.08)])
+def test_a_pose_near_one_of_two_is_hardly_surer_than_that_one_along_a_ray(sigmas_m):
+    poses = PoseHistory()
+    for stamp_s, sigma_m in zip((1.0, 1.1), sigmas_m):
+        poses.add(status(stamp_s, variance_x_m2=sigma_m ** 2, variance_y_m2=sigma_m ** 2, covariance_xy_m2=0.0))
+    near_first, near_second = (position_sigma(Ray(0.0, 0.0, 0.6, 0.8), poses.at(stamp_s)) for stamp_s in (1.002, 1.098))
+    assert near_first >= 0.98 * sigmas_m[0] and near_second >= 0.98 * sigmas_m[1]
+
+
+def test_a_pose_beside_one_that_does_not_say_its_covariance_counts_in_its_worst_direction():
+    poses = PoseHistory()
+    poses.add(status(1.0, variance_x_m2=1e-6, variance_y_m2=1e-6, covariance_xy_m2=0.0))
+    poses.add(status(1.1))
+    assert position_sigma(Ray(0.0, 0.0, 1.0, 0.0), poses.at(1.05)) == 0.03
+
+
 @pytest.mark.parametrize("covariance, sigma_m", [
     ((0.04, 0.01, 0.01), math.sqrt(0.36 * 0.04 + 0.64 * 0.01 + 2 * 0.48 * 0.01)),
     ((0.04, 0.01, math.nan), 0.03), ((0.0, 0.0, -0.01), 0.0)])

@@ -188,7 +188,9 @@ class Points:
                 return None
             distance = measure(ray, poses.at(answer.time_s), answer.time_sigma_s, outline_sigma(ray, self._car))
             return distance.answered_by(answer)
-        return None if kept is None else measure(ray, poses.at(kept.robot_time_s), 0.0)
+        if kept is None:
+            return None
+        return measure(ray, poses.at(kept.robot_time_s), 0.0, outline_sigma(ray, self._car))
 
 
 def _history(locks: ReplayedLocks, values: Mapping[str, Any]) -> LockHistory:

@@ -90,7 +90,9 @@ def position_sigma(ray: Ray, sample: PoseSample) -> float:
 
 
 def outline_sigma(ray: Ray, car: CarDimensions) -> float:
-    """1 sigma along the ray of an origin on the Car's outline, in m."""
+    """1 sigma along the ray of an origin on the Car's outline, in m; 0 of one in the Car's centre."""
+    if ray.begins_in_centre:
+        return 0.0
     return math.hypot(ray.direction_x * car.length_sigma / 2.0, ray.direction_y * car.width_sigma / 2.0)
 
 

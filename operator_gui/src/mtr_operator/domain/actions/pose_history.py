@@ -119,8 +119,10 @@ def _between(a: PoseSample, b: PoseSample, part: float, time_s: float) -> PoseSa
     def mix(first: float, second: float) -> float:
         return first + part * (second - first)
 
+    # Variances as positions are mixed: no error of either end is forgotten, as where localization takes hold again.
+    variance_x, variance_y, covariance_xy = map(mix, a.covariance, b.covariance)
     turn = wrap_angle(b.pose.heading - a.pose.heading)
     pose = Pose(mix(a.pose.x, b.pose.x), mix(a.pose.y, b.pose.y), wrap_angle(a.pose.heading + part * turn))
     return PoseSample(time_s, pose, mix(a.speed_mps, b.speed_mps), max(a.position_sigma_m, b.position_sigma_m),
-                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y, b.covariance,
-                      mix(a.key_height_m, b.key_height_m))
+                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y,
+                      (variance_x, variance_y, covariance_xy), mix(a.key_height_m, b.key_height_m))

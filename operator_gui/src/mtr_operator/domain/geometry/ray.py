@@ -17,6 +17,11 @@ class Ray:
     direction_x: float
     direction_y: float
 
+    @property
+    def begins_in_centre(self) -> bool:
+        """Whether its origin is the Car's centre, and no point of its outline."""
+        return (self.origin_x, self.origin_y) == (0.0, 0.0)
+
     def point(self, distance_m: float) -> Point:
         """Point at a distance from the origin."""
         return self.origin_x + distance_m * self.direction_x, self.origin_y + distance_m * self.direction_y

@@ -137,9 +137,9 @@ class Assessor:
 
     def _outline(self, result: LineResult) -> tuple[float, float]:
         """Sigmas of the Car's size where the line begins on its outline."""
-        ray = self._rays[result.number]
-        begins_in_centre = (ray.origin_x, ray.origin_y) == (0.0, 0.0)
-        return (0.0, 0.0) if begins_in_centre else (self._car.length_sigma, self._car.width_sigma)
+        if self._rays[result.number].begins_in_centre:
+            return 0.0, 0.0
+        return self._car.length_sigma, self._car.width_sigma
 
     def _carriage(self, result: LineResult, word: str) -> Carriage:
         ray: Ray = self._rays[result.number]
