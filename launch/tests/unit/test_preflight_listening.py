@@ -35,9 +35,9 @@ def robot(monkeypatch):
 
 
 def test_scan_is_counted_beam_by_beam():
-    scan = LaserScan(range_min=0.1, range_max=30.0, ranges=[1.0, math.inf, -math.inf, math.nan, 0.05, 31.0, 2.0],
+    scan = LaserScan(range_min=0.1, range_max=30.0, ranges=[1.0, math.inf, -math.inf, math.nan, 0.05, 31.0, 2.0, 0.0],
                      angle_increment=math.pi / 6.0, time_increment=0.01)
-    assert content_of(scan) == ScanContent(7, 2, 1, pytest.approx(0.06))
+    assert content_of(scan) == ScanContent(8, 2, 2, pytest.approx(0.07))
     assert sample_of(scan).points_m == pytest.approx(np.array([[1.0, 0.0], [-2.0, 0.0]]))
     assert content_of(LaserScan()) == ScanContent(0, 0, 0, 0.0)
 

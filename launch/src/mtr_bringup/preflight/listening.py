@@ -164,12 +164,13 @@ def said_transform(transform: Any) -> SaidTransform:
 
 
 def content_of(message: Any) -> ScanContent:
-    """Beams of a scan message, hits and what is no number."""
+    """Beams of a scan message, hits and what is no number, or zero, as drivers say it that know no REP 117."""
     ranges = np.asarray(message.ranges)
     with np.errstate(invalid="ignore"):
         hits = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
     sweep_s = message.time_increment * max(len(ranges) - 1, 0)
-    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(np.isnan(ranges))), sweep_s)
+    missing = np.isnan(ranges) | (ranges == 0.0)
+    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(missing)), sweep_s)
 
 
 def sample_of(message: Any) -> ScanSample:

@@ -7,7 +7,7 @@ from typing import Counter as Count
 
 
 class ScanContent(NamedTuple):
-    """Beams of one scan, how many of them hit something, or are not a number, and the time from first to last beam."""
+    """Beams of one scan, how many of them hit something or are no measurement, and the time from first to last beam."""
 
     beams: int
     hits: int

@@ -14,7 +14,7 @@ from .records import RobotRecord, ScanContent, TopicRecord
 # overtake its clock by a step.
 MAX_AHEAD_S = 0.005
 MAX_AHEAD_SIMULATED_S = CLOCK_STEP.period_ns * 1e-9 + MAX_AHEAD_S
-# Beams that are not a number are no measurement (REP 117); a few are usual with some drivers.
+# Beams that are not a number are no measurement (REP 117), nor are those of zero; a few are usual with some drivers.
 MAX_NOT_NUMBERS = 0.1
 # A sweep ends before the next one begins; drivers round both.
 MAX_SWEEP_PERIODS = 1.05
@@ -134,9 +134,9 @@ def scan_problems(topic: str, scans: List[ScanContent]) -> Iterator[Finding]:
         return
     share = statistics.median(scan.not_numbers / scan.beams for scan in scans if scan.beams)
     if share > MAX_NOT_NUMBERS:
-        yield bad(CONTENT, topic, f"{100.0 * share:.0f} % of its beams are not a number, allowed is "
-                  f"{100.0 * MAX_NOT_NUMBERS:.0f} %: look at filters and at the range in its driver.", share,
-                  MAX_NOT_NUMBERS)
+        yield bad(CONTENT, topic, f"{100.0 * share:.0f} % of its beams are zero or not a number, allowed is "
+                  f"{100.0 * MAX_NOT_NUMBERS:.0f} %: look at filters and at the range in its driver, which has to say "
+                  "inf where nothing is in reach (REP 117).", share, MAX_NOT_NUMBERS)
 
 
 def beam_time_problems(topic: str, heard: TopicRecord, setup: Setup) -> Iterator[Finding]:
