@@ -4,11 +4,12 @@
 #include "mtr_drive_control/collision/echoes.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 
 namespace mtr_drive_control {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
 // Two echoes belong together when they are nearer than this plus a share of their range, which covers the wider
 // spacing of beams and echoes farther away.
 constexpr double kGapM = 0.08;
@@ -22,6 +23,10 @@ constexpr int kSweepsThatCount = 4;
 constexpr double kSamePlaceM = 0.05;
 // Two legs in full stride measure less across; a wheel seen from its side more.
 constexpr double kWiderThanAPersonM = 0.5;
+// In 1 m a leg is as wide; two legs are farther apart.
+constexpr double kWidestUnseenRad = 0.175;
+// What is too near to be measured is looked for in such steps.
+constexpr double kNearStepM = 0.01;
 
 struct Cluster {
   int beams = 0;
@@ -64,19 +69,44 @@ std::vector<Echo> EchoFinder::find(const Sweep& sweep, const Motion& motion, dou
   return echoes;
 }
 
+bool EchoFinder::is_covered(const Sweep& sweep) const {
+  double unseen_rad = 0.0;
+  for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
+    const bool is_own = std::abs(std::remainder(sweep.angle_of(beam), 2.0 * kPi)) <= own_view_rad_;
+    const bool is_unseen = is_own && !sweep.is_far(beam) && !range_of(sweep, beam);
+    unseen_rad = is_unseen ? unseen_rad + std::abs(sweep.angle_increment_rad) : 0.0;
+    if (unseen_rad > kWidestUnseenRad) {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::optional<double> EchoFinder::range_of(const Sweep& sweep, std::size_t beam) const {
+  const double angle_rad = sweep.angle_of(beam);
+  if (sweep.is_echo(beam)) {
+    const double range_m = sweep.ranges_m[beam];
+    // The robot's own mast and lift.
+    const bool is_own = footprint_.distance_to(mount_.in_base(range_m, angle_rad)) == 0.0;
+    return is_own ? std::nullopt : std::optional<double>(range_m);
+  }
+  for (double range_m = kNearStepM; sweep.is_near(beam) && range_m < sweep.range_min_m; range_m += kNearStepM) {
+    if (footprint_.distance_to(mount_.in_base(range_m, angle_rad)) > 0.0) {
+      return range_m;
+    }
+  }
+  return std::nullopt;
+}
+
 std::vector<EchoFinder::Hit> EchoFinder::hits_of(const Sweep& sweep, double max_range_m) const {
   std::vector<Hit> hits;
   int clusters = 0;
   for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
-    const double range = sweep.ranges_m[beam];
-    if (!sweep.is_echo(beam) || range > max_range_m) {
+    const double range = range_of(sweep, beam).value_or(max_range_m);
+    if (range >= max_range_m) {
       continue;
     }
     const Point point = mount_.in_base(range, sweep.angle_of(beam));
-    // The robot's own mast and lift.
-    if (footprint_.distance_to(point) == 0.0) {
-      continue;
-    }
     int cluster = -1;
     for (auto before = hits.rbegin(); before != hits.rend() && beam - before->beam <= kMostBeamsBetween; ++before) {
       if (distance_m(before->in_base, point) < kGapM + kGapPerRange * range) {

@@ -17,6 +17,10 @@ constexpr double kLostPersonS = 3.0;
 // behind the robot.
 constexpr double kBehindRad = 1.75;
 
+constexpr double kPi = 3.14159265358979323846;
+// Of two LiDARs each has to see so far to both sides of where it points; farther back the other one sees as well.
+constexpr double kSharedViewRad = 2.0;
+
 double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<double>(now_ns - stamp_ns) * 1e-9; }
 
 }  // namespace
@@ -24,9 +28,12 @@ double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<do
 Surroundings::Surroundings(const CollisionParameters& parameters, const RobotShape& shape)
     : parameters_(parameters), footprint_(shape.footprint), watches_rear_(shape.rear_lidar.has_value()) {
   const double timeout_s = parameters.lidar_timeout_s;
-  lidars_.push_back({LidarWatch("front LiDAR", timeout_s), EchoFinder(shape.front_lidar, footprint_), {}, {}});
+  const double own_view_rad = shape.rear_lidar ? kSharedViewRad : kPi;
+  lidars_.push_back(
+      {LidarWatch("front LiDAR", timeout_s), EchoFinder(shape.front_lidar, footprint_, own_view_rad), false, {}, {}});
   if (shape.rear_lidar) {
-    lidars_.push_back({LidarWatch("rear LiDAR", timeout_s), EchoFinder(*shape.rear_lidar, footprint_), {}, {}});
+    lidars_.push_back(
+        {LidarWatch("rear LiDAR", timeout_s), EchoFinder(*shape.rear_lidar, footprint_, own_view_rad), false, {}, {}});
   }
 }
 
@@ -62,7 +69,11 @@ bool Surroundings::was_free(const Point& point) const {
 
 bool Surroundings::observe(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
   // What is stale or from the future would be remembered as of a wrong time.
-  if (!lidar.watch.take(sweep) || lidar.watch.problem_at(tick_ns_) || !motion_) {
+  if (!lidar.watch.take(sweep)) {
+    return false;
+  }
+  lidar.is_covered = lidar.finder.is_covered(*sweep);
+  if (lidar.watch.problem_at(tick_ns_) || !motion_) {
     return false;
   }
   lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
@@ -86,6 +97,9 @@ mtr_core::Problem Surroundings::blindness_at(std::int64_t tick_ns) const {
   for (const Lidar& lidar : lidars_) {
     if (mtr_core::Problem problem = lidar.watch.problem_at(tick_ns)) {
       return problem;
+    }
+    if (lidar.is_covered) {
+      return problems::kLidarCovered({{"lidar", lidar.watch.name()}});
     }
   }
   if (motion_) {

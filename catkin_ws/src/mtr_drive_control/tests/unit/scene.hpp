@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -43,11 +44,12 @@ class Scene {
   std::vector<std::pair<std::size_t, double>> raindrops;
   std::size_t beams = 720;
   double noise_m = 0.005;
+  double range_min_m = 0.1;
 
   /// What a LiDAR at this pose in world sees.
   std::shared_ptr<Sweep> sweep(const Pose& world_from_lidar, std::int64_t stamp_ns) const {
-    auto seen = std::make_shared<Sweep>(
-        Sweep{stamp_ns, -0.75 * kTestPi, 1.5 * kTestPi / static_cast<double>(beams - 1), 0.0, 0.1, 30.0, {}, "", ""});
+    auto seen = std::make_shared<Sweep>(Sweep{
+        stamp_ns, -0.75 * kTestPi, 1.5 * kTestPi / static_cast<double>(beams - 1), 0.0, range_min_m, 30.0, {}, "", ""});
     for (std::size_t beam = 0; beam < beams; ++beam) {
       const Point start = world_from_lidar.position();
       const double angle = seen->angle_of(beam);
@@ -55,7 +57,8 @@ class Scene {
       const double range = nearest(start, {ahead.x_m - start.x_m, ahead.y_m - start.y_m});
       // A different sweep each time, as a live LiDAR's.
       const double noise = noise_m * std::sin(static_cast<double>(beam * 7919 + (stamp_ns / kTestMs) * 104729));
-      seen->ranges_m.push_back(static_cast<float>(range + noise));
+      const bool is_near = range + noise < range_min_m;
+      seen->ranges_m.push_back(is_near ? -std::numeric_limits<float>::infinity() : static_cast<float>(range + noise));
     }
     for (const auto& [beam, range] : raindrops) {
       seen->ranges_m[beam] = static_cast<float>(range);
@@ -115,13 +118,14 @@ class TestRobot {
 
   /// One tick with this desired velocity.
   Decision step(const Velocity& desired, bool by_hand = false) {
-    world_from_base = world_from_base.after(wheels, 0.02);
-    now_ns += kTestPeriodNs;
-    if (now_ns % kTestSweepNs == 0 && !lidars_are_silent) {
+    world_from_base = world_from_base.after(wheels, static_cast<double>(period_ns) * 1e-9);
+    now_ns += period_ns;
+    if (now_ns / kTestSweepNs != (now_ns - period_ns) / kTestSweepNs && !lidars_are_silent) {
       observe();
     }
     Inputs inputs;
     const SourceCommand command{now_ns - kTestPeriodNs, desired, true};
+    inputs.locks = locks;
     (by_hand ? inputs.manual : inputs.planner) = command;
     inputs.sensors = {front_, rear_,
                       Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, world_from_base, wheels}};
@@ -138,7 +142,7 @@ class TestRobot {
   /// Ticks with the same desired velocity; the last decision.
   Decision drive(const Velocity& desired, double duration_s, bool by_hand = false) {
     Decision decision;
-    for (int tick = 0; tick < std::lround(duration_s / 0.02); ++tick) {
+    for (int tick = 0; tick < std::lround(duration_s * 1e9 / static_cast<double>(period_ns)); ++tick) {
       decision = step(desired, by_hand);
     }
     return decision;
@@ -156,13 +160,26 @@ class TestRobot {
   bool odometry_is_silent = false;
   bool lidars_are_silent = false;
   std::int64_t now_ns = 5'000'000'000;
+  /// Of the ticks; drive control expects kTestPeriodNs.
+  std::int64_t period_ns = kTestPeriodNs;
+  std::vector<EngagedLock> locks;
+  /// Changes what a LiDAR says, front or rear.
+  std::function<void(Sweep&, bool is_rear)> spoil;
 
  private:
   // The sweep that has just ended, as seen when it ended.
   void observe() {
     const RobotShape shape = test_shape(true);
-    front_ = scene.sweep(pose_of(shape.front_lidar), now_ns - kTestSweepNs);
-    rear_ = has_rear_lidar_ ? scene.sweep(pose_of(*shape.rear_lidar), now_ns - kTestSweepNs) : nullptr;
+    front_ = seen_by(shape.front_lidar, false);
+    rear_ = has_rear_lidar_ ? seen_by(*shape.rear_lidar, true) : nullptr;
+  }
+
+  std::shared_ptr<const Sweep> seen_by(const LidarMount& mount, bool is_rear) const {
+    const auto sweep = scene.sweep(pose_of(mount), now_ns - kTestSweepNs);
+    if (spoil) {
+      spoil(*sweep, is_rear);
+    }
+    return sweep;
   }
 
   Pose pose_of(const LidarMount& mount) const {

@@ -115,6 +115,103 @@ TEST(Blindness, SilentOdometryStopsTheRobot) {
   EXPECT_EQ(decision.message.text, "The wheels' odometry is silent.");
 }
 
+/// Of the front LiDAR, or the rear one: what it says within so much of a direction.
+void hide(TestRobot& robot, bool is_rear, double direction_rad, double half_rad, float range_m) {
+  robot.spoil = [=](Sweep& sweep, bool rear) {
+    for (std::size_t beam = 0; rear == is_rear && beam < sweep.ranges_m.size(); ++beam) {
+      if (std::abs(sweep.angle_of(beam) - direction_rad) < half_rad) {
+        const bool is_odd = (static_cast<std::int64_t>(beam) + sweep.stamp_ns / kTestSweepNs) % 2 != 0;
+        sweep.ranges_m[beam] = range_m + (is_odd && range_m > 0.0F ? 0.003F : 0.0F);
+      }
+    }
+  };
+}
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr double kDegree = kTestPi / 180.0;
+
+TEST(CoveredLidar, CapOverItThatLiesWithinTheFootprintStopsTheRobot) {
+  for (const float cap_m : {0.06F, 0.11F, 0.14F}) {
+    TestRobot robot;
+    robot.scene = lot();
+    robot.scene.range_min_m = 0.05;
+    robot.settle();
+    robot.drive({0.5, 0.0}, 1.0);
+    hide(robot, false, 0.0, kTestPi, cap_m);
+    const Decision decision = robot.drive({0.5, 0.0}, 0.6);
+    EXPECT_EQ(decision.velocity.linear_mps, 0.0) << cap_m;
+    EXPECT_EQ(decision.message.text, "The front LiDAR is covered.") << cap_m;
+  }
+}
+
+TEST(CoveredLidar, SectorThatMayHideALegStopsTheRobotAndANarrowOneDoesNot) {
+  for (const float said_m : {kNan, 0.0F, 0.11F}) {
+    for (const double direction_rad : {0.0, 60.0 * kDegree, -100.0 * kDegree}) {
+      TestRobot robot;
+      robot.scene = lot();
+      hide(robot, false, direction_rad, 4.0 * kDegree, said_m);
+      robot.settle();
+      EXPECT_EQ(robot.drive({0.5, 0.0}, 0.5).zone, Zone::kClear) << said_m << " at " << direction_rad;
+      hide(robot, false, direction_rad, 6.0 * kDegree, said_m);
+      EXPECT_EQ(robot.drive({0.5, 0.0}, 0.6).message.text, "The front LiDAR is covered.") << said_m;
+    }
+  }
+}
+
+TEST(CoveredLidar, PersonInASectorThatItDoesNotSeeIsNotTouched) {
+  for (const double half_deg : {8.0, 20.0, 40.0, 60.0}) {
+    TestRobot robot;
+    robot.scene = lot();
+    robot.settle();
+    hide(robot, false, 0.0, half_deg * kDegree, kNan);
+    robot.scene.discs = {{{1.5, 0.0}, 0.1}};
+    robot.drive({0.7, 0.0}, 4.0);
+    EXPECT_GT(robot.clearance(), 0.2) << half_deg;
+  }
+}
+
+TEST(CoveredLidar, WhatTheOtherOneWatchesMayBeHidden) {
+  for (const bool has_rear : {true, false}) {
+    TestRobot robot(has_rear);
+    robot.scene = lot();
+    hide(robot, false, 126.0 * kDegree, 8.0 * kDegree, kNan);
+    robot.settle();
+    EXPECT_EQ(robot.drive({0.5, 0.0}, 0.5).zone, has_rear ? Zone::kClear : Zone::kBlind);
+  }
+}
+
+TEST(TooNearToMeasure, LegAtTheBumperIsNotBackedInto) {
+  for (const double range_min_m : {0.1, 0.15, 0.2, 0.5}) {
+    for (const double radius_m : {0.035, 0.05}) {
+      TestRobot robot;
+      robot.scene = lot();
+      robot.scene.range_min_m = range_min_m;
+      const auto step_up_to = [&](double gap_m) {
+        const double rear_m = robot.world_from_base.position().x_m - robot.control.footprint().rear_m;
+        robot.scene.discs = {{{rear_m - gap_m - radius_m, 0.0}, radius_m}};
+      };
+      robot.settle();
+      step_up_to(0.6);
+      robot.drive({-0.3, 0.0}, 1.0);
+      for (int tick = 0; tick < 40; ++tick) {
+        step_up_to(0.6 - 0.585 * (tick + 1) / 40.0);
+        robot.step({-0.3, 0.0});
+      }
+      robot.drive({-0.3, 0.0}, 3.0);
+      EXPECT_GT(robot.clearance(), 0.005) << range_min_m << " " << radius_m;
+    }
+  }
+}
+
+TEST(TooNearToMeasure, WallAtTheBumperMayBeLeft) {
+  TestRobot robot;
+  robot.scene.walls = {{{-0.29, -3.0}, {-0.29, 3.0}}};
+  robot.settle();
+  EXPECT_EQ(robot.drive({-0.3, 0.0}, 1.0).velocity.linear_mps, 0.0);
+  robot.drive({0.3, 0.0}, 4.0);
+  EXPECT_GT(robot.clearance(), 0.1);
+}
+
 TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
   TestRobot robot(false);
   robot.settle();

@@ -64,6 +64,7 @@ class Surroundings {
   struct Lidar {
     LidarWatch watch;
     EchoFinder finder;
+    bool is_covered;
     std::vector<Echo> echoes;
     /// Of each echo.
     std::vector<Kind> kinds;

@@ -31,6 +31,8 @@ struct Sweep {
   bool is_echo(std::size_t beam) const { return ranges_m[beam] >= range_min_m && ranges_m[beam] <= range_max_m; }
   /// Nothing in reach: the way of the beam is free.
   bool is_far(std::size_t beam) const { return ranges_m[beam] > range_max_m; }
+  /// Something nearer than the LiDAR measures. Zero is what drivers say that know no REP-117: no measurement.
+  bool is_near(std::size_t beam) const { return ranges_m[beam] < range_min_m && ranges_m[beam] != 0.0F; }
 };
 
 /// Why the sweep cannot be used, as the end of a sentence about the LiDAR; empty when it can.
@@ -46,6 +48,8 @@ class LidarWatch {
 
   /// One sentence when it sees nothing now, else empty.
   mtr_core::Problem problem_at(std::int64_t tick_ns) const;
+
+  const std::string& name() const { return name_; }
 
  private:
   bool repeats(const Sweep& sweep) const;
