@@ -3,7 +3,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/drive_control.hpp"
 
+#include <algorithm>
+
 #include "mtr_core/steady_time.hpp"
+#include "mtr_drive_control/base_limits.hpp"
 #include "problems.hpp"
 
 namespace mtr_drive_control {
@@ -26,12 +29,15 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
       odometry_timeout_s_(collision.odometry_timeout_s),
       limits_(parameters),
       collision_stop_(collision, shape),
-      limiter_(limits_, period_s) {
+      limiter_(limits_, period_s),
+      step_s_(period_s),
+      expected_step_s_(period_s) {
   check(parameters);
 }
 
 Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
-  collision_stop_.take(tick_ns, inputs.sensors);
+  time_step(tick_ns);
+  collision_stop_.take(tick_ns, inputs.sensors, expected_step_s_ - period_s_);
   adapt_limits(tick_ns, inputs.key);
   follow_wheels(tick_ns, inputs.sensors.motion);
   const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
@@ -53,6 +59,14 @@ void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHei
   const bool is_known = key && mtr_core::is_fresh(key->stamp_ns, tick_ns, parameters_.peripherals_timeout_s);
   limits_ = limits_at(parameters_, is_known ? key->height_m : parameters_.key_raised_m);
   limiter_.set_limits(limits_);
+}
+
+void DriveControl::time_step(std::int64_t tick_ns) {
+  const double since_s = stepped_ns_ ? static_cast<double>(tick_ns - *stepped_ns_) * 1e-9 : period_s_;
+  const double before_s = step_s_;
+  step_s_ = std::clamp(since_s, period_s_, kMaxBaseTimeoutS);
+  expected_step_s_ = std::min(before_s, step_s_);
+  limiter_.elapse(step_s_);
 }
 
 void DriveControl::follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion) {
@@ -104,7 +118,7 @@ bool DriveControl::is_heard(std::int64_t stamp_ns, std::int64_t tick_ns) const {
 }
 
 bool DriveControl::is_in_time(const Velocity& velocity, double oldest_word_s) const {
-  return oldest_word_s + period_s_ + limits_.stop_time_s(velocity) <= kStandstillWithinS + kRoundingS;
+  return oldest_word_s + expected_step_s_ + limits_.stop_time_s(velocity) <= kStandstillWithinS + kRoundingS;
 }
 
 std::vector<PathPoint> DriveControl::stopping_path_of(const Velocity& velocity) const {

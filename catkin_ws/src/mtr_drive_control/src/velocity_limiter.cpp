@@ -10,10 +10,7 @@ namespace mtr_drive_control {
 
 Velocity VelocityLimiter::toward(const Velocity& wanted) const {
   const Velocity target = within_limits(wanted);
-  Velocity next{next_linear(target.linear_mps), 0.0};
-  const double angular_step = limits_.angular_acceleration_radps2 * period_s_;
-  next.angular_radps =
-      std::clamp(target.angular_radps, sent_.angular_radps - angular_step, sent_.angular_radps + angular_step);
+  Velocity next{next_linear(target.linear_mps), next_angular(target.angular_radps)};
   const double most_radps = limits_.yaw_rate_at_radps(next.linear_mps);
   next.angular_radps = std::clamp(next.angular_radps, -most_radps, most_radps);
   return next;
@@ -22,7 +19,7 @@ Velocity VelocityLimiter::toward(const Velocity& wanted) const {
 Velocity VelocityLimiter::braked() const {
   const double remaining_s = limits_.stop_time_s(sent_);
   // A remainder below a thousandth of a period is rounding, not a reason for another tick of motion.
-  const double kept = remaining_s > 1.001 * period_s_ ? 1.0 - period_s_ / remaining_s : 0.0;
+  const double kept = remaining_s > 1.001 * braking_s_ ? 1.0 - braking_s_ / remaining_s : 0.0;
   return sent_.scaled(kept);
 }
 
@@ -43,9 +40,18 @@ double VelocityLimiter::next_linear(double wanted_mps) const {
   // In the direction of travel: faster by acceleration, slower by deceleration, and never through zero in one step.
   const double sign = now_mps > 0.0 ? 1.0 : -1.0;
   const double speed_mps = std::abs(now_mps);
-  const double slowest = std::max(0.0, speed_mps - limits_.linear_deceleration_mps2 * period_s_);
+  const double slowest = std::max(0.0, speed_mps - limits_.linear_deceleration_mps2 * braking_s_);
   const double fastest = speed_mps + limits_.linear_acceleration_mps2 * period_s_;
   return sign * std::clamp(sign * wanted_mps, slowest, fastest);
+}
+
+double VelocityLimiter::next_angular(double wanted_radps) const {
+  const double sign = sent_.angular_radps < 0.0 ? -1.0 : 1.0;
+  const double rate_radps = std::abs(sent_.angular_radps);
+  const double step_radps = limits_.angular_acceleration_radps2 * period_s_;
+  // The turn may be reversed in a step, by no more than it would begin with.
+  const double slowest = std::max(rate_radps - limits_.angular_acceleration_radps2 * braking_s_, -step_radps);
+  return sign * std::clamp(sign * wanted_radps, slowest, rate_radps + step_radps);
 }
 
 }  // namespace mtr_drive_control

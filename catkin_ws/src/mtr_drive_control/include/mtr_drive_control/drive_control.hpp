@@ -59,7 +59,9 @@ struct Inputs {
 /// wanted to move for a while.
 ///
 /// What is sent begins from what the wheels do and keeps near it: after a pause without ticks (a process that was
-/// stopped or starved) from their measured velocity, and from standstill when that is not known.
+/// stopped or starved) from their measured velocity, and from standstill when that is not known. A tick that comes late
+/// brakes for the whole time; when two in a row are late the next one is expected as late, and what is sent is safe so
+/// long.
 class DriveControl {
  public:
   DriveControl(const Parameters& parameters, const CollisionParameters& collision, const RobotShape& shape,
@@ -81,6 +83,8 @@ class DriveControl {
     mtr_core::Problem message;
   };
 
+  /// Notes how long ago the step before was, and how late the next one is expected.
+  void time_step(std::int64_t tick_ns);
   void follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion);
   /// Locks of others, and its own.
   std::vector<EngagedLock> locks_at(std::int64_t tick_ns, const Inputs& inputs);
@@ -103,6 +107,9 @@ class DriveControl {
   CollisionStop collision_stop_;
   VelocityLimiter limiter_;
   std::optional<std::int64_t> stepped_ns_;
+  double step_s_;
+  /// Until the next one.
+  double expected_step_s_;
   MotionWatch watch_;
   mtr_core::Problem contradiction_;
   Duration rest_;

@@ -82,6 +82,34 @@ TEST_F(FollowingTheWheels, ContradictionIsNotCountedAcrossAPause) {
   EXPECT_EQ(robot.drive(kFast, 1.0).source, "planner");
 }
 
+class LateTicks : public ::testing::TestWithParam<std::int64_t> {
+ protected:
+  LateTicks() {
+    robot.scene.walls = {{{6.0, -3.0}, {6.0, 3.0}}};
+    robot.settle();
+    robot.drive(kFast, 1.5);
+    robot.period_ns = GetParam() * kTestMs;
+  }
+
+  TestRobot robot;
+};
+
+TEST_P(LateTicks, StopTakesNoLongerThanWithTicksInTime) {
+  robot.drive(kFast, 0.5);
+  ASSERT_GT(robot.velocity.linear_mps, 0.3);
+  robot.locks = {{"state_machine", {"state_machine.test", "A test locks it.", {}, {}}}};
+  robot.drive(kFast, 0.5);
+  EXPECT_EQ(robot.velocity.linear_mps, 0.0);
+}
+
+TEST_P(LateTicks, WallIsNotTouched) {
+  robot.drive(kFast, 15.0);
+  EXPECT_EQ(robot.velocity.linear_mps, 0.0);
+  EXPECT_GT(robot.clearance(), 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(MsApart, LateTicks, ::testing::Values(30, 40, 60, 80));
+
 TEST(BaseThatStands, IsNotSentMoreThanTheLead) {
   TestRobot robot;
   robot.obeys = false;

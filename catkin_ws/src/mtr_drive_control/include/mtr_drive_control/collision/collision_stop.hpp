@@ -53,7 +53,11 @@ class CollisionStop {
   CollisionStop(const CollisionParameters& parameters, const RobotShape& shape);
 
   /// Takes the readings of a tick; to be called once per tick, first.
-  void take(std::int64_t tick_ns, const Sensors& sensors) { surroundings_.take(tick_ns, sensors); }
+  /// @param late_s so much later than usual the next decision may come
+  void take(std::int64_t tick_ns, const Sensors& sensors, double late_s) {
+    late_s_ = late_s;
+    surroundings_.take(tick_ns, sensors);
+  }
 
   /// Largest part of the desired motion that is safe when stopped at this deceleration.
   Assessment assess(std::int64_t tick_ns, const DesiredMotion& desired, const Deceleration& normal);
@@ -69,7 +73,7 @@ class CollisionStop {
   const mtr_core::Problem& blindness() const { return surroundings_.blindness(); }
   const Footprint& footprint() const { return footprint_; }
   std::vector<PathPoint> stopping_path_of(const Velocity& velocity, const Deceleration& deceleration) const {
-    return stopping_path(velocity, deceleration, parameters_.reaction_s, footprint_.radius_m());
+    return stopping_path(velocity, deceleration, parameters_.reaction_s + late_s_, footprint_.radius_m());
   }
 
  private:
@@ -89,6 +93,7 @@ class CollisionStop {
   CollisionParameters parameters_;
   Footprint footprint_;
   Surroundings surroundings_;
+  double late_s_ = 0.0;
   /// Direction of the motion that was stopped for an obstacle, until the way has been free for the pause.
   std::optional<DesiredMotion> blocked_motion_;
   std::int64_t last_blocked_ns_ = 0;
