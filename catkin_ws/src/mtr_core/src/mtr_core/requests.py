@@ -91,7 +91,7 @@ class Press:
     """One press of buttons of the Remote key that an application wants.
 
     Attributes:
-        id: the application's own number; 0: no press. One that is repeated never presses twice.
+        id: the application's own number, which counts up; 0: no press. One that is repeated never presses twice.
         session_id: of the application; session and id together tell presses apart.
         buttons: numbers of the buttons, pressed together.
         strength: 0 no travel, 1 full travel.

@@ -4,7 +4,7 @@ import struct
 import zlib
 from collections import deque
 from dataclasses import dataclass
-from typing import Deque, Optional, Tuple
+from typing import Deque, Dict, Optional, Tuple
 
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Press, PressReport
@@ -20,6 +20,8 @@ BEGIN_WITHIN_NS = 2_000_000_000
 PRESS_MARGIN_NS = 3_000_000_000
 MILLISECOND_NS = 1_000_000
 MAX_FIRMWARE_ID = 2 ** 32 - 1
+# As many as the dispatcher refuses after they have lost control.
+REMEMBERED_SESSIONS = 1000
 
 
 def firmware_id_of(press: Press) -> int:
@@ -49,7 +51,8 @@ class Presses:
         self._calibration = calibration
         self.results: Deque[PressReport] = deque(maxlen=KEPT_REPORTS)
         self._running: Optional[_Running] = None
-        self._newest: Optional[Tuple[int, int]] = None
+        # Id of each session's newest press.
+        self._newest: Dict[int, int] = {}
 
     @property
     def pressed_buttons(self) -> Tuple[int, ...]:
@@ -62,9 +65,9 @@ class Presses:
         What the firmware knows of it is followed; one that it does not know is not ordered again, as nobody knows
         what became of it.
         """
-        if self._newest is not None or report is None:
+        if self._newest or report is None:
             return
-        self._newest = press.session_id, press.id
+        self._remember(press)
         if not press.id:
             return
         if report.press_id == firmware_id_of(press):
@@ -82,13 +85,19 @@ class Presses:
             return None
         if self._running:
             self._follow(self._running, report, now_ns, stop)
-        if self._running is None and press.id and (press.session_id, press.id) != self._newest:
-            self._newest = press.session_id, press.id
+        if self._running is None and press.id > self._newest.get(press.session_id, 0):
+            self._remember(press)
             if stop:
                 self._finish(press, now_ns, now_ns, problems.PRESS_STOPPED(cause=stop))
             else:
                 self._begin(press, now_ns)
         return self._running.firmware if self._running and not self._running.seen else None
+
+    def _remember(self, press: Press) -> None:
+        self._newest.pop(press.session_id, None)
+        self._newest[press.session_id] = press.id
+        if len(self._newest) > REMEMBERED_SESSIONS:
+            del self._newest[next(iter(self._newest))]
 
     def _begin(self, press: Press, now_ns: int) -> None:
         try:

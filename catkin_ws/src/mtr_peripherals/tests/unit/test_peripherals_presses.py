@@ -21,8 +21,9 @@ from peripherals_under_test import (
 
 from mtr_core.problems import NO_PROBLEM
 from mtr_core.requests import NO_PRESS
+from mtr_peripherals.calibration import Calibration
 from mtr_peripherals.firmware import FirmwareReport, Led
-from mtr_peripherals.presses import PRESS_MARGIN_NS, firmware_id_of
+from mtr_peripherals.presses import PRESS_MARGIN_NS, REMEMBERED_SESSIONS, Presses, firmware_id_of
 
 
 def test_press_is_carried_out_once_and_reported_with_its_times(core):
@@ -47,6 +48,23 @@ def test_next_id_and_next_session_press_again(core):
     outcome = run(core, desired(session_id=4, press=replace(PRESS, session_id=4)), firmware, 10, 20)
     assert len({order.id for order in firmware.pressed}) == 3
     assert [(result.session_id, result.id) for result in outcome.results] == [(3, 1), (3, 2), (4, 1)]
+
+
+def test_press_of_a_session_that_comes_back_is_not_made_again(core):
+    firmware = FakeFirmware()
+    run(core, PRESSING_LIVE, firmware, 10)
+    run(core, desired(session_id=4, press=replace(PRESS, session_id=4)), firmware, 10, 10)
+    run(core, PRESSING_LIVE, firmware, 10, 20)
+    assert [order.id for order in firmware.pressed] == [firmware_id_of(replace(PRESS, session_id=session_id))
+                                                        for session_id in (3, 4)]
+
+
+def test_presses_of_countless_sessions_take_bounded_memory():
+    presses, report = Presses(Calibration()), FirmwareReport(START)
+    for session_id in range(1, 2 * REMEMBERED_SESSIONS):
+        # Stopped, each is over at once.
+        presses.step(replace(PRESS, session_id=session_id), report, START, ENGAGED)
+    assert len(presses._newest) == REMEMBERED_SESSIONS
 
 
 def test_new_press_during_another_waits_for_it(core):
