@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import secrets
 import time
-from typing import Any, Callable, Sequence
+from typing import Any, Callable, List, Sequence
 
 import zmq
 
@@ -24,13 +24,22 @@ class Operator:
     """A paired controller's end of the link. seen: all Statuses that have come."""
 
     def __init__(self, ports: Sequence[int], keys: Any, robot_key: bytes):
-        self.session_id, self._id, self.seen = secrets.randbits(62) | 1, 0, []
+        self.seen: List[link.Status] = []
+        self._begin_session()
         self._context = zmq.Context()
         self._statuses, self._commands = self._context.socket(zmq.SUB), self._context.socket(zmq.PUB)
         self._statuses.setsockopt(zmq.SUBSCRIBE, b"")
         for each, port in zip((self._statuses, self._commands), ports):
             each.curve_publickey, each.curve_secretkey, each.curve_serverkey = *keys, robot_key
             each.connect(f"tcp://127.0.0.1:{port}")
+
+    def _begin_session(self) -> None:
+        self.session_id, self._id = secrets.randbits(62) | 1, 0
+
+    def end_session(self) -> None:
+        """Say goodbye; what is ordered next is of a new session."""
+        self.order(end_session=True)
+        self._begin_session()
 
     def look(self, wait_s: float) -> None:
         """Take what comes within a time."""

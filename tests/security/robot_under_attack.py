@@ -164,7 +164,7 @@ class RobotUnderAttack:
                            "readiness", stop=True)
             operator.until(lambda: self.witness.counts["moves"], "a drive of the paired Operator", map_car_id=1)
             operator.until(lambda: abs(operator.seen[-1].state.speed) < 0.01 and self.stands(), "standstill", stop=True)
-            operator.order(end_session=True)
+            operator.end_session()
             operator.look(0.5)
         finally:
             operator.close()
@@ -226,5 +226,5 @@ class RobotUnderAttack:
             process.wait()
 
     def _end_session(self) -> None:
-        self.operator.order(end_session=True)
+        self.operator.end_session()
         self.operator.look(0.1)

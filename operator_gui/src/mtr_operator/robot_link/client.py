@@ -154,8 +154,9 @@ class ZmqRobotLink(RobotLink):
         elif self._controls and status.session_id == 0:
             self._free_count += 1
             if self._free_count > MAX_FREE_STATUSES:
-                raise LinkLost("The robot no longer takes this application's Commands, as if it had said goodbye; "
-                               "connect again, or go on with a continued test.")
+                raise LinkLost("The robot no longer takes this application's Commands: another application has "
+                               "controlled it meanwhile, or goodbye was said in this one's name; connect again, or "
+                               "go on with a continued test.")
 
     def _own_view(self, status: RobotStatus) -> RobotStatus:
         """The Status without confirmations that are another session's: its ids count from 1 as ours do."""

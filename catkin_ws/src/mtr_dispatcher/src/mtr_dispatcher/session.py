@@ -15,8 +15,9 @@ from .command import Command, problem_of
 from .order_numbers import OrderNumbers
 from .parameters import Parameters
 
-# A message that was sent before goodbye may still arrive after it.
-REMEMBERED_SESSIONS = 16
+# An application that has lost control may still send, what it sent before included; a window that nobody closed does so
+# for days, while each test of another laptop opens two sessions.
+REMEMBERED_SESSIONS = 1000
 # An id counts changes of the content, at most some per second: nobody makes so many while the link is interrupted, and
 # no application begins with more.
 MAX_ID_STEP = 1000
@@ -28,7 +29,7 @@ class CommandResult(enum.Enum):
 
     TAKEN = "taken"            # new content
     REPEATED = "repeated"      # keeps the link alive
-    OUTDATED = "outdated"      # older than what was taken
+    OUTDATED = "outdated"      # older than what was taken, or of a session that is over
     EXPIRED = "expired"        # answers a Status that is too old or was never sent, or has an id out of turn
     FOREIGN = "foreign"        # another application controls the robot
     REFUSED = "refused"        # its content is unacceptable; the robot stops
@@ -53,7 +54,7 @@ class SessionState:
 
 
 class ControlSession:
-    """Lets one application control the robot.
+    """Lets one application control the robot; one that has lost control needs a new session to have it again.
 
     Attributes:
         session_id: application in control, 0 for none.
@@ -73,27 +74,22 @@ class ControlSession:
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
         self._seen_s = -math.inf
-        self._former: Dict[int, int] = {}
+        self._former: Dict[int, None] = {}
 
     def take(self, command: Command, now_s: float, answered_s: Optional[float]) -> CommandResult:
         """Judge a Command that arrived at now_s and answers the Status that was sent at answered_s, None for none.
 
         Both are times of the steady clock.
         """
+        if command.session_id in self._former:
+            return CommandResult.OUTDATED
         if command.id - self._newest_id_of(command) > MAX_ID_STEP:
             return CommandResult.EXPIRED
         if command.end_session:
             return self._end(command, answered_s)
         if answered_s is None or not is_fresh(now_s - answered_s, self._parameters.command_lifetime_s):
             return self._take_late(command)
-        if command.session_id != self.session_id and not self._hand_over(command, now_s):
-            return CommandResult.OUTDATED if self._is_former(command) else CommandResult.FOREIGN
-        self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
-        if command.id < self._newest_id:
-            return CommandResult.OUTDATED
-        # The application has seen the robot at that time, and not later.
-        self._seen_s = max(self._seen_s, answered_s)
-        return self._accept(command)
+        return self._take_in_time(command, now_s, answered_s)
 
     def link_alive(self, now_s: float) -> bool:
         """True while the application in control has seen the robot of less than link_timeout_s ago, also at the next
@@ -118,6 +114,16 @@ class ControlSession:
             return problems.COMMAND_REFUSED(cause=self.refusal)
         return problems.STOPPED_BY_OPERATOR() if self.command.stop else NO_PROBLEM
 
+    def _take_in_time(self, command: Command, now_s: float, answered_s: float) -> CommandResult:
+        if command.session_id != self.session_id and not self._hand_over(command, now_s):
+            return CommandResult.FOREIGN
+        self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
+        if command.id < self._newest_id:
+            return CommandResult.OUTDATED
+        # The application has seen the robot at that time, and not later.
+        self._seen_s = max(self._seen_s, answered_s)
+        return self._accept(command)
+
     def _accept(self, command: Command) -> CommandResult:
         if command.id == self._newest_id:
             return CommandResult.REFUSED if self.refusal else CommandResult.REPEATED
@@ -136,11 +142,11 @@ class ControlSession:
 
     def _hand_over(self, command: Command, now_s: float) -> bool:
         silent = now_s - self._seen_s > self._parameters.takeover_after_s
-        if self._is_former(command) or (self.session_id and not silent):
+        if self.session_id and not silent:
             return False
-        self._remember(self.session_id, self._newest_id)
+        self._remember(self.session_id)
         self.session_id, self.command, self.refusal = command.session_id, Command(), NO_PROBLEM
-        self._newest_id, self.answered_status_id = self._former.get(command.session_id, 0), 0
+        self._newest_id = self.answered_status_id = 0
         self._seen_s = -math.inf
         return True
 
@@ -151,24 +157,18 @@ class ControlSession:
         if command.session_id != self.session_id or command.id < self._newest_id:
             return CommandResult.OUTDATED
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
-        self._remember(self.session_id, command.id)
+        self._remember(self.session_id)
         self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), NO_PROBLEM, 0
         return CommandResult.ENDED
 
     def _newest_id_of(self, command: Command) -> int:
-        """Newest id of the Command's session; of one that is not known what its first may be."""
-        if command.session_id == self.session_id:
-            return self._newest_id
-        return self._former.get(command.session_id, MAX_FIRST_ID)
+        """Newest id of the Command's session; of one that is not in control what its first may be."""
+        return self._newest_id if command.session_id == self.session_id else MAX_FIRST_ID
 
-    def _is_former(self, command: Command) -> bool:
-        return command.id <= self._former.get(command.session_id, 0)
-
-    def _remember(self, session_id: int, newest_id: int) -> None:
+    def _remember(self, session_id: int) -> None:
         if session_id:
-            self._former.pop(session_id, None)
-            self._former[session_id] = newest_id
-            while len(self._former) > REMEMBERED_SESSIONS:
+            self._former[session_id] = None
+            if len(self._former) > REMEMBERED_SESSIONS:
                 del self._former[next(iter(self._former))]
 
 

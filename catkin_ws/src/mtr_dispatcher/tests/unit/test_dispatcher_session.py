@@ -97,6 +97,27 @@ def test_second_application_takes_over_after_silence(session):
     assert (session.session_id, session.command.map_car_id) == (2, 0)
 
 
+def test_application_that_has_lost_control_does_not_take_it_back_by_itself(session):  # D3
+    take(session, command(1, 1, waypoint=waypoint(5.0, 0.0, 0.0)))
+    take(session, command(2, 1, seen_s=103.1), 103.1)
+    # Its blind stop and the order after it raise its id.
+    for number, content in ((2, {"stop": True}), (3, {"waypoint": waypoint(5.0, 0.0, 0.0)})):
+        assert take(session, command(1, number, seen_s=103.2, **content), 103.2) is CommandResult.OUTDATED
+    take(session, command(2, 2, seen_s=103.3, end_session=True), 103.3)
+    before = session.desired(103.4)
+    assert take(session, command(1, 3, seen_s=103.4, waypoint=waypoint(5.0, 0.0, 0.0)), 103.4) is CommandResult.OUTDATED
+    assert take(session, command(1, 4, seen_s=103.4, end_session=True), 103.4) is CommandResult.OUTDATED
+    assert session.desired(103.4) == before and session.session_id == 0
+
+
+def test_application_that_has_lost_control_has_it_again_with_a_new_session(session):
+    take(session, command(1))
+    take(session, command(2, seen_s=103.1), 103.1)
+    assert take(session, command(3, seen_s=103.2), 103.2) is CommandResult.FOREIGN
+    take(session, command(2, 2, seen_s=103.3, end_session=True), 103.3)
+    assert take(session, command(3, seen_s=103.4), 103.4) is CommandResult.TAKEN
+
+
 def test_goodbye_stops_the_robot_and_frees_control(session):
     take(session, command(1, waypoint=waypoint(1.0, 1.0, 0.0)))
     assert take(session, command(1, 2, end_session=True)) is CommandResult.ENDED
@@ -239,12 +260,13 @@ def test_silent_application_is_followed_by_another_after_the_limit_only(session)
     assert take(session, command(2, seen_s=103.1), 103.1) is CommandResult.TAKEN
 
 
-def test_the_last_sixteen_applications_are_remembered(session):
+def test_the_last_applications_are_remembered(session):
     for session_id in range(1, REMEMBERED_SESSIONS + 1):
         take(session, command(session_id))
         take(session, command(session_id, 2, end_session=True))
     assert take(session, command(1)) is CommandResult.OUTDATED
-    take(session, command(99))
-    take(session, command(99, 2, end_session=True))
+    another = REMEMBERED_SESSIONS + 1
+    take(session, command(another))
+    take(session, command(another, 2, end_session=True))
     assert take(session, command(2)) is CommandResult.OUTDATED
     assert take(session, command(1)) is CommandResult.TAKEN

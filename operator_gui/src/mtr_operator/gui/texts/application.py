@@ -73,8 +73,9 @@ SENTENCES = (
                                   " in the robot's logs do; set the one that is wrong, or have the laptop take the "
                                   "robot's (docs/robot-setup.md, Clocks)."),
     QT_TRANSLATE_NOOP("Sentence", "Status {} was ignored: {}"),
-    QT_TRANSLATE_NOOP("Sentence", "The robot no longer takes this application's Commands, as if it had said goodbye; "
-                                  "connect again, or go on with a continued test."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot no longer takes this application's Commands: another application has "
+                                  "controlled it meanwhile, or goodbye was said in this one's name; connect again, or "
+                                  "go on with a continued test."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's ports are open, but no Status has come for {} s; check that both "
                                   "ports are the robot's. {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot's ports are open, but no Status has come for {} s; check that both "

@@ -4581,8 +4581,8 @@
     </message>
     <message>
         <location filename="../texts/application.py" line="9"/>
-        <source>The robot no longer takes this application&apos;s Commands, as if it had said goodbye; connect again, or go on with a continued test.</source>
-        <translation>Robot už nepřijímá příkazy této aplikace, jako by se rozloučila; připojte se znovu, nebo v testu pokračujte.</translation>
+        <source>The robot no longer takes this application&apos;s Commands: another application has controlled it meanwhile, or goodbye was said in this one&apos;s name; connect again, or go on with a continued test.</source>
+        <translation>Robot už nepřijímá příkazy této aplikace: mezitím ho ovládala jiná aplikace, nebo se někdo rozloučil jejím jménem; připojte se znovu, nebo v testu pokračujte.</translation>
     </message>
     <message>
         <location filename="../texts/application.py" line="9"/>
