@@ -14,7 +14,7 @@ from mtr_dispatcher.link_server import LinkServer, Ports
 from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.status.builder import Identity
 from mtr_dispatcher.status.inputs import Inputs
-from mtr_operator.domain.errors import ConnectionFailed, RobotFailed
+from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import DesiredState, Waypoint
 from mtr_operator.robot_link.access.key_chain import KeyChain, PairedRobot
@@ -90,6 +90,22 @@ def test_paired_laptop_controls_the_robot_and_its_name_comes_back(robot, chain):
     status = status_where(robot, link, lambda status: status.session_id == link.session_id)
     assert status.controller_name == "Jana"
     link.close()
+
+
+def test_laptop_that_comes_back_when_another_had_control_says_so_and_moves_nothing(robot, chain, tmp_path):
+    others_chain = KeyChain(tmp_path / "another laptop")
+    robot.pair(chain)
+    robot.pair(others_chain, "Petr")
+    links = [robot.link(each) for each in (chain, others_chain)]
+    for link in links:
+        link.connect()
+        status_where(robot, link, lambda status, link=link: status.session_id == link.session_id)
+    links[1].close()
+    assert robot.core.session.session_id == links[1].session_id
+    with pytest.raises(LinkLost, match="another application has controlled it"):
+        status_where(robot, links[0], lambda _: False)
+    assert robot.core.session.session_id == 0
+    links[0].close()
 
 
 def test_laptop_whose_key_was_revoked_is_told_to_pair_again(robot, chain):

@@ -25,7 +25,7 @@ class Dispatcher:
         log: the robot's warnings.
         status_id: newest Status that was written, 0 before the first.
         rejected_messages: undecodable, oversized, expired, refused, foreign or forbidden messages since the start.
-        controller: owner of the key whose Commands count; empty on a link without keys.
+        controller: name of the owner of the key whose Commands count, for texts; empty on a link without keys.
     """
 
     def __init__(self, parameters: Parameters, identity: Identity):
@@ -50,14 +50,15 @@ class Dispatcher:
         except UndecodableError as error:
             self._reject(Notice("bad_message", WARNING, error.problem), now_s)
             return None, str(error)
-        before = self.session.session_id
-        if command.session_id == before and sender.name != self.controller:
+        if self.session.owner_of(command.session_id) not in (None, sender.key):
             # Sessions stand in each Status, which every paired key can read.
             impostor = Notice("key_refused", WARNING, problems.SESSION_OF_ANOTHER(name=sender.name))
             return CommandResult.FORBIDDEN, self._reject(impostor, now_s)
-        result = self.session.take(
-            command, now_s, self._sent.answered_s((command.seen_status_id, command.seen_robot_time_s)))
-        if self.session.session_id != before:
+        before = self.session.session_id
+        answered_s = self._sent.answered_s((command.seen_status_id, command.seen_robot_time_s))
+        result = self.session.take(command, now_s, answered_s, sender.key)
+        if self.session.session_id in (0, command.session_id):
+            # A key may have a new name since its session began.
             self.controller = sender.name if self.session.session_id else ""
         if result is CommandResult.FOREIGN:
             self.rejected_messages += 1

@@ -58,6 +58,7 @@ class ControlSession:
 
     Attributes:
         session_id: application in control, 0 for none.
+        owner: key that opened its session; empty on a link without keys.
         command: newest Command that was taken.
         refusal: why its newest Command was refused; no problem when it was not.
         answered_status_id: newest Status that the application in control has answered.
@@ -68,18 +69,24 @@ class ControlSession:
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
         self.session_id = 0
+        self.owner = ""
         self.command = Command()
         self.refusal = NO_PROBLEM
         self.answered_status_id = 0
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
         self._seen_s = -math.inf
-        self._former: Dict[int, None] = {}
+        self._former: Dict[int, str] = {}
 
-    def take(self, command: Command, now_s: float, answered_s: Optional[float]) -> CommandResult:
+    def owner_of(self, session_id: int) -> Optional[str]:
+        """Key that opened this session, which is in control or was before; None for one that is not known."""
+        return self.owner if session_id == self.session_id else self._former.get(session_id)
+
+    def take(self, command: Command, now_s: float, answered_s: Optional[float], key: str = "") -> CommandResult:
         """Judge a Command that arrived at now_s and answers the Status that was sent at answered_s, None for none.
 
-        Both are times of the steady clock.
+        Both are times of the steady clock. key: of its sender, who owns its session unless that is a new one; empty
+        on a link without keys.
         """
         if command.session_id in self._former:
             return CommandResult.OUTDATED
@@ -89,7 +96,9 @@ class ControlSession:
             return self._end(command, answered_s)
         if answered_s is None or not is_fresh(now_s - answered_s, self._parameters.command_lifetime_s):
             return self._take_late(command)
-        return self._take_in_time(command, now_s, answered_s)
+        if command.session_id != self.session_id and not self._hand_over(command.session_id, key, now_s):
+            return CommandResult.FOREIGN
+        return self._take_in_time(command, answered_s)
 
     def link_alive(self, now_s: float) -> bool:
         """True while the application in control has seen the robot of less than link_timeout_s ago, also at the next
@@ -114,9 +123,7 @@ class ControlSession:
             return problems.COMMAND_REFUSED(cause=self.refusal)
         return problems.STOPPED_BY_OPERATOR() if self.command.stop else NO_PROBLEM
 
-    def _take_in_time(self, command: Command, now_s: float, answered_s: float) -> CommandResult:
-        if command.session_id != self.session_id and not self._hand_over(command, now_s):
-            return CommandResult.FOREIGN
+    def _take_in_time(self, command: Command, answered_s: float) -> CommandResult:
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         if command.id < self._newest_id:
             return CommandResult.OUTDATED
@@ -140,12 +147,12 @@ class ControlSession:
             self._accept(command)
         return CommandResult.EXPIRED
 
-    def _hand_over(self, command: Command, now_s: float) -> bool:
+    def _hand_over(self, session_id: int, key: str, now_s: float) -> bool:
         silent = now_s - self._seen_s > self._parameters.takeover_after_s
         if self.session_id and not silent:
             return False
-        self._remember(self.session_id)
-        self.session_id, self.command, self.refusal = command.session_id, Command(), NO_PROBLEM
+        self._become_former()
+        self.session_id, self.owner, self.command, self.refusal = session_id, key, Command(), NO_PROBLEM
         self._newest_id = self.answered_status_id = 0
         self._seen_s = -math.inf
         return True
@@ -157,17 +164,17 @@ class ControlSession:
         if command.session_id != self.session_id or command.id < self._newest_id:
             return CommandResult.OUTDATED
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
-        self._remember(self.session_id)
-        self.session_id, self.command, self.refusal, self._newest_id = 0, Command(), NO_PROBLEM, 0
+        self._become_former()
+        self.session_id, self.owner, self.command, self.refusal, self._newest_id = 0, "", Command(), NO_PROBLEM, 0
         return CommandResult.ENDED
 
     def _newest_id_of(self, command: Command) -> int:
         """Newest id of the Command's session; of one that is not in control what its first may be."""
         return self._newest_id if command.session_id == self.session_id else MAX_FIRST_ID
 
-    def _remember(self, session_id: int) -> None:
-        if session_id:
-            self._former[session_id] = None
+    def _become_former(self) -> None:
+        if self.session_id:
+            self._former[self.session_id] = self.owner
             if len(self._former) > REMEMBERED_SESSIONS:
                 del self._former[next(iter(self._former))]
 

@@ -139,7 +139,7 @@ def test_gate_drops_the_commands_that_are_too_many_of_one_key_alone():
     flood = [gate.sender(public_key(1), 0.0) for _ in range(1000)]
     assert sum(not sender.refusal for sender in flood) == 50
     assert "Jana sends more Commands" in flood[-1].refusal.text
-    assert gate.sender(public_key(2), 0.0) == Sender("Petr")
+    assert gate.sender(public_key(2), 0.0) == Sender(public_key(2), "Petr")
 
 
 def test_parameters_say_when_the_link_is_encrypted():
@@ -161,7 +161,7 @@ def test_loopback_is_what_only_this_computer_reaches():
 # The dispatcher's core
 
 NOW_S = 100.0
-OF_JANA = Sender("Jana")
+OF_JANA, OF_PETR = Sender(public_key(1), "Jana"), Sender(public_key(2), "Petr")
 
 
 @pytest.fixture
@@ -171,8 +171,9 @@ def core():
     return dispatcher
 
 
-def order(number=1, session_id=5, **content):
-    return link.Command(session_id=session_id, id=number, seen_status_id=1, seen_robot_time_s=NOW_S,
+def order(number=1, session_id=5, at=(1, NOW_S), **content):
+    """at: id and time of the Status that it answers."""
+    return link.Command(session_id=session_id, id=number, seen_status_id=at[0], seen_robot_time_s=at[1],
                         **content).SerializeToString()
 
 
@@ -196,7 +197,7 @@ def test_link_without_keys_names_nobody(core):
 
 
 def test_viewers_command_moves_nothing_and_is_told_in_one_sentence(core):
-    viewer = Sender("Eva", VIEWER_COMMAND(name="Eva"))
+    viewer = Sender(public_key(3), "Eva", VIEWER_COMMAND(name="Eva"))
     result, sentence = core.receive(order(), NOW_S, viewer)
     assert result is CommandResult.FORBIDDEN and sentence == VIEWER_COMMAND(name="Eva").text
     status = told(core)
@@ -206,9 +207,35 @@ def test_viewers_command_moves_nothing_and_is_told_in_one_sentence(core):
 
 def test_command_in_the_name_of_anothers_session_is_refused(core):
     core.receive(order(), NOW_S, OF_JANA)
-    result, sentence = core.receive(order(2), NOW_S, Sender("Mallory"))
+    result, sentence = core.receive(order(2), NOW_S, Sender(public_key(6), "Mallory"))
     assert result is CommandResult.FORBIDDEN and "Mallory" in sentence
     assert core.session.command.id == 1
+
+
+def test_session_that_has_ended_or_lost_control_is_still_its_keys_alone(core):
+    core.receive(order(), NOW_S, OF_JANA)
+    core.receive(order(2, end_session=True), NOW_S, OF_JANA)
+    core.receive(order(session_id=8), NOW_S, OF_JANA)
+    later_s = NOW_S + 3.5
+    core.status(Inputs(later_s, steady_s=later_s))
+    assert core.receive(order(session_id=9, at=(2, later_s)), later_s, OF_PETR)[0] is CommandResult.TAKEN
+    for session_id in (5, 8):
+        late = order(3, session_id=session_id, at=(2, later_s))
+        assert core.receive(late, later_s, OF_PETR)[0] is CommandResult.FORBIDDEN
+        assert core.receive(late, later_s, OF_JANA)[0] is CommandResult.OUTDATED
+    assert core.session.session_id == 9 and told(core).controller_name == "Petr"
+
+
+def test_owner_who_has_a_new_name_goes_on_in_his_session_and_is_told_by_it(core):
+    core.receive(order(), NOW_S, OF_JANA)
+    renamed = Sender(OF_JANA.key, "Jana (laboratory)")
+    assert core.receive(order(2, stop=True), NOW_S, renamed)[0] is CommandResult.TAKEN
+    assert told(core).controller_name == "Jana (laboratory)"
+
+
+def test_another_key_under_the_owners_name_does_not_speak_in_his_session(core):
+    core.receive(order(), NOW_S, OF_JANA)
+    assert core.receive(order(2), NOW_S, Sender(public_key(2), "Jana"))[0] is CommandResult.FORBIDDEN
 
 
 def test_refused_connections_are_one_notice_with_their_number(core):

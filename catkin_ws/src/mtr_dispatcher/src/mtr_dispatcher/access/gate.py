@@ -18,9 +18,11 @@ MIN_COMMAND_BURST = 50.0
 class Sender(NamedTuple):
     """Who has sent a message.
 
-    name: the key's owner, empty on a link without keys. refusal: why the message counts for nothing.
+    key: public, Z85, by which senders are told apart. name: the key's owner, for texts; it may change. Both are empty
+    on a link without keys. refusal: why the message counts for nothing.
     """
 
+    key: str = ""
     name: str = ""
     refusal: Problem = NO_PROBLEM
 
@@ -60,12 +62,12 @@ class Gate:
         """Whose message came with this key, and whether it counts, at a time of the steady clock."""
         entry = self._keys().of(key)
         if entry is None:
-            return Sender("", problems.KEY_UNKNOWN())
+            return Sender(key, refusal=problems.KEY_UNKNOWN())
         if not self._commands.allow(key, now_s):
-            return Sender(entry.name, problems.TOO_MANY_COMMANDS(name=entry.name))
+            return Sender(key, entry.name, problems.TOO_MANY_COMMANDS(name=entry.name))
         if entry.role is not Role.CONTROLLER:
-            return Sender(entry.name, problems.VIEWER_COMMAND(name=entry.name))
-        return Sender(entry.name)
+            return Sender(key, entry.name, problems.VIEWER_COMMAND(name=entry.name))
+        return Sender(key, entry.name)
 
     def has_lost_keys(self) -> bool:
         """True once after a key was revoked: its connections are to be cut off."""
