@@ -191,7 +191,7 @@ class DispatcherNode:
             said = self._core.refused_connections(self._refused, now_s)
             self._warn("connections", f"{said} {_listed(refused)}.")
         if gate.has_lost_keys():
-            rospy.logwarn("A key was revoked: all connections are cut off, and the paired ones come back.")
+            rospy.logwarn("%s All connections are cut off, and the paired ones come back.", gate.why_lost())
             self._server.rebind()
 
     def _warn(self, kind: object, sentence: str) -> None:

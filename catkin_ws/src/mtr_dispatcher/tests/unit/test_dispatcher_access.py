@@ -1,16 +1,11 @@
 """Keys, roles, rates and the window of pairing, without a socket."""
 # SPDX-License-Identifier: Apache-2.0
-import os
-
 import pytest
-import zmq
 
 from mtr_core.errors import ConfigurationError, RobotError
 from mtr_dispatcher.access.authorised_keys import MAX_KEYS, AuthorisedKeys, Entry, KeysError, Role, keys_in
-from mtr_dispatcher.access.command_line import DONE, ERROR, keys
 from mtr_dispatcher.access.curve import is_loopback
 from mtr_dispatcher.access.gate import Gate, Sender
-from mtr_dispatcher.access.key_folder import AUTHORISED_KEYS, OWN_KEYS, KeyFolder
 from mtr_dispatcher.access.pairing_window import FIRST_PAUSE_S, MAX_TRIES, PairingLimits, PairingWindow
 from mtr_dispatcher.access.rates import Rates
 from mtr_dispatcher.core import Dispatcher
@@ -67,57 +62,6 @@ def test_revoking_somebody_who_is_not_there_names_those_who_are():
     assert JANA.without("Jana") == AuthorisedKeys()
     with pytest.raises(KeysError, match="there are: Jana"):
         JANA.without("Eva")
-
-
-def test_keys_of_the_robot_are_made_once_for_their_owner_alone(tmp_path):
-    folder = KeyFolder(tmp_path / "keys")
-    assert folder.own_keys() == folder.own_keys() == KeyFolder(tmp_path / "keys").own_keys()
-    folder.change(lambda known: JANA)
-    assert {path.stat().st_mode & 0o777 for path in (tmp_path / "keys").iterdir() if path.name[0] != "."} == {0o600}
-    assert (tmp_path / "keys").stat().st_mode & 0o777 == 0o700
-
-
-def test_secret_key_that_others_can_read_is_not_used(tmp_path):
-    folder = KeyFolder(tmp_path)
-    folder.own_keys()
-    os.chmod(tmp_path / OWN_KEYS, 0o644)
-    with pytest.raises(KeysError, match="chmod 600"):
-        folder.own_keys()
-
-
-@pytest.mark.parametrize("content", [b"", b"public x\nsecret y\n", b"\xff\xfe"])
-def test_damaged_key_file_is_a_sentence(tmp_path, content):
-    (tmp_path / OWN_KEYS).write_bytes(content)
-    os.chmod(tmp_path / OWN_KEYS, 0o600)
-    with pytest.raises(KeysError, match=OWN_KEYS):
-        KeyFolder(tmp_path).own_keys()
-
-
-def test_change_of_the_list_holds_at_once_and_a_damaged_one_lets_nobody_in(tmp_path):
-    folder, other = KeyFolder(tmp_path), KeyFolder(tmp_path)
-    assert folder.authorised() == AuthorisedKeys()
-    other.change(lambda known: JANA)
-    assert folder.authorised() == JANA
-    (tmp_path / AUTHORISED_KEYS).write_text("keys: nonsense here\n", encoding="utf-8")
-    assert folder.authorised() == AuthorisedKeys() and "Nobody is accepted" in folder.distrust
-    with pytest.raises(KeysError, match="Nobody is accepted"):
-        folder.change(lambda known: JANA)
-
-
-def test_list_that_others_can_write_lets_nobody_in(tmp_path):
-    folder = KeyFolder(tmp_path)
-    folder.change(lambda known: JANA)
-    os.chmod(tmp_path / AUTHORISED_KEYS, 0o666)
-    assert folder.authorised() == AuthorisedKeys() and "chmod 600" in folder.distrust
-
-
-def test_command_lists_and_revokes(tmp_path, capsys):
-    KeyFolder(tmp_path).change(lambda known: JANA)
-    assert keys(["--keys", str(tmp_path)]) == DONE and "Jana" in capsys.readouterr().out
-    assert keys(["--revoke", "Jana"], {"key_folder": str(tmp_path)}) == DONE
-    assert KeyFolder(tmp_path).authorised() == AuthorisedKeys()
-    assert keys(["--revoke", "Jana", "--keys", str(tmp_path)]) == ERROR
-    assert "there are: none" in capsys.readouterr().err
 
 
 def test_rate_counts_each_peer_for_itself_and_fills_up_again():
@@ -267,8 +211,3 @@ def test_wrong_tries_are_slowed_and_then_close_the_window():
 def test_window_is_not_open_for_ever():
     with pytest.raises(RobotError, match="allowed is 10 to 600 s"):
         PairingLimits(3600.0)
-
-
-def test_key_pair_of_zeromq_is_what_is_kept(tmp_path):
-    kept = KeyFolder(tmp_path).own_keys()
-    assert zmq.curve_public(kept.secret) == kept.public

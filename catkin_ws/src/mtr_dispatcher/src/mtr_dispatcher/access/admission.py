@@ -24,7 +24,7 @@ def admission(parameters: Parameters, home: pathlib.Path, inform: Callable[[str]
                  f"whoever reaches {parameters.bind_address} can move the robot.")
         return None, None
     folder = KeyFolder(pathlib.Path(parameters.key_folder or home / FOLDER_NAME))
-    gate = Gate(folder.authorised, parameters.max_commands_per_s, time.monotonic)
+    gate = Gate(folder.authorised, parameters.max_commands_per_s, time.monotonic, lambda: folder.distrust)
     curve = Curve(folder.own_keys(), gate.admits)
     keys = folder.authorised()
     if folder.distrust:

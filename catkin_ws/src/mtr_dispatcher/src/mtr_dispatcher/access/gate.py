@@ -37,8 +37,10 @@ class Gate:
         refused: connections that were refused since the start, by what was wrong.
     """
 
-    def __init__(self, keys: Callable[[], AuthorisedKeys], commands_per_s: float, steady_s: Callable[[], float]):
-        self._keys, self._steady_s = keys, steady_s
+    def __init__(self, keys: Callable[[], AuthorisedKeys], commands_per_s: float, steady_s: Callable[[], float],
+                 distrust: Callable[[], str] = lambda: ""):
+        """distrust: why nobody is accepted although there is a list; empty when all is well."""
+        self._keys, self._steady_s, self._distrust = keys, steady_s, distrust
         self._connections = Rates(CONNECTIONS_PER_S, MAX_CONNECTION_BURST)
         self._commands = Rates(commands_per_s, max(commands_per_s, MIN_COMMAND_BURST))
         self._known: Set[str] = {entry.key for entry in keys().entries}
@@ -70,8 +72,12 @@ class Gate:
         return Sender(key, entry.name)
 
     def has_lost_keys(self) -> bool:
-        """True once after a key was revoked: its connections are to be cut off."""
+        """True once after a key is accepted no more: its connections are to be cut off."""
         known = {entry.key for entry in self._keys().entries}
         lost = bool(self._known - known)
         self._known = known
         return lost
+
+    def why_lost(self) -> str:
+        """A sentence for the log about keys that are accepted no more."""
+        return self._distrust() or "A key was revoked."

@@ -43,8 +43,12 @@ class KeyFolder:
         """The list as it is in the file now; empty, and `distrust` says why, when the file cannot be trusted."""
         with self._lock:
             signature = self._signature()
-            if signature != self._read[0]:
-                self._read = (signature, self._load())
+            if signature is None or signature != self._read[0]:
+                try:
+                    self._read = (signature, self._load())
+                except OSError as error:
+                    # Without a signature it is read again: too many files may be open just now.
+                    self._read = (None, self._nobody(str(error.strerror)))
             return self._read[1]
 
     def change(self, changed: Callable[[AuthorisedKeys], AuthorisedKeys]) -> AuthorisedKeys:
@@ -87,7 +91,9 @@ class KeyFolder:
                 return keys_in(file.read(MAX_BYTES + 1))
         except FileNotFoundError:
             return AuthorisedKeys()
-        except (OSError, UnicodeDecodeError, KeysError) as error:
-            reason = getattr(error, "strerror", None) or str(error)
-            self.distrust = f"Nobody is accepted: the list of keys {self._list} cannot be used. {reason}"
-            return AuthorisedKeys()
+        except (UnicodeDecodeError, KeysError) as error:
+            return self._nobody(str(error))
+
+    def _nobody(self, reason: str) -> AuthorisedKeys:
+        self.distrust = f"Nobody is accepted: the list of keys {self._list} cannot be used. {reason.rstrip('.')}."
+        return AuthorisedKeys()
