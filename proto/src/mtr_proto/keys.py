@@ -73,6 +73,7 @@ def write_private(path: pathlib.Path, text: str) -> None:
     except OSError:
         part.unlink()
         raise
+    _sync_folder(path.parent)
 
 
 def _write_new(path: pathlib.Path, pair: KeyPair) -> None:
@@ -85,6 +86,7 @@ def _write_new(path: pathlib.Path, pair: KeyPair) -> None:
             pass
         finally:
             part.unlink()
+        _sync_folder(path.parent)
     except OSError as error:
         raise LinkKeyError(f"The link's keys cannot be written to {path}: {error.strerror}.") from None
 
@@ -92,11 +94,27 @@ def _write_new(path: pathlib.Path, pair: KeyPair) -> None:
 def _new_part(path: pathlib.Path, text: str) -> pathlib.Path:
     part = path.with_name(f".{path.name}.{secrets.token_hex(4)}")
     descriptor = os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o600)
-    with open(descriptor, "w", encoding="utf-8") as file:
-        file.write(text)
-        file.flush()
-        os.fsync(file.fileno())
+    try:
+        with open(descriptor, "w", encoding="utf-8") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+    except BaseException:
+        # On a full disk each try would leave one, perhaps with a secret key in it.
+        part.unlink()
+        raise
     return part
+
+
+def _sync_folder(folder: pathlib.Path) -> None:
+    """Make the names in a folder safe against a loss of power."""
+    # Windows has no such thing: there the file system's journal keeps the new name.
+    if os.name == "posix":
+        descriptor = os.open(folder, os.O_RDONLY)
+        try:
+            os.fsync(descriptor)
+        finally:
+            os.close(descriptor)
 
 
 def _read(path: pathlib.Path) -> KeyPair:

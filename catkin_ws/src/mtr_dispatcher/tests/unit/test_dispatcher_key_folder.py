@@ -36,6 +36,34 @@ def test_keys_of_the_robot_are_made_once_for_their_owner_alone(tmp_path):
     assert (tmp_path / "keys").stat().st_mode & 0o777 == 0o700
 
 
+def test_keys_and_list_are_said_to_be_there_when_their_names_are_safe_too(tmp_path, monkeypatch):
+    synced, fsync = [], os.fsync
+
+    def spied(descriptor):
+        fsync(descriptor)
+        synced.append((os.path.realpath(f"/proc/self/fd/{descriptor}"), sorted(
+            path.name for path in tmp_path.iterdir() if path.name in (OWN_KEYS, AUTHORISED_KEYS))))
+    monkeypatch.setattr(os, "fsync", spied)
+    folder = KeyFolder(tmp_path)
+    folder.own_keys()
+    assert synced[-1] == (str(tmp_path), [OWN_KEYS])
+    folder.change(lambda known: JANA)
+    assert synced[-1] == (str(tmp_path), sorted((OWN_KEYS, AUTHORISED_KEYS)))
+    folder.change(lambda known: known.without("Jana"))
+    assert [path == str(tmp_path) for path, _ in synced] == [False, True] * 3
+
+
+def test_full_disk_is_a_sentence_and_leaves_nothing(tmp_path, monkeypatch):
+    def full(_descriptor):
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+    monkeypatch.setattr(os, "fsync", full)
+    folder = KeyFolder(tmp_path)
+    for act in (folder.own_keys, lambda: folder.change(lambda known: JANA)):
+        with pytest.raises(KeysError, match=r"cannot be written.*No space left on device\."):
+            act()
+    assert [path.name for path in tmp_path.iterdir()] == [f".{AUTHORISED_KEYS}.lock"]
+
+
 def test_secret_key_that_others_can_read_is_not_used(tmp_path):
     folder = KeyFolder(tmp_path)
     folder.own_keys()
