@@ -1,5 +1,6 @@
 """Keys of this laptop, paired robots, and with what a robot is tried; pairing against the contract's robot side."""
 # SPDX-License-Identifier: Apache-2.0
+import errno
 import os
 import socket
 import threading
@@ -69,6 +70,30 @@ def test_damaged_list_of_robots_is_a_sentence(chain, tmp_path, content):
     chain.own_keys()
     (tmp_path / "link" / ROBOTS).write_text(content, encoding="utf-8")
     with pytest.raises(ConnectionFailed, match="damaged"):
+        chain.robots()
+
+
+@pytest.mark.skipif(os.name != "posix", reason="Windows knows no such rights")
+@pytest.mark.parametrize(("name", "rights", "mended"), [(ROBOTS, 0o666, "600"), (ROBOTS, 0o620, "600"),
+                                                        ("", 0o777, "700"), ("", 0o770, "700")])
+def test_list_of_robots_that_others_can_write_is_not_used(chain, tmp_path, name, rights, mended):
+    chain.keep(paired())
+    path = tmp_path / "link" / name
+    os.chmod(path, rights)
+    for act in (chain.robots, lambda: chain.keep(paired()), lambda: ways_to(HOST, LAN_IP, False, chain)):
+        with pytest.raises(ConnectionFailed, match=rf"^Others may write {path}; say chmod {mended} {path}\.$"):
+            act()
+    os.chmod(path, int(mended, 8))
+    assert chain.robots() == (paired(),)
+
+
+def test_list_of_robots_that_cannot_be_read_now_is_not_called_damaged(chain, tmp_path, monkeypatch):
+    chain.keep(paired())
+
+    def none_left(*_arguments, **_options):
+        raise OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+    monkeypatch.setattr("builtins.open", none_left)
+    with pytest.raises(ConnectionFailed, match="robots.json cannot be read: Too many open files"):
         chain.robots()
 
 

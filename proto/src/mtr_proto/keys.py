@@ -5,12 +5,14 @@ import os
 import pathlib
 import re
 import secrets
+import stat
 from typing import Callable, NamedTuple, Tuple
 
 # Z85 (ZeroMQ RFC 32) of 32 bytes.
 KEY = re.compile(r"[0-9A-Za-z.\-:+=^!/*?&<>()\[\]{}@%$#]{40}")
-# Rights of group and others, who may have none on a secret.
+# Rights of group and others, who may have none on a secret, and not write what is trusted.
 OTHERS = 0o077
+WRITERS = 0o022
 _MAX_BYTES = 4096
 _HEADER = "# Key pair of the link, ZeroMQ CURVE in Z85. Whoever reads the secret key can speak in this name.\n"
 
@@ -44,20 +46,29 @@ def private_folder(folder: pathlib.Path) -> pathlib.Path:
     """The folder, made for its owner alone when it was not there.
 
     Raises:
-        LinkKeyError: it cannot be made.
+        LinkKeyError: it cannot be made, or others may write it.
     """
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        check_writers(folder, folder.stat())
     except OSError as error:
         raise LinkKeyError(f"The folder {folder} of the link's keys cannot be made: {error.strerror}.") from None
     return folder
+
+
+def check_writers(path: pathlib.Path, status: os.stat_result) -> None:
+    """Raise LinkKeyError with a sentence when others than its owner may write this file or folder."""
+    # Windows keeps a person's own folder from others by itself, and knows no such bits.
+    if os.name == "posix" and status.st_mode & WRITERS:
+        rights = "700" if stat.S_ISDIR(status.st_mode) else "600"
+        raise LinkKeyError(f"Others may write {path}; say chmod {rights} {path}.")
 
 
 def own_key_pair(path: pathlib.Path, make: Callable[[], Tuple[bytes, bytes]]) -> KeyPair:
     """The pair in the file, made by `make` (zmq.curve_keypair) when there is none.
 
     Raises:
-        LinkKeyError: the file cannot be read or written, is damaged, or others may read it.
+        LinkKeyError: the file cannot be read or written, is damaged, or others may read it or write its folder.
     """
     private_folder(path.parent)
     if not path.exists():
@@ -119,7 +130,7 @@ def _sync_folder(folder: pathlib.Path) -> None:
 
 def _read(path: pathlib.Path) -> KeyPair:
     try:
-        # Windows keeps a person's own folder from others by itself, and knows no such bits.
+        # For Windows see check_writers.
         if os.name == "posix" and path.stat().st_mode & OTHERS:
             raise LinkKeyError(f"Others may read the secret key in {path}; say chmod 600 {path}, or delete it and pair "
                                "anew.")

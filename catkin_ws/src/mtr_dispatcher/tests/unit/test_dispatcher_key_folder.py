@@ -98,6 +98,31 @@ def test_list_that_others_can_write_lets_nobody_in(tmp_path):
     assert folder.authorised() == AuthorisedKeys() and "chmod 600" in folder.distrust
 
 
+@pytest.mark.parametrize("rights", [0o777, 0o770, 0o702])
+def test_folder_that_others_can_write_lets_nobody_in(tmp_path, rights):
+    folder = KeyFolder(tmp_path)
+    folder.change(lambda known: JANA)
+    folder.own_keys()
+    assert folder.authorised() == JANA
+    os.chmod(tmp_path, rights)
+    assert folder.authorised() == AuthorisedKeys() and f"chmod 700 {tmp_path}." in folder.distrust
+    for act in (folder.own_keys, lambda: folder.change(lambda known: JANA)):
+        with pytest.raises(KeysError, match="Others may write .*; say chmod 700"):
+            act()
+    os.chmod(tmp_path, 0o755)
+    assert folder.authorised() == JANA and not folder.distrust and folder.own_keys()
+
+
+def test_folder_is_for_its_owner_alone_where_files_are_for_the_group(tmp_path):
+    before = os.umask(0o002)
+    try:
+        folder = KeyFolder(tmp_path / "ros" / "keys")
+        folder.change(lambda known: JANA)
+        assert folder.own_keys() and folder.authorised() == JANA
+    finally:
+        os.umask(before)
+
+
 def test_list_that_could_not_be_read_once_is_read_again(tmp_path, monkeypatch):
     folder, other = KeyFolder(tmp_path), KeyFolder(tmp_path)
     other.change(lambda known: JANA)

@@ -10,6 +10,7 @@ SENTENCES = (
                                   "may not be encrypted, or the ports may be swapped."),
     QT_TRANSLATE_NOOP("Sentence", "This laptop is paired as a viewer: it sees the robot and cannot move it."),
     QT_TRANSLATE_NOOP("Sentence", "The list of paired robots {} is damaged; delete it and pair anew."),
+    QT_TRANSLATE_NOOP("Sentence", "The list of paired robots {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The list of paired robots cannot be written to {}: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The robot at {} does not pair now; have it show a new code."),
     QT_TRANSLATE_NOOP("Sentence", "The robot at {} does not pair on port {}; have it show a code first (rosrun "
@@ -24,6 +25,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The link's keys cannot be written to {}: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The link's keys in {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The link's keys in {} are damaged; delete the file and pair anew."),
+    QT_TRANSLATE_NOOP("Sentence", "Others may write {}; say chmod {} {}."),
     QT_TRANSLATE_NOOP("Sentence", "Others may read the secret key in {}; say chmod 600 {}, or delete it and pair "
                                   "anew."),
 )

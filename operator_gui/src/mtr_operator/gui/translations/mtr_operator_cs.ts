@@ -6864,6 +6864,16 @@
         <source>says {} in line {}, which YAML takes for {}; write the number that is meant, or the text in quotes</source>
         <translation>uvádí {} na řádku {}, což YAML čte jako {}; napište číslo, které máte na mysli, nebo text v uvozovkách</translation>
     </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>The list of paired robots {} cannot be read: {}.</source>
+        <translation>Seznam spárovaných robotů {} nelze přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/pairing.py" line="5"/>
+        <source>Others may write {}; say chmod {} {}.</source>
+        <translation>Do {} mohou zapisovat i jiní; spusťte chmod {} {}.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import os
 import pathlib
 from dataclasses import dataclass
 from typing import Any
@@ -13,7 +14,15 @@ import zmq
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.results.document import read_record
-from mtr_proto.keys import KeyPair, LinkKeyError, is_key, own_key_pair, private_folder, write_private
+from mtr_proto.keys import (
+    KeyPair,
+    LinkKeyError,
+    check_writers,
+    is_key,
+    own_key_pair,
+    private_folder,
+    write_private,
+)
 from mtr_proto.pairing import ROLES
 
 CONTROLLER, VIEWER = ROLES
@@ -54,15 +63,21 @@ class KeyChain:
             raise ConnectionFailed(str(error)) from None
 
     def robots(self) -> tuple[PairedRobot, ...]:
-        """All paired robots, the newest first; ConnectionFailed when the file is damaged."""
+        """All paired robots, the newest first; ConnectionFailed when the file is damaged, or others may write it."""
         path = self._folder / ROBOTS
         try:
+            check_writers(self._folder, self._folder.stat())
             with open(path, encoding="utf-8") as file:
+                check_writers(path, os.fstat(file.fileno()))
                 document = json.loads(file.read(_MAX_BYTES))
             return _robots_in(document)
         except FileNotFoundError:
             return ()
-        except (OSError, ValueError, TypeError, LookupError, AttributeError, RecursionError):
+        except LinkKeyError as error:
+            raise ConnectionFailed(str(error)) from None
+        except OSError as error:
+            raise ConnectionFailed(f"The list of paired robots {path} cannot be read: {error.strerror}.") from None
+        except (ValueError, TypeError, LookupError, AttributeError, RecursionError):
             raise ConnectionFailed(f"The list of paired robots {path} is damaged; delete it and pair anew.") from None
 
     def robots_at(self, host: str) -> tuple[PairedRobot, ...]:

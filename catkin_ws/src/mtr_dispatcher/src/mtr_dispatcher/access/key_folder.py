@@ -9,14 +9,14 @@ from typing import Callable, Iterator, Optional, Tuple
 
 import zmq
 
-from mtr_proto.keys import OTHERS, KeyPair, LinkKeyError, own_key_pair, private_folder, write_private
+from mtr_proto.keys import KeyPair, LinkKeyError, check_writers, own_key_pair, private_folder, write_private
 
 from .authorised_keys import MAX_BYTES, AuthorisedKeys, KeysError, keys_in
 
 FOLDER_NAME = "mtr_link"
 OWN_KEYS = "robot.key"
 AUTHORISED_KEYS = "authorised_keys.yaml"
-_Signature = Optional[Tuple[int, int, int]]
+_Signature = Optional[Tuple[int, int, int, int]]
 
 
 class KeyFolder:
@@ -76,22 +76,22 @@ class KeyFolder:
 
     def _signature(self) -> _Signature:
         try:
-            status = os.stat(self._list)
+            status, rights = os.stat(self._list), os.stat(self._folder).st_mode
         except OSError:
             return None
-        # Its rights can change too, and then whether it can be trusted.
-        return status.st_ino, status.st_ctime_ns, status.st_size
+        # Rights can change too, and then whether it can be trusted.
+        return status.st_ino, status.st_ctime_ns, status.st_size, rights
 
     def _load(self) -> AuthorisedKeys:
         self.distrust = ""
         try:
+            check_writers(self._folder, os.stat(self._folder))
             with open(self._list, encoding="utf-8") as file:
-                if os.fstat(file.fileno()).st_mode & OTHERS & 0o022:
-                    raise KeysError(f"Others may write it; say chmod 600 {self._list}.")
+                check_writers(self._list, os.fstat(file.fileno()))
                 return keys_in(file.read(MAX_BYTES + 1))
         except FileNotFoundError:
             return AuthorisedKeys()
-        except (UnicodeDecodeError, KeysError) as error:
+        except (UnicodeDecodeError, KeysError, LinkKeyError) as error:
             return self._nobody(str(error))
 
     def _nobody(self, reason: str) -> AuthorisedKeys:
