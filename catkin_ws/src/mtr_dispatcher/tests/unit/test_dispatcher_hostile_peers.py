@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import json
+import os
 import socket
 import subprocess
 import sys
@@ -10,7 +11,7 @@ import pytest
 import zmq
 from link_peers import free_ports
 
-from mtr_dispatcher.access.connection_watch import TOO_MUCH, ConnectionWatch
+from mtr_dispatcher.access.connection_watch import TOO_MUCH, ConnectionWatch, _received_bytes
 from mtr_dispatcher.access.peer_limits import (
     COMMAND_BURST_BYTES,
     TOO_MANY,
@@ -215,3 +216,10 @@ def test_address_that_was_cut_off_waits_before_it_opens_another_and_others_do_no
 
 def test_burst_of_commands_holds_every_message_that_the_link_takes():
     assert COMMAND_BURST_BYTES > 2 * 64 * 1024
+
+
+def test_number_of_a_connection_that_a_file_has_by_now_brings_nothing_and_costs_no_descriptor():
+    with open("/proc/self/statm", encoding="ascii") as file:
+        before = len(os.listdir("/proc/self/fd"))
+        assert [_received_bytes(file.fileno(), ("127.0.0.1", 1)) for _ in range(10)] == [0] * 10
+        assert len(os.listdir("/proc/self/fd")) == before

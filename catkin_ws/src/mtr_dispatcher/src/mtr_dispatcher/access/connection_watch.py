@@ -104,8 +104,14 @@ class ConnectionWatch:
 
 
 def _socket_of(number: int) -> socket.socket:
-    """The connection with ZeroMQ's file descriptor, which stays open when this one is closed."""
-    return socket.socket(fileno=os.dup(number))
+    """The connection with ZeroMQ's file descriptor, which stays open when this one is closed; OSError for a file."""
+    duplicate = os.dup(number)
+    try:
+        return socket.socket(fileno=duplicate)
+    except OSError:
+        # ZeroMQ has closed its own, and the number is a file's by now.
+        os.close(duplicate)
+        raise
 
 
 def _received_bytes(number: int, peer: Any) -> int:
