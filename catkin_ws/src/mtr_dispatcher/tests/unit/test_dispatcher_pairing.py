@@ -3,6 +3,7 @@
 import contextlib
 import socket
 import threading
+import time
 
 import pytest
 import zmq
@@ -11,8 +12,14 @@ from mtr_dispatcher.access import command_line
 from mtr_dispatcher.access.authorised_keys import Role
 from mtr_dispatcher.access.command_line import DONE, ERROR, NOT_PAIRED
 from mtr_dispatcher.access.key_folder import KeyFolder
-from mtr_dispatcher.access.pairing_server import Clock, Offer, PairingFailed, PairingServer
-from mtr_dispatcher.access.pairing_window import MAX_TRIES, PairingLimits, PairingWindow
+from mtr_dispatcher.access.pairing_server import CONNECTION_S, Clock, Offer, PairingFailed, PairingServer
+from mtr_dispatcher.access.pairing_window import (
+    DEFAULT_SECONDS,
+    FIRST_PAUSE_S,
+    MAX_TRIES,
+    PairingLimits,
+    PairingWindow,
+)
 from mtr_proto.keys import KeyPair
 from mtr_proto.pairing import ANSWER_BYTES, HELLO_BYTES, WELCOME_BYTES, LaptopSide, Paired, PairingError, WrongCode
 
@@ -27,15 +34,16 @@ LAPTOP = KeyPair(*zmq.curve_keypair())
 class Robot:
     """A pairing that runs in a thread, on a clock that only waiting moves."""
 
-    def __init__(self, keep=lambda hello: None, role=Role.CONTROLLER):
-        self.keys, self.said, self.waited, self.now_s = KeyPair(*zmq.curve_keypair()), [], [], 0.0
+    def __init__(self, keep=lambda hello: None, role=Role.CONTROLLER, *, now_s=0.0, begins=True):
+        self.keys, self.said, self.waited, self.now_s = KeyPair(*zmq.curve_keypair()), [], [], now_s
         self.server = PairingServer(Offer(CODE, self.keys, role), keep, self.said.append,
                                     Clock(lambda: self.now_s, self.wait))
         self.port = self.server.listen("127.0.0.1", 0)
         self.window = PairingWindow(PairingLimits(), 0.0)
         self.result = None
         self.thread = threading.Thread(target=self.run, daemon=True)
-        self.thread.start()
+        if begins:
+            self.thread.start()
 
     def wait(self, pause_s):
         self.waited.append(pause_s)
@@ -61,13 +69,23 @@ def received(connection, length):
     return data
 
 
-def try_code(port, code, name="Jana's laptop"):
+def waiting(port):
+    """A laptop's connection, of which the robot may not know yet."""
+    return socket.create_connection(("127.0.0.1", port), timeout=LIMIT_S)
+
+
+def try_code(port, code):
     """A laptop that types a code."""
-    side = LaptopSide(code, LAPTOP.public, name)
-    with socket.create_connection(("127.0.0.1", port), timeout=LIMIT_S) as connection:
-        connection.sendall(side.hello())
-        connection.sendall(side.proof(received(connection, ANSWER_BYTES)))
-        return side.welcomed(received(connection, WELCOME_BYTES))
+    with waiting(port) as connection:
+        return try_code_on(connection, code)
+
+
+def try_code_on(connection, code):
+    """The same, which is connected already."""
+    side = LaptopSide(code, LAPTOP.public, "Jana's laptop")
+    connection.sendall(side.hello())
+    connection.sendall(side.proof(received(connection, ANSWER_BYTES)))
+    return side.welcomed(received(connection, WELCOME_BYTES))
 
 
 @pytest.mark.parametrize("role", list(Role))
@@ -89,6 +107,26 @@ def test_wrong_codes_are_counted_slowed_and_end_the_pairing():
     assert sum("Wrong code" in line for line in robot.said) == MAX_TRIES
     with pytest.raises(OSError):
         socket.create_connection(("127.0.0.1", robot.port), timeout=LIMIT_S)
+
+
+def test_who_waited_in_line_when_the_window_closed_is_not_paired():
+    kept = []
+    robot = Robot(kept.append, now_s=DEFAULT_SECONDS - FIRST_PAUSE_S + 0.1, begins=False)
+    with waiting(robot.port) as first, waiting(robot.port) as second:
+        robot.thread.start()
+        for connection, code in ((first, OTHER_CODE), (second, CODE)):
+            with pytest.raises((PairingError, OSError)):
+                try_code_on(connection, code)
+    assert robot.ended() is None and not kept and robot.window.tries == 1
+    assert "nobody was paired" in robot.window.why_closed()
+
+
+def test_who_says_nothing_keeps_the_window_open_no_longer():
+    server = PairingServer(Offer(CODE, LAPTOP, Role.VIEWER), print, print)
+    port, now_s = server.listen("127.0.0.1", 0), time.monotonic()
+    with waiting(port):
+        assert server.run(PairingWindow(PairingLimits(), now_s - DEFAULT_SECONDS + 0.3)) is None
+    assert time.monotonic() - now_s < CONNECTION_S / 2.0
 
 
 def test_who_breaks_off_after_the_answer_has_had_a_try():

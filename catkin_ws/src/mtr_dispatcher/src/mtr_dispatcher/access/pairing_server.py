@@ -11,11 +11,10 @@ from mtr_proto.pairing import HELLO_BYTES, PROOF_BYTES, Hello, PairingError, Rob
 from .authorised_keys import Role
 from .pairing_window import PairingWindow
 
-# Of one connection, from being accepted to its end; a laptop needs a tenth of a second.
+# Of one connection, from being accepted to its end, unless the window closes before; a laptop needs 0.1 s.
 CONNECTION_S = 5.0
 # Connections that wait meanwhile.
 BACKLOG = 4
-MIN_WAIT_S = 0.001
 
 
 class PairingFailed(RobotError):
@@ -71,10 +70,12 @@ class PairingServer:
         return None
 
     def _next(self, listener: socket.socket, window: PairingWindow) -> Optional[Hello]:
-        """One connection, after the pause that wrong tries have earned."""
+        """One connection, after the pause that wrong tries have earned; None also when the window closes meanwhile."""
         self._clock.wait(window.pause_s(self._clock.now_s()))
-        # 0 would be no limit but none at all.
-        listener.settimeout(max(window.left_s(self._clock.now_s()), MIN_WAIT_S))
+        left_s = window.left_s(self._clock.now_s())
+        if not left_s:
+            return None
+        listener.settimeout(left_s)
         try:
             connection, peer = listener.accept()
         except OSError:
@@ -84,7 +85,8 @@ class PairingServer:
             return self._try(connection, str(peer[0]), window)
 
     def _try(self, connection: socket.socket, peer: str, window: PairingWindow) -> Optional[Hello]:
-        end_s = self._clock.now_s() + CONNECTION_S
+        now_s = self._clock.now_s()
+        end_s = now_s + min(CONNECTION_S, window.left_s(now_s))
         try:
             side = RobotSide(self._offer.code, self._offer.keys.public)
             hello, answer = side.answer(self._received(connection, HELLO_BYTES, end_s))
