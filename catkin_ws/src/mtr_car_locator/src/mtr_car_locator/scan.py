@@ -14,6 +14,9 @@ from .poses import PoseHistory
 # As localization takes a sweep; drivers round the last angle of a whole turn.
 MAX_SWEEP_S = 0.25
 MAX_TURN_RAD = 1.01 * math.tau
+# What the adjustment of the map leaves of a LiDAR's range bias: its covariance, which SurfaceMap does not carry, says 3
+# mm (kMinBiasSigmaM of mtr_surfel_map), in the open 3.4 (docs/accuracy.md).
+ADJUSTED_BIAS_SIGMA_M = 0.0035
 
 
 @dataclass(frozen=True)
@@ -44,10 +47,19 @@ class Scan:
 
 
 class RangeBias(NamedTuple):
-    """Constant errors of the LiDARs' ranges, in m."""
+    """Constant errors of the LiDARs' ranges, and 1 sigma of what each of them is still wrong by, in m."""
 
     front_m: float = 0.0
     rear_m: float = 0.0
+    sigma_m: float = ADJUSTED_BIAS_SIGMA_M
+
+    def of(self, is_rear: bool) -> float:
+        """That of one LiDAR."""
+        return self.rear_m if is_rear else self.front_m
+
+
+# Of ranges that are taken as they are.
+NO_BIAS = RangeBias()
 
 
 @dataclass(frozen=True)
@@ -61,8 +73,11 @@ class Returns:
     is_rear: bool = False
 
 
-def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
-    """Returns of a scan; None when it makes no sense or the robot's poses do not cover the sweep."""
+def returns_in_map(scan: Scan, poses: PoseHistory, range_bias: RangeBias = NO_BIAS) -> Optional[Returns]:
+    """Returns of a scan; None when it makes no sense or the robot's poses do not cover the sweep.
+
+    range_bias: is taken off.
+    """
     if not scan.makes_sense:
         return None
     count = len(scan.ranges_m)
@@ -72,6 +87,7 @@ def returns_in_map(scan: Scan, poses: PoseHistory) -> Optional[Returns]:
         return None
     ranges = np.asarray(scan.ranges_m, dtype=float)
     good = np.isfinite(ranges) & (ranges >= scan.range_min_m) & (ranges < scan.range_max_m)
+    ranges = ranges - range_bias.of(scan.is_rear)
     mount = scan.base_from_lidar
     middle = Pose2(*(float(values[count // 2]) for values in robot))
     x, y, heading = (values[good] for values in robot)

@@ -10,7 +10,7 @@ from mtr_car_locator.estimate import Estimate, Inputs, LocatorTask
 from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.poses import PoseHistory, PoseMode, RobotPose
-from mtr_car_locator.scan import Scan, returns_in_map
+from mtr_car_locator.scan import NO_BIAS, RangeBias, Scan, returns_in_map
 from mtr_car_locator.survey.surface_map import MapPhase, SurfaceMap
 from mtr_car_locator.survey.surfel_grid import SurfelGrid
 from mtr_core.problems import Problem
@@ -64,6 +64,7 @@ class Scene:
     segments: np.ndarray
     start: Pose2 = PARAMETERS.car_from_start
     range_sigma_m: float = 0.01
+    range_bias: RangeBias = NO_BIAS
     drift_m: float = 0.0
     drift_rad: float = 0.0
     drift_time_s: float = 5.0
@@ -81,7 +82,8 @@ class Scene:
 
 
 class Mapper:
-    """Localization's part: key-frames from exact poses, and a map some time after the order to freeze."""
+    """Localization's part: key-frames from exact poses, and some time after the order to freeze a map that is free of
+    the range biases."""
 
     def __init__(self, scene: Scene, centre: Pose2):
         self._scene, self._centre = scene, centre
@@ -110,7 +112,7 @@ class Mapper:
             self._grid = SurfelGrid(self._centre.x, self._centre.y)
             self.mode = PoseMode.MAPPING
         for scan in scans:
-            seen = returns_in_map(scan, self._poses) if self._poses else None
+            seen = returns_in_map(scan, self._poses, self._scene.range_bias) if self._poses else None
             if seen is not None:
                 self._grid.add(seen.points, seen.viewer)
         if estimate.phase is MapPhase.FREEZE and math.isinf(self._freeze_s):
@@ -120,7 +122,8 @@ class Mapper:
             self.revision = 1 + (self.map.revision if self.map else 0) if valid else 0
             self.mode = PoseMode.LOCALIZED
             self.map = SurfaceMap(self._map_id, self.revision, valid, self._grid.surfels(0.002),
-                                  np.array(self._frames), Problem(text=self._scene.map_problem))
+                                  np.array(self._frames), Problem(text=self._scene.map_problem),
+                                  self._scene.range_bias)
 
 
 class World:
@@ -203,8 +206,8 @@ class World:
             self.locator.add_pose(localized)
         self.mapper.add_pose(self.now, self.pose)
         if self.steps % (8 if self.pose == before else 16) == 0 and len(self._trail) == 4:
-            for mount in shipped_geometry().lidars():
-                self._scans.append((self.now, self._scan(mount)))
+            for is_rear, mount in enumerate(shipped_geometry().lidars()):
+                self._scans.append((self.now, self._scan(mount, bool(is_rear))))
         if self.steps % 5 == 0:
             self._tick(mapping, map_car_id)
 
@@ -266,7 +269,7 @@ class World:
                          (self.pose.heading - before.heading) / PERIOD_S, self.mode or self.mapper.mode,
                          self.mapper.revision, covariance)
 
-    def _scan(self, mount: Pose2) -> Scan:
+    def _scan(self, mount: Pose2, is_rear: bool) -> Scan:
         """A sweep that ends now; each beam from the true pose at its own time."""
         times = self.now - SWEEP_S + np.arange(BEAMS) * SWEEP_S / BEAMS
         known = np.array([(t, p.x, p.y, p.heading) for t, p in self._trail])
@@ -275,7 +278,8 @@ class World:
         y = np.interp(times, known[:, 0], known[:, 2]) + mount.x * np.sin(heading)
         beam = heading + mount.heading - 0.5 * FIELD_RAD + np.arange(BEAMS) * FIELD_RAD / BEAMS
         ranges = cast(x, y, beam, self.segments) + self.scene.rng.normal(0.0, self.scene.range_sigma_m, BEAMS)
-        return Scan(times[0], SWEEP_S / BEAMS, -0.5 * FIELD_RAD, FIELD_RAD / BEAMS, 0.1, 30.0, ranges, mount)
+        ranges += self.scene.range_bias.of(is_rear)
+        return Scan(times[0], SWEEP_S / BEAMS, -0.5 * FIELD_RAD, FIELD_RAD / BEAMS, 0.1, 30.0, ranges, mount, is_rear)
 
     def _to_map(self, points: np.ndarray) -> np.ndarray:
         return np.array([self.car.apply(x, y) for x, y in points])

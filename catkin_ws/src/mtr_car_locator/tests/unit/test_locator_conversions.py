@@ -27,6 +27,7 @@ from mtr_car_locator.estimate import Estimate, LocatorTask, result_at
 from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
+from mtr_car_locator.scan import RangeBias
 from mtr_car_locator.survey.surface_map import MapPhase
 from mtr_car_locator.watch.self_check import CheckReport
 from mtr_core import names
@@ -103,7 +104,7 @@ def test_surface_map_becomes_surfels_and_a_damaged_one_is_not_valid():
     assert (found.map_id, found.revision, found.valid, len(found.surfels)) == (77, 3, True, 2)
     assert found.surfels.normal[1] == pytest.approx((0.0, 1.0), abs=1e-6)
     assert found.key_frames.tolist() == [[5.25, 1.0, 2.0, 0.3]]
-    assert found.range_bias == (0.012, -0.004)
+    assert found.range_bias == RangeBias(0.012, -0.004)
     message.hits = [9]
     assert not surface_map_from(message).valid and "damaged" in surface_map_from(message).message.text
 

@@ -1,15 +1,17 @@
 """The Car that a locator is started again with."""
 # SPDX-License-Identifier: Apache-2.0
+import copy
 import json
 
 import numpy as np
 import pytest
-from locator_simulation import car_with_bumpers
+from locator_simulation import Scene, World, car_with_bumpers
 
 from mtr_car_locator.locator import CarLocator
 from mtr_car_locator.memory.keeper import CarKeeper
 from mtr_car_locator.memory.memory_file import MemoryFile
 from mtr_car_locator.memory.remembered import MemoryUnusable, RememberedCar, plain, remembered_from
+from mtr_car_locator.scan import RangeBias
 from mtr_core.executors import InlineExecutor
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check
@@ -31,8 +33,8 @@ def test_a_file_brings_the_same_car(world):
     before, after = world.newest.fit, remembered(world.newest).fit
     assert (after.rectangle, after.outline, after.sigmas, after.seen) == (
         before.rectangle, before.outline, before.sigmas, before.seen)
-    assert (after.in_plane, after.quality, after.by_wheels, after.warning) == (
-        before.in_plane, before.quality, before.by_wheels, before.warning)
+    assert (after.in_plane, after.quality, after.by_wheels, after.warning, after.range_bias) == (
+        before.in_plane, before.quality, before.by_wheels, before.warning, before.range_bias)
     for name in ("position", "normal", "length", "sigma", "hits"):
         np.testing.assert_array_equal(getattr(after.surfels, name), getattr(before.surfels, name))
 
@@ -62,6 +64,32 @@ def test_a_car_that_was_moved_meanwhile_is_noticed(world):
     assert after.state == CarState.FAILED and "The Car was moved, by" in after.message.text
 
 
+@pytest.fixture(scope="module")
+def biased():
+    """A world whose LiDARs measure 15 mm too much, in which the Car was found; not to be changed."""
+    running = World(Scene(CAR, range_bias=RangeBias(0.015, 0.015), pose_sigma_m=0.002))
+    assert running.run().state == CarState.LOCATED
+    return running
+
+
+def test_a_range_bias_is_remembered_and_is_no_motion_of_the_car(biased):
+    world = copy.deepcopy(biased)
+    start_anew(world)
+    assert world.newest.fit.range_bias == RangeBias(0.015, 0.015)
+    assert world.stand(15.0).revision == 1
+    assert world.check(3).check.difference_m < 0.005
+
+
+def test_a_file_of_before_the_bias_was_kept_is_read_and_the_bias_changes_nothing(biased):
+    world = copy.deepcopy(biased)
+    data = json.loads(json.dumps(plain(RememberedCar(world.newest.fit, world.newest.map_revision, 1, 7))))
+    del data["fit"]["range_bias"]
+    car = remembered_from(data)
+    assert car.fit.range_bias == (0.0, 0.0, 0.03)
+    world.locator = CarLocator(world.scene.parameters, car)
+    assert world.stand(15.0).revision == 1
+
+
 def test_a_map_of_another_number_is_another_map(world):
     start_anew(world)
     world.mapper.revision += 1
@@ -78,7 +106,8 @@ def test_an_order_to_map_begins_anew(world):
 
 @pytest.mark.parametrize("damage", [
     lambda data: data.pop("fit"), lambda data: data["fit"].pop("rectangle"), lambda data: data.update(revision="x"),
-    lambda data: data["fit"].update(surfels=[[1.0, 2.0]]), lambda data: data["fit"].update(unknown=1)])
+    lambda data: data["fit"].update(surfels=[[1.0, 2.0]]), lambda data: data["fit"].update(unknown=1),
+    lambda data: data["fit"].update(range_bias=["x"])])
 def test_a_damaged_car_is_a_sentence(world, damage):
     data = json.loads(json.dumps(plain(RememberedCar(world.newest.fit, 1, 1, 7))))
     damage(data)

@@ -15,7 +15,7 @@ from mtr_car_locator.measure.side import Side, side_of
 from mtr_car_locator.parameters import LocatorParameters
 from mtr_car_locator.poses import PoseHistory, RobotPose
 from mtr_car_locator.rectangle import Rectangle
-from mtr_car_locator.scan import Scan, returns_in_map
+from mtr_car_locator.scan import RangeBias, Scan, returns_in_map
 from mtr_car_locator.surfels import surfels_from
 from mtr_car_locator.survey.ring import Ring
 from mtr_car_locator.survey.surfel_grid import SurfelGrid
@@ -121,6 +121,13 @@ def test_sweep_that_poses_do_not_cover_gives_no_points(start_s):
     poses = history((0.02 * k, ORIGIN) for k in range(5))
     scan = Scan(start_s, 0.01, 0.0, 0.1, 0.1, 30.0, np.ones(4), ORIGIN)
     assert returns_in_map(scan, poses) is None
+
+
+@pytest.mark.parametrize("is_rear, range_m", [(False, 0.98), (True, 1.01)])
+def test_range_bias_is_that_of_the_lidar(is_rear, range_m):
+    poses = history((0.02 * k, ORIGIN) for k in range(5))
+    scan = Scan(0.02, 0.01, 0.0, 0.0, 0.1, 30.0, np.ones(4), ORIGIN, is_rear)
+    assert returns_in_map(scan, poses, RangeBias(0.02, -0.01)).points[:, 0] == pytest.approx([range_m] * 4)
 
 
 SOUND = Scan(0.02, 0.001, 0.0, 0.1, 0.1, 30.0, np.ones(4), ORIGIN)

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Optional, Tuple
 
 from ..rectangle import Point, Rectangle
+from ..scan import NO_BIAS, RangeBias
 from ..surfels import Surfels
 
 
@@ -34,6 +35,8 @@ class CarFit:
         by_wheels: length and centre come from the wheels alone.
         in_plane: what was measured.
         warning: sentence on a data sheet that does not agree with that.
+        range_bias: constant errors of the LiDARs' ranges that the surfels are free of; it has to be taken off whatever
+            is compared with them. Zero for surfels of ranges as they are: these share it with what is seen again.
     """
 
     rectangle: Rectangle
@@ -47,3 +50,4 @@ class CarFit:
     by_wheels: bool = False
     in_plane: PlaneSize = PlaneSize()
     warning: str = ""
+    range_bias: RangeBias = NO_BIAS

@@ -114,7 +114,7 @@ def _interpolated(wanted_s: FloatArray, known_s: FloatArray, rows: FloatArray) -
 
 def _moved(points: FloatArray, row: FloatArray, change: FloatArray,
            range_bias: RangeBias) -> Tuple[FloatArray, FloatArray]:
-    bias_m = range_bias.rear_m if row[_IS_REAR] else range_bias.front_m
+    bias_m = range_bias.of(bool(row[_IS_REAR]))
     away = points - row[_VIEWER]
     beams = rotated_back(away / np.maximum(np.linalg.norm(away, axis=1), 1e-6)[:, np.newaxis], -change[2])
     return rotated_back(points, -change[2]) + change[:2] - bias_m * beams, beams

@@ -5,12 +5,17 @@ from typing import Any, Dict, Mapping
 
 import numpy as np
 
+from mtr_core import sensor_figures
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
 from ..measure.car_fit import CarFit, PlaneSize
 from ..rectangle import Rectangle
+from ..scan import RangeBias
 from ..surfels import Surfels
+
+# Files of before it was kept do not say which bias the surfels are free of; data sheets allow for so much.
+UNKNOWN_BIAS = RangeBias(sigma_m=sensor_figures.ASSUMED_RANGE_BIAS_M.value)
 
 
 class MemoryUnusable(RobotError):
@@ -57,7 +62,8 @@ def remembered_from(data: Mapping[str, Any]) -> RememberedCar:
             outline=tuple((float(x), float(y)) for x, y in fit.pop("outline")),
             sigmas=tuple(fit.pop("sigmas")), seen=tuple(fit.pop("seen")),
             surfels=Surfels(table[:, 0:2], table[:, 2:4], table[:, 4], table[:, 5], table[:, 6]),
-            in_plane=PlaneSize(**fit.pop("in_plane")), **fit)
+            in_plane=PlaneSize(**fit.pop("in_plane")),
+            range_bias=RangeBias(*map(float, fit.pop("range_bias", UNKNOWN_BIAS))), **fit)
         return RememberedCar(found, int(data["map_revision"]), int(data["revision"]), int(data["map_car_id"]))
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise MemoryUnusable(f"The remembered Car is damaged ({error}); the Car has to be mapped again.") from None

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from mtr_core.arrays import FloatArray
 from mtr_core.problems import NO_PROBLEM, Problem
 
-from ..scan import RangeBias
+from ..scan import NO_BIAS, RangeBias
 from ..surfels import Surfels
 
 
@@ -36,4 +36,4 @@ class SurfaceMap:
     surfels: Surfels
     key_frames: FloatArray
     message: Problem = NO_PROBLEM
-    range_bias: RangeBias = RangeBias()
+    range_bias: RangeBias = NO_BIAS

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 from concurrent.futures import Executor
+from dataclasses import replace
 from typing import Optional, Sequence, Tuple
 
 from mtr_core import names
@@ -167,4 +168,5 @@ class Survey:
 
 def _fit_to_map(surfaces: SurfaceMap, sweeps: Sweeps, prior: Prior, parameters: LocatorParameters) -> CarFit:
     """The Car in the adjusted map, its size by all returns of the way round."""
-    return fit_car(surfaces.surfels, prior, parameters, sweeps.close_up(surfaces.key_frames, surfaces.range_bias))
+    fit = fit_car(surfaces.surfels, prior, parameters, sweeps.close_up(surfaces.key_frames, surfaces.range_bias))
+    return replace(fit, range_bias=surfaces.range_bias)

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, NamedTuple, Optional, Tuple
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from mtr_core import sensor_figures
-from mtr_core.arrays import FloatArray
+from mtr_core.arrays import BoolArray, FloatArray, IntArray
 from mtr_core.se2 import Pose2
 
 from ..measure.incidence import MIN_INCIDENCE_COSINE
@@ -42,7 +42,8 @@ class Evidence:
         weighted: information times motion.
         sides: median shift outwards of each side that was seen, m.
         points: how many were used.
-        common: covariance of what is common to a whole observation: the robot's pose.
+        common: covariance of what is common to a whole observation: the robot's pose, and what is left of the LiDARs'
+            range biases.
     """
 
     information: FloatArray
@@ -82,10 +83,32 @@ class Evidence:
         return math.sqrt(max(float(vector @ np.linalg.solve(self.covariance, vector)), 0.0))
 
 
+@dataclass(frozen=True)
+class _Seen:
+    """Points (n, 2) in the Car's frame, from where each was seen, and which of them the rear LiDAR saw."""
+
+    points: FloatArray
+    viewer: FloatArray
+    is_rear: BoolArray
+
+
+class _Matches(NamedTuple):
+    """Of each point that is near a surface: its Jacobian, its distance outwards of the surface (m), the surface's
+    normal, what a range that is too long adds to that distance (m/m), and which point it is."""
+
+    rows: FloatArray
+    rest: FloatArray
+    normals: FloatArray
+    along: FloatArray
+    number: IntArray
+
+
 class CarReference:
     """Surfaces of the Car in its own frame, ready to be compared with."""
 
-    def __init__(self, surfels: Surfels):
+    def __init__(self, surfels: Surfels, bias_sigma_m: float):
+        """bias_sigma_m: 1 sigma of what is left of each LiDAR's range bias, when it has been taken off."""
+        self._bias_sigma_m = bias_sigma_m
         self._points, index = surfels.samples()
         self._normals = surfels.normal[index]
         self._tree = cKDTree(self._points)
@@ -95,36 +118,48 @@ class CarReference:
 
         pose_covariance: of the robot's pose in map.
         """
-        points = in_frame(np.vstack([sweep.points for sweep in sweeps]), car) if sweeps else np.empty((0, 2))
-        viewers = [in_frame(sweep.viewer[np.newaxis], car).repeat(len(sweep.points), axis=0) for sweep in sweeps]
-        viewer = np.vstack(viewers) if sweeps else points
-        common = _common(pose_covariance, car)
-        here = self._fitted(points, viewer, np.zeros(3), common)
-        beside = place_beside(points, viewer, self._count_explained) if len(points) else None
-        there = self._fitted(points, viewer, beside, common) if beside is not None else None
+        if not sweeps:
+            return None
+        seen, common = _seen(sweeps, car), _common(pose_covariance, car)
+        here = self._fitted(seen, np.zeros(3), common)
+        beside = place_beside(seen.points, seen.viewer, self._count_explained)
+        there = self._fitted(seen, beside, common) if beside is not None else None
         # Lines along which the Car was moved look alike from both places.
         return there if there and (here is None or there.points >= CLEARLY_MORE * here.points) else here
 
-    def _fitted(self, points: FloatArray, viewer: FloatArray, motion: FloatArray,
-                common: FloatArray) -> Optional[Evidence]:
+    def _fitted(self, seen: _Seen, motion: FloatArray, common: FloatArray) -> Optional[Evidence]:
         """The motion near another one, None when too little of the Car lies there."""
         for turn in range(ROUNDS):
             gate_m = max(FIRST_GATE_M * 0.6 ** turn, LAST_GATE_M)
-            matched = self._match(points, viewer, motion, gate_m)
-            if matched is None or len(matched[1]) < MIN_POINTS:
+            matched = self._match(seen.points, seen.viewer, motion, gate_m)
+            if matched is None or len(matched.rest) < MIN_POINTS:
                 return None
-            rows, rest, normals = matched
-            motion, information, weighted = _solve(rows, rest, motion)
-        sides = _side_shifts(rest + rows @ motion, normals)
-        return Evidence(information, weighted, sides, len(rest), common)
+            rows, rest, normals, along, number = matched
+            factors = _factors(rows, rest)
+            information = factors @ rows
+            # The residual is what is left beyond the present motion; the whole motion is sought.
+            weighted = factors @ (rest + rows @ motion)
+            motion = np.linalg.solve(information + _before(), weighted)
+        gain = np.linalg.solve(information + _before(), factors)
+        common = common + self._by_biases(gain, along, seen.is_rear[number])
+        return Evidence(information, weighted, _side_shifts(rest + rows @ motion, normals), len(rest), common)
+
+    def _by_biases(self, gain: FloatArray, along: FloatArray, is_rear: BoolArray) -> FloatArray:
+        """Covariance of the motion by what is left of the range biases; gain: motion by each point's distance (3, n).
+
+        The surfels have a part of that error, too, but they were met from other places.
+        """
+        by_lidar = gain @ (along[:, np.newaxis] * np.column_stack((~is_rear, is_rear)))
+        covariance: FloatArray = self._bias_sigma_m ** 2 * by_lidar @ by_lidar.T
+        return covariance
 
     def _count_explained(self, points: FloatArray, viewer: FloatArray, motion: FloatArray) -> int:
         matched = self._match(points, viewer, motion, STEP_M)
-        return len(matched[1]) if matched else 0
+        return len(matched.rest) if matched else 0
 
     def _match(self, points: FloatArray, viewer: FloatArray, motion: FloatArray,
-               gate_m: float) -> Optional[Tuple[FloatArray, FloatArray, FloatArray]]:
-        """Jacobian, residual and normal of each point that is near a surface that it can be a point of."""
+               gate_m: float) -> Optional[_Matches]:
+        """The points that are near a surface that they can be points of."""
         pose = Pose2(*motion)
         moved = in_frame(points, pose)
         distance, index = self._tree.query(moved, distance_upper_bound=gate_m)
@@ -132,13 +167,14 @@ class CarReference:
         normals = self._normals[np.where(found, index, 0)]
         back = rotated_back(viewer - points, pose.heading)
         back /= np.maximum(np.linalg.norm(back, axis=1), 1e-6)[:, np.newaxis]
-        found &= np.sum(normals * back, axis=1) > MIN_INCIDENCE_COSINE
+        cosine = np.sum(normals * back, axis=1)
+        found &= cosine > MIN_INCIDENCE_COSINE
         if not np.any(found):
             return None
         moved, normals = moved[found], normals[found]
         rest = np.sum(normals * (moved - self._points[index[found]]), axis=1)
         lever = normals[:, 1] * moved[:, 0] - normals[:, 0] * moved[:, 1]
-        return np.column_stack((normals, lever)), rest, normals
+        return _Matches(np.column_stack((normals, lever)), rest, normals, -cosine[found], np.nonzero(found)[0])
 
 
 def joined(first: Evidence, second: Evidence) -> Evidence:
@@ -150,15 +186,19 @@ def joined(first: Evidence, second: Evidence) -> Evidence:
                     first.points + second.points, 0.5 * (first.common + second.common))
 
 
-def _solve(rows: FloatArray, rest: FloatArray, motion: FloatArray) -> Tuple[FloatArray, FloatArray, FloatArray]:
-    """Next motion, information and weighted motion, robust against points that are wrong."""
+def _seen(sweeps: List[Returns], car: Pose2) -> _Seen:
+    viewers = [in_frame(sweep.viewer[np.newaxis], car).repeat(len(sweep.points), axis=0) for sweep in sweeps]
+    is_rear = np.repeat([sweep.is_rear for sweep in sweeps], [len(sweep.points) for sweep in sweeps])
+    return _Seen(in_frame(np.vstack([sweep.points for sweep in sweeps]), car), np.vstack(viewers), is_rear)
+
+
+def _factors(rows: FloatArray, rest: FloatArray) -> FloatArray:
+    """Jacobian of each point (3, n) by the point's weight, robust against points that are wrong."""
     weights = 1.0 / (1.0 + (rest / POINT_SIGMA_M) ** 2)
     scatter = math.sqrt(float(np.sum(weights * rest ** 2) / np.sum(weights)))
     scale = 1.0 / (BEAMS_PER_SAMPLE * max(scatter, 0.2 * POINT_SIGMA_M) ** 2)
-    information = scale * (rows * weights[:, np.newaxis]).T @ rows
-    # The residual is what is left beyond the present motion; the whole motion is sought.
-    weighted = scale * rows.T @ (weights * (rest + rows @ motion))
-    return np.linalg.solve(information + _before(), weighted), information, weighted
+    factors: FloatArray = scale * (rows * weights[:, np.newaxis]).T
+    return factors
 
 
 def _side_shifts(shift: FloatArray, normals: FloatArray) -> Dict[str, float]:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..measure.car_fit import CarFit
 from ..poses import PoseHistory
-from ..scan import Returns, Scan, returns_in_map
+from ..scan import RangeBias, Returns, Scan, returns_in_map
 from .comparison import CarReference, Evidence
 
 # A robot that has just stopped still sways.
@@ -22,8 +22,9 @@ class CarObservation:
     A robot that moves meanwhile begins again.
     """
 
-    def __init__(self, duration_s: float):
-        self._duration_s = duration_s
+    def __init__(self, duration_s: float, range_bias: RangeBias):
+        """range_bias: what the Car's surfels are free of."""
+        self._duration_s, self._range_bias = duration_s, range_bias
         self._returns: List[Returns] = []
         self._first_s: Optional[float] = None
 
@@ -34,7 +35,7 @@ class CarObservation:
             return
         since_s = poses.stands_since_s + SETTLING_S
         for scan in scans:
-            seen = returns_in_map(scan, poses) if scan.start_s >= since_s else None
+            seen = returns_in_map(scan, poses, self._range_bias) if scan.start_s >= since_s else None
             if seen is not None:
                 self._first_s = scan.start_s if self._first_s is None else self._first_s
                 self._returns.append(seen)

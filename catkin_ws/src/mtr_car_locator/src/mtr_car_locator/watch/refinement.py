@@ -41,7 +41,7 @@ class Refinement:
 
     def __init__(self, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
-        self._reference = CarReference(car.surfels)
+        self._reference = CarReference(car.surfels, car.range_bias.sigma_m)
         self._observation: Optional[CarObservation] = None
         self._suspected: Optional[Pose2] = None
         self._satisfied_s: Optional[float] = None
@@ -59,7 +59,7 @@ class Refinement:
         if not self.wants_scans(now_s, poses):
             self._observation = None
             return None
-        self._observation = self._observation or CarObservation(self._parameters.look_s)
+        self._observation = self._observation or CarObservation(self._parameters.look_s, self._car.range_bias)
         self._observation.collect(now_s, scans, poses)
         if not self._observation.is_over(now_s):
             return None

@@ -44,7 +44,7 @@ class SelfCheck:
 
     def __init__(self, check_id: int, now_s: float, robot: Pose2, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
-        self._reference = CarReference(car.surfels)
+        self._reference = CarReference(car.surfels, car.range_bias.sigma_m)
         places = corners(car.rectangle, parameters.check_distance_m)
         self._places = _order(places, nearest(places, robot))
         self._found: List[Evidence] = []
@@ -77,7 +77,7 @@ class SelfCheck:
 
     def _observe(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
         if self._observation is None:
-            self._observation = CarObservation(self._parameters.look_s)
+            self._observation = CarObservation(self._parameters.look_s, self._car.range_bias)
             self._since_s = now_s
         self._observation.collect(now_s, scans, poses)
         if self._observation.is_over(now_s):
