@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+import numpy as np
 import pytest
 from locator_simulation import Scene, World, car_with_bumpers
 
-from mtr_car_locator.scan import RangeBias
+from mtr_car_locator.poses import RobotPose
+from mtr_car_locator.scan import RangeBias, Returns
+from mtr_car_locator.watch.comparison import CarReference
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check
 
@@ -32,3 +35,59 @@ def test_range_bias_is_no_motion_of_the_car(front_m, rear_m):
         world.stand(0.5)
         assert world.stand(LOOKED_AGAIN_S).revision == 1
     assert world.error()[0] < 0.005
+
+
+def look_from(world, distance_m, *, heading_off_rad):
+    """The robot stands behind the Car's left front, its position exact and its heading wrong."""
+    bearing = math.radians(25.0)
+    world.pose = world.car @ Pose2(distance_m * math.cos(bearing), distance_m * math.sin(bearing), math.pi + bearing)
+    world.scene.drift_time_s = 1e9
+    world.drift = np.array([0.0, 0.0, heading_off_rad])
+    world.stand(0.5)
+    return world.stand(LOOKED_AGAIN_S)
+
+
+@pytest.mark.parametrize("distance_m, sigmas", [(7.5, 2.0), (7.5, -2.0), (4.0, 2.0)])
+def test_heading_of_the_robot_is_no_motion_of_the_car(distance_m, sigmas):
+    """Of 2 mrad in 7.5 m an unmoved Car seems to be 15 mm aside."""
+    world = mapped(pose_sigma_m=0.004)
+    after = look_from(world, distance_m, heading_off_rad=sigmas * 0.5 * world.scene.pose_sigma_m)
+    assert after.revision == 1 and world.error()[0] < 0.005
+
+
+def test_motion_of_the_car_is_seen_from_afar_by_a_robot_whose_heading_is_sure():
+    world = mapped(pose_sigma_m=0.004)
+    world.place_car(world.car @ Pose2(0.0, 0.09, 0.0), CAR)
+    after = look_from(world, 7.5, heading_off_rad=0.0)
+    assert after.revision == 2
+
+
+def front_seen(located, robot, bias_sigma_m=0.0):
+    """Evidence of exact returns of the Car's front, seen from ahead of it by the front LiDAR of a robot in map."""
+    fit = located.newest.fit
+    points = fit.surfels.samples()[0]
+    front = points[(points[:, 0] > 2.0) & (np.abs(points[:, 1]) < 0.6)]
+    pose = fit.rectangle.pose
+    in_map = [np.array([pose.apply(x, y) for x, y in rows]) for rows in (front.repeat(4, axis=0), [(30.0, 0.0)])]
+    seen = Returns(in_map[0], in_map[1][0], 0.0, robot.pose)
+    return CarReference(fit.surfels, bias_sigma_m).compare([seen], pose, robot)
+
+
+def test_errors_of_the_robots_pose_that_go_together_count_together(located):
+    """Scans laid on the Car itself leave an error that turns the robot about the Car: that shifts nothing there."""
+    car = located.newest.rectangle.pose
+    robot = car @ Pose2(10.0, 0.0, math.pi)
+    across = np.array([car.y - robot.y, robot.x - car.x, 1.0])
+    free, alone, together = (front_seen(located, RobotPose(0.0, robot, covariance=tuple(covariance.ravel())))
+                             for covariance in (np.zeros((3, 3)), np.diag([0.0, 0.0, 4e-6]),
+                                                4e-6 * np.outer(across, across)))
+    assert math.sqrt((alone.covariance - free.covariance)[1, 1]) == pytest.approx(0.02, rel=1e-6)
+    assert math.sqrt((together.covariance - free.covariance)[2, 2]) == pytest.approx(0.002, rel=1e-6)
+    assert (together.covariance - free.covariance)[:2, :2] == pytest.approx(np.zeros((2, 2)), abs=1e-12)
+
+
+def test_what_is_left_of_a_range_bias_is_in_the_covariance_along_the_rays(located):
+    robot = RobotPose(0.0, located.newest.rectangle.pose)
+    free, unsure = (front_seen(located, robot, sigma_m) for sigma_m in (0.0, 0.005))
+    along, across = np.sqrt(np.diag(unsure.covariance - free.covariance)[:2])
+    assert along == pytest.approx(0.005, rel=0.1) and across < 0.002

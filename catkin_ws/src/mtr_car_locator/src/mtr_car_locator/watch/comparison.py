@@ -13,6 +13,7 @@ from mtr_core.se2 import Pose2
 
 from ..measure.incidence import MIN_INCIDENCE_COSINE
 from ..measure.side import OUTWARDS
+from ..poses import RobotPose
 from ..scan import Returns
 from ..surfels import Surfels, in_frame, rotated_back
 from .elsewhere import STEP_M, place_beside
@@ -113,14 +114,11 @@ class CarReference:
         self._normals = surfels.normal[index]
         self._tree = cKDTree(self._points)
 
-    def compare(self, sweeps: List[Returns], car: Pose2, pose_covariance: FloatArray) -> Optional[Evidence]:
-        """Motion that fits what was seen from one place, None when too little of the Car was seen.
-
-        pose_covariance: of the robot's pose in map.
-        """
+    def compare(self, sweeps: List[Returns], car: Pose2, robot: RobotPose) -> Optional[Evidence]:
+        """Motion that fits what was seen from one place, None when too little of the Car was seen."""
         if not sweeps:
             return None
-        seen, common = _seen(sweeps, car), _common(pose_covariance, car)
+        seen, common = _seen(sweeps, car), _by_pose(robot, car)
         here = self._fitted(seen, np.zeros(3), common)
         beside = place_beside(seen.points, seen.viewer, self._count_explained)
         there = self._fitted(seen, beside, common) if beside is not None else None
@@ -210,11 +208,14 @@ def _side_shifts(shift: FloatArray, normals: FloatArray) -> Dict[str, float]:
     return found
 
 
-def _common(pose_covariance: FloatArray, car: Pose2) -> FloatArray:
-    """Covariance of the robot's pose, turned into the Car's frame; the Car is near, so the heading's lever is short."""
+def _by_pose(robot: RobotPose, car: Pose2) -> FloatArray:
+    """Covariance of the motion by the robot's pose; an error of its heading swings the Car round the robot."""
     cos, sin = math.cos(car.heading), math.sin(car.heading)
     car_from_map = np.array([[cos, sin, 0.0], [-sin, cos, 0.0], [0.0, 0.0, 1.0]])
-    return car_from_map @ np.asarray(pose_covariance, dtype=float).reshape(3, 3) @ car_from_map.T
+    lever = np.array([[1.0, 0.0, robot.pose.y - car.y], [0.0, 1.0, car.x - robot.pose.x], [0.0, 0.0, 1.0]])
+    by_error = car_from_map @ lever
+    covariance: FloatArray = by_error @ np.reshape(robot.covariance, (3, 3)) @ by_error.T
+    return covariance
 
 
 def _before() -> FloatArray:

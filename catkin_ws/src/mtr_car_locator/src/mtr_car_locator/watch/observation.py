@@ -47,7 +47,7 @@ class CarObservation:
     def result(self, car: CarFit, reference: CarReference, poses: PoseHistory) -> Optional[Evidence]:
         """What it tells, None when it has seen too little of the Car."""
         near = [each for each in (_near(seen, car) for seen in self._returns) if len(each.points)]
-        return reference.compare(near, car.rectangle.pose, np.array(poses.newest.covariance))
+        return reference.compare(near, car.rectangle.pose, poses.newest)
 
 
 def _near(seen: Returns, car: CarFit) -> Returns:
