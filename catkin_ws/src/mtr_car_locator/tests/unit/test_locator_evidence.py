@@ -8,7 +8,7 @@ from locator_simulation import Scene, World, car_with_bumpers
 
 from mtr_car_locator.poses import RobotPose
 from mtr_car_locator.scan import RangeBias, Returns
-from mtr_car_locator.watch.comparison import CarReference
+from mtr_car_locator.watch.comparison import CarReference, Evidence
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check
 
@@ -17,16 +17,10 @@ CAR = car_with_bumpers()
 LOOKED_AGAIN_S = 15.0
 
 
-def mapped(**scene):
-    """A world in which the Car has just been found."""
-    world = World(Scene(CAR, **scene))
-    assert world.run().state == CarState.LOCATED
-    return world
-
-
 @pytest.mark.parametrize("front_m, rear_m", [(0.02, 0.0), (0.0, 0.02), (0.02, 0.02), (-0.02, 0.02)])
 def test_range_bias_is_no_motion_of_the_car(front_m, rear_m):
-    world = mapped(range_bias=RangeBias(front_m, rear_m), pose_sigma_m=0.002)
+    world = World(Scene(CAR, range_bias=RangeBias(front_m, rear_m), pose_sigma_m=0.002))
+    world.run()
     report = world.check(3).check
     assert report.state is Check.PASSED and report.difference_m < 0.005
     # Each LiDAR in turn looks at the Car's front alone.
@@ -48,15 +42,15 @@ def look_from(world, distance_m, *, heading_off_rad):
 
 
 @pytest.mark.parametrize("distance_m, sigmas", [(7.5, 2.0), (7.5, -2.0), (4.0, 2.0)])
-def test_heading_of_the_robot_is_no_motion_of_the_car(distance_m, sigmas):
+def test_heading_of_the_robot_is_no_motion_of_the_car(world, distance_m, sigmas):
     """Of 2 mrad in 7.5 m an unmoved Car seems to be 15 mm aside."""
-    world = mapped(pose_sigma_m=0.004)
+    world.scene.pose_sigma_m = 0.004
     after = look_from(world, distance_m, heading_off_rad=sigmas * 0.5 * world.scene.pose_sigma_m)
     assert after.revision == 1 and world.error()[0] < 0.005
 
 
-def test_motion_of_the_car_is_seen_from_afar_by_a_robot_whose_heading_is_sure():
-    world = mapped(pose_sigma_m=0.004)
+def test_motion_of_the_car_is_seen_from_afar_by_a_robot_whose_heading_is_right(world):
+    world.scene.pose_sigma_m = 0.004
     world.place_car(world.car @ Pose2(0.0, 0.09, 0.0), CAR)
     after = look_from(world, 7.5, heading_off_rad=0.0)
     assert after.revision == 2
@@ -91,3 +85,36 @@ def test_what_is_left_of_a_range_bias_is_in_the_covariance_along_the_rays(locate
     free, unsure = (front_seen(located, robot, sigma_m) for sigma_m in (0.0, 0.005))
     along, across = np.sqrt(np.diag(unsure.covariance - free.covariance)[:2])
     assert along == pytest.approx(0.005, rel=0.1) and across < 0.002
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_a_corrected_frame_is_as_unsure_as_the_robot_that_saw_the_car(world, seed):
+    world.scene.pose_sigma_m, world.scene.drift_time_s = 0.01, 1e9
+    world.drift = np.random.default_rng(seed).normal(0.0, (0.01, 0.01, 0.005))
+    world.place_car(world.car @ Pose2(0.07, 0.0, 0.0), CAR)
+    after = world.stand(LOOKED_AGAIN_S)
+    assert (after.state, after.revision) == (CarState.LOCATED, 2)
+    assert min(after.sigmas[:2]) >= 0.005 and after.sigmas[2] >= 0.005
+    error = world.car.inverse() @ after.rectangle.pose
+    assert np.all(np.abs((error.x, error.y, error.heading)) < 4.0 * np.array(after.sigmas))
+
+
+def test_what_was_not_seen_of_a_moved_car_is_not_sure(world):
+    """From its middle a side tells next to nothing of where the Car stands along it."""
+    world.scene.pose_sigma_m = 0.002
+    world.pose = world.car @ Pose2(0.0, 2.5, -0.5 * math.pi)
+    world.place_car(world.car @ Pose2(0.03, 0.04, 0.0), CAR)
+    world.stand(0.5)
+    after = world.stand(LOOKED_AGAIN_S)
+    assert after.revision == 2 and after.sigmas[0] > 2.0 * after.sigmas[1]
+    assert abs((world.car.inverse() @ after.rectangle.pose).x) < 4.0 * after.sigmas[0]
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_sigmas_taken_for_independent_say_in_no_direction_less_than_the_covariance(seed):
+    mixed = np.random.default_rng(seed).normal(0.0, (0.01, 0.02, 0.005), (3, 3))
+    evidence = Evidence(np.diag((1e4, 1e4, 1e6)), np.zeros(3), {}, 100, mixed.T @ mixed)
+    beyond = np.diag(np.square(evidence.pose_sigmas)) - evidence.covariance
+    assert np.linalg.eigvalsh(beyond).min() > -1e-12
+    alone = Evidence(np.diag((1e4, 1e4, 1e6)), np.zeros(3), {}, 100, np.zeros((3, 3)))
+    assert alone.pose_sigmas == pytest.approx(np.sqrt(np.diag(alone.covariance)))

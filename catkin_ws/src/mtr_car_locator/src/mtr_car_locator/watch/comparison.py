@@ -72,6 +72,19 @@ class Evidence:
         return (math.sqrt(float(np.linalg.eigvalsh(covariance[:2, :2])[-1])), math.sqrt(float(covariance[2, 2])))
 
     @property
+    def pose_sigmas(self) -> Tuple[float, float, float]:
+        """1 sigma of the motion's x, y (m) and heading (rad), for those who take these for independent.
+
+        Each is larger than its own by what goes together with the others, such as turn and shift seen by a robot whose
+        heading is unsure: in no direction do the three together say less than the covariance.
+        """
+        covariance = self.covariance
+        sigmas = np.sqrt(np.diag(covariance))
+        # A covariance less this diagonal is diagonally dominant, and so negative in no direction.
+        x, y, heading = sigmas * np.sqrt(np.sum(np.abs(covariance) / np.outer(sigmas, sigmas), axis=1))
+        return float(x), float(y), float(heading)
+
+    @property
     def shift_m(self) -> float:
         """Shift of the Car's centre or of a side, the larger."""
         motion = self.motion

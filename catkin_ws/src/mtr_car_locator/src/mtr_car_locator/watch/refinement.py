@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
-from typing import Optional, Sequence
+from typing import Optional, Sequence, Tuple
 
 from mtr_core.se2 import Pose2, wrap_angle
 
@@ -30,10 +30,12 @@ class Change:
     Attributes:
         motion: of the Car in its own frame, None when it has gone.
         is_correction: small enough to be applied.
+        sigmas: 1 sigma of the motion's x, y (m) and heading (rad).
     """
 
     motion: Optional[Pose2]
     is_correction: bool
+    sigmas: Tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class Refinement:
@@ -76,15 +78,15 @@ class Refinement:
         return Change(None, False) if now_s - self._unseen_since_s >= UNSEEN_LIMIT_S else None
 
     def _judge(self, now_s: float, evidence: Optional[Evidence]) -> Optional[Change]:
-        motion = evidence.motion if evidence and self._is_change(evidence) else None
-        before, self._suspected = self._suspected, motion
-        if motion is None:
+        before, self._suspected = self._suspected, None
+        if evidence is None or not self._is_change(evidence):
             self._satisfied_s = now_s
             return None
+        motion = self._suspected = evidence.motion
         if before is None or not _agree(before, motion):
             return None
         self._suspected = None
-        return Change(motion, self._is_small(motion))
+        return Change(motion, self._is_small(motion), evidence.pose_sigmas)
 
     def _is_change(self, evidence: Evidence) -> bool:
         limits, motion = self._parameters, evidence.motion
