@@ -17,6 +17,7 @@ from locator_simulation import (
 )
 
 from mtr_car_locator.parameters import DataSheet, LocatorParameters
+from mtr_car_locator.scan import RangeBias
 from mtr_car_locator.survey.surface_map import MapPhase
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
@@ -120,6 +121,13 @@ def test_localization_without_a_map_leaves_the_locator_its_own_surfels():
     # The drift moves the Car as it moves the robot.
     assert world.error()[0] < 2.0 * world.scene.pose_sigma_m
     assert estimate.length_sigma > 0.02
+
+
+def test_size_of_own_surfels_is_as_unsure_as_a_range_bias_that_nobody_estimates():
+    estimate = World(Scene(CAR, maps=False, range_bias=RangeBias(0.03, 0.03))).run()
+    size = estimate.fit.in_plane
+    assert abs(size.length - 4.5) > 0.03 and abs(size.length - 4.5) < 2.0 * size.length_sigma
+    assert abs(size.width - 1.8) < 2.0 * size.width_sigma
 
 
 def test_missing_map_fails_after_its_time():

@@ -1,11 +1,12 @@
 """One mapping of the Car: the way round it, and the Car from what localization made of it."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
+import math
 from concurrent.futures import Executor
 from dataclasses import replace
 from typing import Optional, Sequence, Tuple
 
-from mtr_core import names
+from mtr_core import names, sensor_figures
 from mtr_core.problems import Problem
 from mtr_core.requests import CAR_LOCATOR, Waypoint
 from mtr_core.se2 import Pose2
@@ -112,9 +113,10 @@ class Survey:
         if self._frozen_since_s is None:
             self._frozen_since_s = now_s
         if not self._is_mapped and robot.mode is PoseMode.DEAD_RECKONING:
-            # A localization of wheels and gyro alone makes no map: what the locator has seen itself must do.
-            self.fit = self._fits.submit(fit_car, self._grid.surfels(robot.position_sigma_m), self.prior,
-                                         self._parameters).result()
+            # A localization of wheels and gyro alone makes no map: what the locator has seen itself must do, and nobody
+            # knows its ranges' biases.
+            sigma_m = math.hypot(robot.position_sigma_m, sensor_figures.ASSUMED_RANGE_BIAS_M.value)
+            self.fit = self._fits.submit(fit_car, self._grid.surfels(sigma_m), self.prior, self._parameters).result()
         elif surfaces is not None and surfaces.map_id == self.map_id:
             self.judge(surfaces)
             if robot.map_revision == surfaces.revision:
