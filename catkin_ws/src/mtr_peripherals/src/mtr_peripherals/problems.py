@@ -15,6 +15,9 @@ EMERGENCY_STOP = Sentence("peripherals.emergency_stop", "Lift and servos stand s
 EMERGENCY_ENGAGED = Sentence("peripherals.emergency_engaged", "The emergency stop of {owner} is engaged.")
 EMERGENCY_SILENT = Sentence("peripherals.emergency_silent", "The emergency stop of {owner} is silent.")
 EMERGENCY_NOT_HEARD = Sentence("peripherals.emergency_not_heard", "The emergency stop of {owner} was not heard yet.")
+EMERGENCY_NOT_RELEASED = Sentence(
+    "peripherals.emergency_not_released",
+    "The emergency stop of {owner} was engaged when it fell silent; engage it and release it again.")
 STOPPED = Sentence("peripherals.stopped", "The robot is stopped.")
 
 # The firmware

@@ -30,8 +30,30 @@ def test_engaged_one_stops_until_it_is_released(required):  # A3
     assert stops.take(word(PRESSED)) and not stops.take(word(PRESSED))
     assert PRESSED.text in stops.reason(START).text
     assert PRESSED.text in stops.reason(START + 60 * SECOND).text, "silence releases nothing"
-    assert not stops.take(word(at_ns=START + 60 * SECOND))
-    assert not stops.reason(START + 60 * SECOND)
+    later = START + 60 * SECOND
+    assert not stops.take(word(PRESSED, later)) and not stops.take(word(at_ns=later + SECOND // 10))
+    assert not stops.reason(later + SECOND // 10)
+
+
+@pytest.mark.parametrize("required", [(), ("remote",)])
+def test_engaged_one_of_an_owner_that_restarts_and_says_nothing_of_it_stays_engaged(required):  # A4
+    stops = EmergencyStops(required, 0.5)
+    stops.take(word(PRESSED))
+    for at_ns in range(START + 2 * SECOND, START + 12 * SECOND, SECOND // 10):
+        assert not stops.take(word(at_ns=at_ns))
+        assert "engage it and release it again" in stops.reason(at_ns).text
+
+
+def test_engaged_one_of_an_owner_that_restarted_is_released_after_it_was_engaged_anew():  # A4
+    stops = EmergencyStops((), 0.5)
+    anew = START + 3 * SECOND
+    for said in (word(PRESSED), word(at_ns=START + 2 * SECOND), word(PRESSED, anew), word(at_ns=anew + SECOND // 10)):
+        stops.take(said)
+    assert not stops.reason(anew + SECOND // 10)
+
+
+def test_required_owner_that_begins_engaged_stops_lift_and_servos_with_its_first_word():
+    assert EmergencyStops(("remote",), 0.5).take(word(PRESSED))
 
 
 @pytest.mark.parametrize("age_s, engaged", [(0.5, False), (0.51, True), (-0.51, True)])
