@@ -219,7 +219,16 @@ def test_emergency_stop_is_as_its_owners_say_and_engaged_when_they_are_silent():
     assert watch.at(1.4) is EmergencyStop.RELEASED and watch.at(1.6) is EmergencyStop.ENGAGED
     watch.received("controller_input", True, 2.0)
     assert watch.at(2.0) is EmergencyStop.ENGAGED
+    watch.received("controller_input", False, 2.1)
+    assert watch.at(2.1) is EmergencyStop.RELEASED
     assert EmergencyWatch(expected=True).at(1.0) is EmergencyStop.ENGAGED
+
+
+def test_emergency_stop_of_an_owner_that_restarts_and_says_nothing_of_it_stays_engaged():  # A4
+    watch = EmergencyWatch(expected=False)
+    watch.received("controller_input", True, 1.0)
+    watch.received("controller_input", False, 3.0)
+    assert watch.at(3.0) is EmergencyStop.ENGAGED
 
 
 def test_waypoint_and_its_problem_are_untouched():
