@@ -44,6 +44,9 @@ class Margins(ParameterSet):
 
     Attributes:
         keep_out_m: the footprint never gets closer to the Car's outline.
+        mirror_m: what is foremost, the key on its arm, never gets closer to the Car's side beside it. The outline is
+            that at the LiDARs' height; no LiDAR sees a mirror, which stands up to 0.25 m out of the side. Not more than
+            0.28: the key's front is 0.02 m ahead of the key, to which the application's clearance_m of 0.3 m is.
         route_margin_m: gap beside the robot on its way around the Car.
         geofence_xy: corners x, y, x, y, ... of the polygon in m that footprint and stopping distance stay in; empty:
             no bound.
@@ -51,6 +54,7 @@ class Margins(ParameterSet):
     """
 
     keep_out_m: float = number(0.10, 0.02, 1.0, "m")
+    mirror_m: float = number(0.27, 0.0, 1.0, "m")
     route_margin_m: float = number(0.25, 0.02, 2.0, "m")
     geofence_xy: Tuple[float, ...] = ()
     geofence_frame: str = "car"

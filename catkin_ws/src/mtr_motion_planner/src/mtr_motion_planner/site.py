@@ -45,7 +45,8 @@ class Site:
             raise PlanRefused(problems.CAR_NOT_LOCATED())
         self.goal = goal.pose @ parameters.slip.base_from_centre
         frame_from_car = MAP_FROM_MAP if self.in_car_frame else car.pose
-        self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], robot, parameters.margins)
+        self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], robot, parameters.margins,
+                                frame_from_car.heading)
         self.fence = self._fence(parameters, frame_from_car)
 
     def _fence(self, parameters: MotionParameters, frame_from_car: Pose2) -> Optional[Fence]:

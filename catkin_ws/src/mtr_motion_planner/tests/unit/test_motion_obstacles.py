@@ -84,7 +84,7 @@ def test_outline_without_area_or_crossing_itself_is_refused_with_a_sentence(outl
 def test_notch_of_the_outline_may_be_entered_straight():
     notched = ((2.0, 1.0), (-2.0, 1.0), (-2.0, -1.0), (-0.6, -1.0), (-0.6, -0.2), (0.6, -0.2), (0.6, -1.0), (2.0, -1.0))
     robot = SimulatedRobot(Pose2(0.0, -3.0, math.radians(90.0)), car_at(outline=notched))
-    robot.go(1, 0.0, -0.6, 90.0, Direction.FORWARD)
+    robot.go(1, 0.0, -0.75, 90.0, Direction.FORWARD)
     assert robot.run().result == Result.REACHED
     assert robot.least_clearance > 0.09
 

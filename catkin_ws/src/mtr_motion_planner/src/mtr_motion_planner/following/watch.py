@@ -3,18 +3,20 @@
 import math
 from typing import Optional
 
+import numpy as np
+
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.se2 import Pose2
 
 from .. import problems
-from ..geometry.keep_out import KeepOut
+from ..geometry.keep_out import KeepOut, rows_of
 from ..inputs import CollisionStop, RobotState, Zone
 from ..parameters import MotionParameters
 from .tracking import DELAY_S, Velocity
 
 STALL_AFTER_S = 2.0
 MOVED_M, MOVED_RAD = 0.01, math.radians(1.0)
-# The plan keeps the margin; half of it is left for errors of control before the robot is stopped.
+# The plan keeps the margins; half of the footprint's is left for errors of control before the robot is stopped.
 GUARD_SHARE = 0.5
 # A pose that leaves more room than the present one may be driven to from anywhere.
 OPENING_M = 0.002
@@ -50,12 +52,12 @@ def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: V
     """True when the robot, braking now, would come too close to the Car and closer than it is."""
     speed = max(abs(robot.speed_mps), abs(wanted.linear_mps) * 0.1)
     reach = speed ** 2 / (2.0 * parameters.limits.acceleration_mps2) + speed * DELAY_S
-    if wanted.linear_mps == 0.0 or keep_out.distance(pose) > keep_out.robot.radius_m + reach + 0.1:
+    if wanted.linear_mps == 0.0 or keep_out.turn_distance(pose) > keep_out.robot.radius_m + reach + 0.1:
         return False
     sense = robot.speed_mps if abs(robot.speed_mps) > 0.05 else wanted.linear_mps
-    clearance = keep_out.clearance(pose @ Pose2(math.copysign(reach, sense), 0.0, 0.0))
-    return (clearance < GUARD_SHARE * parameters.margins.keep_out_m
-            and clearance < keep_out.clearance(pose) - OPENING_M)
+    stopped = pose @ Pose2(math.copysign(reach, sense), 0.0, 0.0)
+    here, there = keep_out.room(np.concatenate((rows_of(pose), rows_of(stopped))))
+    return bool(((there < -GUARD_SHARE * parameters.margins.keep_out_m) & (there < here - OPENING_M)).any())
 
 
 def problem_of_drive(drive: CollisionStop) -> Problem:

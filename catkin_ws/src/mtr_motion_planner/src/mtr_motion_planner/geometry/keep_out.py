@@ -4,6 +4,7 @@ import math
 from typing import Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
+from shapely.affinity import translate
 from shapely.geometry import LineString, MultiPoint, Polygon
 from shapely.geometry import Point as ShapelyPoint
 from shapely.geometry.polygon import orient
@@ -22,6 +23,8 @@ OUTLINE_STEP_M = 0.04
 MIN_AREA_M2 = 0.05
 # A line that only grazes a zone by less than this runs along its edge.
 GRAZE_M = 0.005
+# A plan may fall short of what it has to keep away by so much.
+ROUNDING_M = 0.005
 # Sides shorter than this give way to a corner that lies no farther than that from the hull.
 SHORT_SIDE_M, CORNER_MARGIN_M = 1.0, 0.3
 
@@ -40,22 +43,25 @@ class KeepOut:
         plain: around the hull, with few corners.
     """
 
-    def __init__(self, outline: Sequence[Point], robot: RobotOutline, margins: Margins):
-        self._margins = margins
+    def __init__(self, outline: Sequence[Point], robot: RobotOutline, margins: Margins, heading: float = 0.0):
+        """heading: of the Car in the frame of the plan, rad; its sides run along it."""
+        self._margins, self._heading = margins, heading
         self.robot = robot
         self.outline = polygon_of(outline)
         self.hull: Polygon = orient(self.outline.convex_hull)
         self.plain: Polygon = plain_of(self.hull)
         self._edge = _sampled(self.outline)
+        self._edge_in_car = _rotated(*self._edge, -heading)
+        self._mirrored = _widened(self.hull, heading, max(0.0, robot.front_m + margins.mirror_m - self.pivot_gap_m))
 
     @property
     def pivot_gap_m(self) -> float:
-        """Distance of the turn centre from the Car that a turn on the spot needs."""
+        """Distance of the turn centre from the Car that the footprint needs for a turn on the spot."""
         return self.robot.radius_m + self._margins.keep_out_m
 
     @property
     def route_gap_m(self) -> float:
-        """Distance of the turn centre from the Car on the way around it; the robot can turn on the spot there."""
+        """Distance of the turn centre from the Car on the way around it; beside it the key can only turn away there."""
         return max(self.robot.half_width_m + self._margins.route_margin_m, self.pivot_gap_m + 0.02)
 
     def clearances(self, poses: FloatArray) -> FloatArray:
@@ -67,19 +73,63 @@ class KeepOut:
         aside = np.maximum(np.abs(cos * dy - sin * dx) - self.robot.half_width_m, 0.0)
         return np.sqrt((ahead * ahead + aside * aside).min(axis=1))
 
+    def key_gaps(self, poses: FloatArray) -> FloatArray:
+        """Distance across the Car of what is foremost, the key, from the side that it is beside; else infinite."""
+        front_m = self.robot.front_m
+        x, y = _rotated(poses[:, 0] + front_m * np.cos(poses[:, 2]), poses[:, 1] + front_m * np.sin(poses[:, 2]),
+                        -self._heading)
+        along, across = self._edge_in_car[0] - x[:, None], self._edge_in_car[1] - y[:, None]
+        return np.where(np.abs(along) <= OUTLINE_STEP_M, np.abs(across), np.inf).min(axis=1)
+
+    def room(self, poses: FloatArray) -> FloatArray:
+        """How much farther than they must be footprint and key (columns) are from the Car; negative: too close."""
+        clearances = self.clearances(poses)
+        # The key is part of the footprint: where that is farther away, so is the key.
+        key_gaps, is_close = np.full_like(clearances, np.inf), clearances < self._margins.mirror_m
+        key_gaps[is_close] = self.key_gaps(poses[is_close])
+        return np.column_stack((clearances - self._margins.keep_out_m, key_gaps - self._margins.mirror_m))
+
+    def least_room(self, start: Pose2) -> FloatArray:
+        """Room that a way from the start must leave: where there is too little it may not become less."""
+        return np.minimum(self.room(rows_of(start))[0], 0.0) - ROUNDING_M
+
     def clearance(self, pose: Pose2) -> float:
         """Distance of the footprint from the outline, 0 inside it."""
         if self.outline.contains(ShapelyPoint(pose.x, pose.y)):
             return 0.0
-        return float(self.clearances(np.array([[pose.x, pose.y, pose.heading]]))[0])
+        return float(self.clearances(rows_of(pose))[0])
+
+    def key_gap(self, pose: Pose2) -> float:
+        """Distance of the key from the Car's side beside it."""
+        return float(self.key_gaps(rows_of(pose))[0])
 
     def distance(self, pose: Pose2) -> float:
         """Distance of the turn centre from the hull."""
         return float(self.hull.distance(ShapelyPoint(pose.x, pose.y)))
 
+    def turn_distance(self, pose: Pose2) -> float:
+        """Distance of the turn centre from the hull, less what a turn of the key needs more beside the Car."""
+        return float(self._mirrored.distance(ShapelyPoint(pose.x, pose.y)))
+
     def crosses(self, line: Sequence[Point], gap_m: float) -> bool:
         """True when the turn centre would come closer to the hull than the gap on the line."""
         return bool(self.hull.distance(LineString(line)) < gap_m - GRAZE_M)
+
+
+def rows_of(pose: Pose2) -> FloatArray:
+    """One row of x, y, heading."""
+    return np.array([[pose.x, pose.y, pose.heading]])
+
+
+def _rotated(x: FloatArray, y: FloatArray, angle: float) -> Tuple[FloatArray, FloatArray]:
+    cos, sin = math.cos(angle), math.sin(angle)
+    return cos * x - sin * y, sin * x + cos * y
+
+
+def _widened(hull: Polygon, heading: float, by_m: float) -> Polygon:
+    """The convex hull with both sides moved outwards, across the heading."""
+    x, y = -by_m * math.sin(heading), by_m * math.cos(heading)
+    return translate(hull, x, y).union(translate(hull, -x, -y)).convex_hull
 
 
 def centres(zone: Polygon, radius: float, gap_m: float) -> List[Point]:

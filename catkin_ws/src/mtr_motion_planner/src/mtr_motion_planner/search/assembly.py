@@ -5,11 +5,12 @@ from typing import Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 
 from ..geometry.curve import trace
 from ..geometry.fence import Fence
-from ..geometry.keep_out import KeepOut
+from ..geometry.keep_out import ROUNDING_M, KeepOut
 from ..geometry.route import facing, moved
 from ..parameters import MotionParameters
 from ..timing.blend import Blend, Turns, keeps, overlapped, overlaps_of
@@ -17,7 +18,7 @@ from ..timing.motion import CurveMotion, Pivot, PlannedMotion
 from ..timing.plan import Moving, PlanPart
 from ..timing.trajectory import Trajectory
 from .candidates import MOVING_MPS, WayCandidate
-from .options import ROUNDING_M, StraightPiece
+from .options import StraightPiece
 from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
 
 # Away from start and goal a rounded corner may use up the route's margin to this share of it.
@@ -129,23 +130,23 @@ class Assembly:
 
     def timed(self, motions: Sequence[Begun], start: Pose2) -> Optional[List[PlanPart]]:
         """Motions with trajectories; None when one cannot be driven from its first speed or is not free."""
-        min_clearance_m = min(self._parameters.margins.keep_out_m, self._keep_out.clearance(start)) - ROUNDING_M
+        least_room = self._keep_out.least_room(start)
         total, done, parts = sum(motion.length_m for motion, _ in motions), 0.0, []
         for motion, speed in motions:
             trajectory = motion.timed(self._parameters.limits, self._speed, max(speed, 0.0))
-            if trajectory is None or speed < -MOVING_MPS or not self._is_free(trajectory, min_clearance_m, done, total):
+            if trajectory is None or speed < -MOVING_MPS or not self._is_free(trajectory, least_room, done, total):
                 return None
             done += motion.length_m
             parts.append(PlanPart(motion, trajectory))
         return parts
 
-    def _is_free(self, trajectory: Trajectory, min_clearance_m: float, done: float, total: float) -> bool:
+    def _is_free(self, trajectory: Trajectory, least_room: FloatArray, done: float, total: float) -> bool:
         poses, ways = trajectory.poses[::CHECKED], trajectory.ways[::CHECKED]
         along = done + (ways if trajectory.length_m else np.zeros(len(ways)))
         on_the_way = (along > ENDS_M) & (along < total - ENDS_M)
-        corner_m = max(min_clearance_m, CORNER_SHARE * self._parameters.margins.route_margin_m)
-        required_m = np.where(on_the_way, corner_m, min_clearance_m)
-        if (self._keep_out.clearances(poses) < required_m).any():
+        margins = self._parameters.margins
+        corner_room = np.maximum(least_room, (CORNER_SHARE * margins.route_margin_m - margins.keep_out_m, -ROUNDING_M))
+        if (self._keep_out.room(poses) < np.where(on_the_way[:, None], corner_room, least_room)).any():
             return False
         return self._fence is None or self._fence.holds(poses, trajectory.linear[::CHECKED])
 

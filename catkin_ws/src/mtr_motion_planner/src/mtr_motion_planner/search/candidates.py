@@ -53,7 +53,7 @@ class WayCandidates:
 
     def between(self, start: Moving, goal: Target) -> List[WayCandidate]:
         """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
-        outs = departures(start.pose, self._keep_out, self._parameters)
+        outs = departures(start.pose, self._keep_out)
         ins = arrivals(goal, self._keep_out, self._parameters)
         found = [candidate for out, into, sign in itertools.product(outs, ins, (1, -1))
                  for candidate in self._transits(start, goal.pose, out, into, sign)]

@@ -6,18 +6,18 @@ from typing import List, Sequence
 
 import numpy as np
 
+from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 from mtr_core.states import Direction
 
 from .. import problems
-from ..geometry.keep_out import KeepOut
+from ..geometry.keep_out import ROUNDING_M, KeepOut
 from ..geometry.route import moved
 from ..parameters import MotionParameters
 from ..timing.plan import PlanRefused
 
 STEP_M = 0.05
 MAX_STRAIGHT_M = 6.0
-ROUNDING_M = 0.005
 # A correction comes to the goal on a straight piece, which takes out what is left across its axis.
 CORRECTION_RUN_IN_M = 0.5
 SIGNS = {Direction.ANY: (1, -1), Direction.FORWARD: (1,), Direction.BACKWARD: (-1,)}
@@ -43,13 +43,14 @@ class Target:
     is_correction: bool = False
 
 
-def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
+def departures(start: Pose2, keep_out: KeepOut) -> List[StraightPiece]:
     """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
-    if keep_out.distance(start) >= keep_out.pivot_gap_m:
+    if keep_out.turn_distance(start) >= keep_out.pivot_gap_m:
         return [NONE]
-    min_clearance_m = min(parameters.margins.keep_out_m, keep_out.clearance(start)) - ROUNDING_M
     found = [StraightPiece(sign, length) for sign in (-1, 1)
-             for length in _free_after(start, sign, min_clearance_m, keep_out, parameters)]
+             for length in _free_after(start, sign, keep_out.least_room(start), keep_out)]
+    if keep_out.distance(start) >= keep_out.pivot_gap_m:
+        found.append(NONE)  # the key may be turned away from the Car
     if not found:
         raise PlanRefused(problems.HEMMED_IN())
     return found
@@ -57,30 +58,35 @@ def departures(start: Pose2, keep_out: KeepOut, parameters: MotionParameters) ->
 
 def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
     """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
-    if keep_out.distance(goal.pose) >= keep_out.pivot_gap_m:
-        if goal.is_correction:
-            return [StraightPiece(sign, max(parameters.run_in_m, CORRECTION_RUN_IN_M)) for sign in (1, -1)]
-        if goal.direction == Direction.ANY:
-            return [NONE]
-        return [StraightPiece(sign, parameters.run_in_m) for sign in SIGNS[goal.direction]]
-    min_clearance_m = parameters.margins.keep_out_m - ROUNDING_M
+    if keep_out.turn_distance(goal.pose) >= keep_out.pivot_gap_m:
+        return _after_a_turn(goal, parameters)
+    least_room = np.full(2, -ROUNDING_M)
     found = [StraightPiece(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
-             for length in _free_after(goal.pose, -sign, min_clearance_m, keep_out, parameters)]
+             for length in _free_after(goal.pose, -sign, least_room, keep_out)]
+    if keep_out.distance(goal.pose) >= keep_out.pivot_gap_m:
+        found += _after_a_turn(goal, parameters)  # of the key beside the Car
     if not found:
         raise PlanRefused(problems.NO_STRAIGHT_PIECE())
     return found
 
 
-def _free_after(pose: Pose2, sign: int, min_clearance_m: float, keep_out: KeepOut, parameters: MotionParameters
-                ) -> Sequence[float]:
+def _after_a_turn(goal: Target, parameters: MotionParameters) -> List[StraightPiece]:
+    if goal.is_correction:
+        return [StraightPiece(sign, max(parameters.run_in_m, CORRECTION_RUN_IN_M)) for sign in (1, -1)]
+    if goal.direction == Direction.ANY:
+        return [NONE]
+    return [StraightPiece(sign, parameters.run_in_m) for sign in SIGNS[goal.direction]]
+
+
+def _free_after(pose: Pose2, sign: int, least_room: FloatArray, keep_out: KeepOut) -> Sequence[float]:
     """Length, if any, of the shortest straight piece from the pose to where the robot may turn."""
     lengths = STEP_M * np.arange(1, math.ceil(MAX_STRAIGHT_M / STEP_M))
     poses = np.column_stack((pose.x + sign * lengths * math.cos(pose.heading),
                              pose.y + sign * lengths * math.sin(pose.heading), np.full_like(lengths, pose.heading)))
-    clear = keep_out.clearances(poses) >= min_clearance_m
+    clear = (keep_out.room(poses) >= least_room).all(axis=1)
     for length, is_clear in zip(lengths.tolist(), clear.tolist()):
         if not is_clear:
             return ()
-        if keep_out.distance(moved(pose, sign * length)) >= keep_out.route_gap_m:
+        if keep_out.turn_distance(moved(pose, sign * length)) >= keep_out.route_gap_m:
             return (length,)
     return ()

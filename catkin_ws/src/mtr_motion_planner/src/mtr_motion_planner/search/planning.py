@@ -93,10 +93,11 @@ class Planning:
             DETOUR_SHARE * start.distance_to(goal) + DETOUR_M)
 
     def _check(self, start: Pose2, goal: Pose2) -> None:
-        keep_out = self._parameters.margins.keep_out_m
-        left = self._keep_out.clearance(goal)
-        if left < keep_out:
-            raise PlanRefused(problems.GOAL_TOO_CLOSE(left_m=left, low_m=keep_out))
+        margins = self._parameters.margins
+        for left, low in ((self._keep_out.clearance(goal), margins.keep_out_m),
+                          (self._keep_out.key_gap(goal), margins.mirror_m)):
+            if left < low:
+                raise PlanRefused(problems.GOAL_TOO_CLOSE(left_m=left, low_m=low))
         if self._keep_out.clearance(start) < MIN_CLEARANCE_M:
             raise PlanRefused(problems.ROBOT_TOO_CLOSE())
         if self._fence and not self._fence.holds_pose(goal):
