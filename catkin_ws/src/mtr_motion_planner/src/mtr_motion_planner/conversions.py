@@ -29,8 +29,9 @@ def desired_from(message: Optional[RobotMode], stamp_s: float) -> Optional[Desir
     """What the state machine wants of the robot's motion."""
     if message is None:
         return None
-    return DesiredMotion(stamp_s, goal_from(message), message.max_speed_mps,
-                         message.mode == RobotMode.FOLLOWING_WAYPOINT)
+    # A robot that is held stays in its state, and no lock stands in its way.
+    follows_waypoints = message.mode == RobotMode.FOLLOWING_WAYPOINT and not message.hold_id
+    return DesiredMotion(stamp_s, goal_from(message), message.max_speed_mps, follows_waypoints)
 
 
 def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:

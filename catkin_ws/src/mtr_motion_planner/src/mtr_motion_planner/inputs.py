@@ -20,7 +20,11 @@ MAX_SPEED_MPS = 2.0
 
 @dataclass(frozen=True)
 class DesiredMotion:
-    """Where the robot shall drive, and how fast at most; from the state machine."""
+    """Where the robot shall drive, and how fast at most; from the state machine.
+
+    Attributes:
+        follows_waypoints: it would drive to a waypoint if one were wanted, and is not held.
+    """
 
     stamp_s: float
     goal: Goal

@@ -35,7 +35,7 @@ class NavGoals:
             has_goal = desired.goal.waypoint.id != 0
             if has_goal or not desired.follows_waypoints:
                 self._goal = None
-                why = "the Operator's goes before it" if has_goal else "the robot is not ready for waypoints"
+                why = "the Operator's goes before it" if has_goal else "the robot is held or not ready for waypoints"
                 self._refusal = f"The goal from rviz is dropped: {why}."
                 return desired
             return replace(desired, goal=self._goal, max_speed_mps=self._speed_mps)

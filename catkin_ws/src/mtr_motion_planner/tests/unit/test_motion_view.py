@@ -54,6 +54,18 @@ def test_goal_from_rviz_moves_nothing_in_another_state():
     assert goals.refusal() == ""
 
 
+def test_goal_from_rviz_moves_no_robot_that_is_held():
+    def wanted_id():
+        return goals.joined(desired_from(mode, 1.0)).goal.waypoint.id
+    goals, mode = NavGoals(0.4), RobotMode(mode=RobotMode.FOLLOWING_WAYPOINT, max_speed_mps=0.8)
+    goals.take(PLACE, in_car_frame=True)
+    assert wanted_id() == 1
+    mode.hold_id = 3
+    assert wanted_id() == 0 and "held" in goals.refusal()
+    mode.hold_id = 0
+    assert wanted_id() == 0, "released, it does not set off by itself"
+
+
 def test_goal_from_rviz_in_an_unknown_frame_is_none():
     message = PoseStamped()
     message.header.frame_id = "odom"
