@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/ros/conversions.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mtr_core/clock.hpp"
@@ -73,6 +74,22 @@ mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& deci
   status.blockages = counted.blockages;
   status.lock_stops = counted.lock_stops;
   return status;
+}
+
+mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& topic,
+                                    const std::vector<EngagedLock>& engaged) {
+  const auto lock = std::find_if(engaged.begin(), engaged.end(),
+                                 [&topic](const EngagedLock& candidate) { return candidate.owner == topic; });
+  mtr_msgs::MotionLock message;
+  message.header.stamp = mtr_core::stamp_of(stamp_ns);
+  message.owner = topic;
+  message.emergency = true;
+  message.engaged = lock != engaged.end();
+  if (message.engaged) {
+    message.reason = lock->reason.text;
+    message.problems = mtr_core::messages_of<mtr_msgs::Problem>(lock->reason);
+  }
+  return message;
 }
 
 std::shared_ptr<const Sweep> SweepReader::read(const Received<sensor_msgs::LaserScan>& received) {

@@ -5,6 +5,7 @@
 
 #include <geometry_msgs/Twist.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "mtr_core/names.hpp"
@@ -78,6 +79,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     : drive_control_(parameters.limits, parameters.collision,
                      shape_of(mtr_description::described_robot(), parameters.rear_lidar), kPeriodS),
       locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_core::lockstep_waiting()),
+      e_stop_topics_(parameters.e_stop_topics),
       ticker_(node, mtr_core::kDriveControl),
       manual_(node, names::kManualVelocity, mtr_core::kControllerInput, mtr_core::kClockStep.period_ns,
               parameters.manual_expected),
@@ -97,30 +99,46 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
   check_balance(parameters.limits, mtr_description::described_robot());
   check_base(parameters.base_guard ? std::string(names::kBaseGuard) + kShippedController : parameters.base_controller,
              parameters.limits);
-  listen_to_locks(node, parameters.e_stop_topics);
+  listen_to_locks(node);
   log_limits(parameters);
 }
 
-void Node::listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>& e_stop_topics) {
-  const auto hints = ros::TransportHints().tcpNoDelay();
+void Node::listen_to_locks(ros::NodeHandle& node) {
   lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
       names::kMotionLock, 50,
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
+        // What it says itself of an emergency stop comes back to it; taken, it would keep itself engaged.
+        if (is_e_stop(message->owner)) {
+          return;
+        }
         const Lock lock{mtr_core::time_of(message->header.stamp, lock_age_ns_), static_cast<bool>(message->engaged),
                         mtr_core::problem_of(message->problems, message->reason),
                         static_cast<bool>(message->emergency)};
         take(message->owner, lock);
       },
-      ros::VoidConstPtr(), hints));
-  for (const std::string& topic : e_stop_topics) {
-    lock_subscribers_.push_back(node.subscribe<std_msgs::Bool>(
-        topic, 50,
-        [this, topic](const std_msgs::Bool::ConstPtr& message) {
-          const Lock lock{ticker_.now().time_ns, static_cast<bool>(message->data), problems::kEmergencyStop()};
-          take(topic, lock);
-        },
-        ros::VoidConstPtr(), hints));
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  if (e_stop_topics_.empty()) {
+    return;
   }
+  // Lift, servos and presses stand still for these, too, and the Operator reads it: they hear motion locks.
+  e_stops_ = node.advertise<mtr_msgs::MotionLock>(names::kMotionLock, 50);
+  for (const std::string& topic : e_stop_topics_) {
+    listen_to_e_stop(node, topic);
+  }
+}
+
+void Node::listen_to_e_stop(ros::NodeHandle& node, const std::string& topic) {
+  lock_subscribers_.push_back(node.subscribe<std_msgs::Bool>(
+      topic, 50,
+      [this, topic](const std_msgs::Bool::ConstPtr& message) {
+        const Lock lock{ticker_.now().time_ns, static_cast<bool>(message->data), problems::kEmergencyStop(), true};
+        take(topic, lock);
+      },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+}
+
+bool Node::is_e_stop(const std::string& owner) const {
+  return std::find(e_stop_topics_.begin(), e_stop_topics_.end(), owner) != e_stop_topics_.end();
 }
 
 void Node::take(const std::string& owner, const Lock& lock) {
@@ -150,6 +168,9 @@ void Node::tick(const mtr_core::Instant& tick) {
   inputs.key = key_height_of(peripherals_.at(tick_ns));
   inputs.locks = locks_.engaged_at(tick_ns);
   inputs.locks_age_s = locks_.age_s();
+  for (const std::string& topic : e_stop_topics_) {
+    e_stops_.publish(e_stop_message(tick.stamp_ns, topic, inputs.locks));
+  }
   const std::vector<EngagedLock> own = own_locks();
   inputs.locks.insert(inputs.locks.begin(), own.begin(), own.end());
   inputs.manual = command_of(manual_.at(tick_ns));

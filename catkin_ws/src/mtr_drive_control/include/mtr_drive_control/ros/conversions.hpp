@@ -4,6 +4,7 @@
 #pragma once
 
 #include <mtr_msgs/DriveStatus.h>
+#include <mtr_msgs/MotionLock.h>
 #include <mtr_msgs/PeripheralsState.h>
 #include <mtr_msgs/VelocityCommand.h>
 #include <nav_msgs/Odometry.h>
@@ -13,6 +14,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mtr_core/tick_input.hpp"
 #include "mtr_drive_control/drive_control.hpp"
@@ -28,6 +30,10 @@ std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received);
 std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& received);
 std::optional<KeyHeight> key_height_of(const Received<mtr_msgs::PeripheralsState>& received);
 mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& decision, const Interventions& counted);
+
+/// What is known of the emergency stop on a topic of its own, as the lock of an owner with the topic's name.
+mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& topic,
+                                    const std::vector<EngagedLock>& engaged);
 
 /// Sweeps of one LiDAR; a message is converted once.
 class SweepReader {

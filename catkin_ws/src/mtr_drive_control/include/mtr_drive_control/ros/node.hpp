@@ -29,7 +29,8 @@ struct NodeParameters {
   CollisionParameters collision;
   /// Owners whose silence forbids motion.
   std::vector<std::string> lock_owners{"dispatcher", "state_machine"};
-  /// std_msgs/Bool topics, true: stand still; their silence forbids motion too.
+  /// std_msgs/Bool topics of emergency stops, true: stand still; their silence forbids motion too. The others hear of
+  /// them by drive control, as locks of owners with these names.
   std::vector<std::string> e_stop_topics;
   bool rear_lidar = true;
   /// Namespace of the parameters of the base's controller, which are checked at the start.
@@ -64,7 +65,9 @@ class Node {
   void spin();
 
  private:
-  void listen_to_locks(ros::NodeHandle& node, const std::vector<std::string>& e_stop_topics);
+  void listen_to_locks(ros::NodeHandle& node);
+  void listen_to_e_stop(ros::NodeHandle& node, const std::string& topic);
+  bool is_e_stop(const std::string& owner) const;
   void take(const std::string& owner, const Lock& lock);
   void tick(const mtr_core::Instant& tick);
   void publish(const mtr_core::Instant& tick, const Decision& decision);
@@ -73,6 +76,7 @@ class Node {
 
   DriveControl drive_control_;
   MotionLocks locks_;
+  std::vector<std::string> e_stop_topics_;
   mtr_core::Ticker ticker_;
   mtr_core::TickInput<mtr_msgs::VelocityCommand> manual_;
   mtr_core::TickInput<mtr_msgs::VelocityCommand> planner_;
@@ -85,6 +89,8 @@ class Node {
   InterventionCounter interventions_;
   std::int64_t lock_age_ns_ = 0;
   std::vector<ros::Subscriber> lock_subscribers_;
+  /// Locks of the emergency stops; advertised where there are any.
+  ros::Publisher e_stops_;
   ros::Publisher wheels_;
   ros::Publisher status_;
   PublisherWatch publishers_;
