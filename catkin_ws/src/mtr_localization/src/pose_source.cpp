@@ -3,6 +3,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_source.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "problems.hpp"
+
 namespace mtr_localization {
 namespace {
 
@@ -11,6 +16,11 @@ constexpr std::int64_t kLockstepLagNs = 20'000'000;
 
 std::optional<std::int64_t> lag_of(const Parameters& parameters) {
   return parameters.lockstep ? std::optional<std::int64_t>(kLockstepLagNs) : std::nullopt;
+}
+
+bool is_finite(const Estimate& estimate) {
+  return std::isfinite(estimate.x_m) && std::isfinite(estimate.y_m) && std::isfinite(estimate.heading_rad) &&
+         std::all_of(estimate.covariance.begin(), estimate.covariance.end(), [](double v) { return std::isfinite(v); });
 }
 
 }  // namespace
@@ -89,8 +99,9 @@ Estimate PoseSource::invalid(std::int64_t stamp_ns, const mtr_core::Problem& pro
 
 Estimate PoseSource::answer(std::int64_t stamp_ns, const mtr_core::Problem& problem) const {
   Estimate estimate = pose_at(stamp_ns);
-  estimate.message = problem;
-  estimate.valid = !problem;
+  // Whatever spoils it: what is no number is no place.
+  estimate.message = problem || is_finite(estimate) ? problem : problems::kNotANumber();
+  estimate.valid = !estimate.message;
   estimate.speed_mps = odometry_.speed_mps();
   estimate.yaw_rate_radps = odometry_.yaw_rate_radps();
   return estimate;

@@ -80,7 +80,7 @@ class PoseSource {
 
   /// What all estimates have in common.
   Estimate estimate_of(std::int64_t stamp_ns, const PoseVector& pose, const Eigen::Matrix3d& covariance) const;
-  /// The step's answer; valid unless there is a problem.
+  /// The step's answer; valid unless there is a problem, or the pose is no number.
   Estimate answer(std::int64_t stamp_ns, const mtr_core::Problem& problem) const;
 
  private:

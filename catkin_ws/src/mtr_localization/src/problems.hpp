@@ -43,6 +43,9 @@ constexpr Sentence kElsewhere{"localization.elsewhere",
                               "it by hand until it knows where it is."};
 constexpr Sentence kWaitingForOther{"localization.waiting_for_other",
                                     "Waiting for map to odom from the other localization."};
+constexpr Sentence kNotANumber{"localization.not_a_number",
+                               "Position lost: what localization has computed is no number. Start the robot's "
+                               "programs anew."};
 
 constexpr Sentence kDoubted{"localization.doubted",
                             "Position lost: {cause} It is taken up again when the LiDARs see what the map shows here; "

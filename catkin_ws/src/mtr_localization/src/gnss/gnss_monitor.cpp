@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "map_names.hpp"
+#include "one_instant.hpp"
 #include "problems.hpp"
 
 namespace mtr_localization {
@@ -40,7 +41,7 @@ bool GnssMonitor::add(const GnssFix& fix) {
   const bool is_position = std::isfinite(fix.latitude_rad) && std::isfinite(fix.longitude_rad) &&
                            std::abs(fix.latitude_rad) < 0.5 * M_PI && fix.antenna.allFinite();
   if (!is_position || !(fix.sigma_m > 0.0) || fix.sigma_m > kMaxSigmaM ||
-      (!waiting_.empty() && fix.stamp_ns <= waiting_.back().stamp_ns)) {
+      (!waiting_.empty() && fix.stamp_ns <= waiting_.back().stamp_ns + kOneInstantNs)) {
     ++figures_.refused;
     return false;
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mtr_core/plausible.hpp"
+#include "one_instant.hpp"
 #include "problems.hpp"
 
 namespace mtr_localization {
@@ -24,10 +25,6 @@ constexpr double kStampedLateS = 0.05;
 constexpr int kFrozenSamples = 3;
 constexpr double kMovesMps = 0.02;
 constexpr double kTurnsRadps = 0.05;
-
-// Two stamps of one instant come to lie some microseconds apart on the steady clock (mtr_core/stamp_clock.hpp). In such
-// a time the robot drives 0.1 mm at most.
-constexpr std::int64_t kOneInstantNs = 50'000;
 
 bool is_moving(const WheelSample& wheels) {
   return std::abs(wheels.linear_mps) > kMovesMps || std::abs(wheels.angular_radps) > kTurnsRadps;
@@ -60,7 +57,8 @@ bool InputGate::is_frozen(const ImuSample& sample) {
 }
 
 void InputGate::add_wheels(const WheelSample& sample) {
-  if (newest_wheels_ns_ == sample.stamp_ns) {
+  if (newest_wheels_ns_ && std::abs(sample.stamp_ns - *newest_wheels_ns_) <= kOneInstantNs) {
+    // It was sent twice: a second step of that instant would have no duration, or one of nothing but the clock's slew.
     return;
   }
   if (newest_wheels_ns_ && sample.stamp_ns < *newest_wheels_ns_) {

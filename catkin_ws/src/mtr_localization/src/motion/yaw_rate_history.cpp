@@ -4,15 +4,19 @@
 #include "motion/yaw_rate_history.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+
+#include "one_instant.hpp"
 
 namespace mtr_localization {
 
 bool YawRateHistory::add(const ImuSample& sample) {
-  const bool ordered = !newest_received_ns_ || sample.stamp_ns >= *newest_received_ns_;
+  if (newest_received_ns_ && std::abs(sample.stamp_ns - *newest_received_ns_) <= kOneInstantNs) {
+    return true;
+  }
+  const bool ordered = !newest_received_ns_ || sample.stamp_ns > *newest_received_ns_;
   if (!ordered) {
     samples_.clear();
-  } else if (newest_received_ns_ == sample.stamp_ns) {
-    return true;
   }
   newest_received_ns_ = sample.stamp_ns;
   if (sample.is_plausible()) {

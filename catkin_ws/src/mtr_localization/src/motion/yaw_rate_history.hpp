@@ -16,7 +16,8 @@ namespace mtr_localization {
 /// A sample is the mean rate since the one before it: gyros filter at the rate at which they are read.
 class YawRateHistory {
  public:
-  /// Takes the next sample. False: its stamp lies before the last one, and history begins anew with it.
+  /// Takes the next sample; a second one of an instant is left out. False: its stamp lies before the last one, and
+  /// history begins anew with it.
   bool add(const ImuSample& sample);
 
   /// Stamp of the newest sample received, good or not.

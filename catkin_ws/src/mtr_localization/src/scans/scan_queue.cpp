@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "one_instant.hpp"
+
 namespace mtr_localization {
 namespace {
 
@@ -50,7 +52,7 @@ std::string ScanQueue::problem_with(const Sweep& sweep) const {
   }
   const auto& newest_ns = newest_ns_[static_cast<std::size_t>(sweep.lidar)];
   const bool is_restart = newest_ns && sweep.stamp_ns < *newest_ns - kRestartNs;
-  if (newest_ns && sweep.stamp_ns <= *newest_ns && !is_restart) {
+  if (newest_ns && sweep.stamp_ns <= *newest_ns + kOneInstantNs && !is_restart) {
     return "A scan is not newer than the one before.";
   }
   return is_repeated(sweep) ? "A scan is the same as the one before: the LiDAR is frozen." : "";

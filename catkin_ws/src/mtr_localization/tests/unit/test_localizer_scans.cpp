@@ -187,5 +187,20 @@ TEST(ExternalPose, MapFromPosesFromElsewhereIsNotAdjusted) {
   EXPECT_FALSE(robot.newest.valid);
 }
 
+TEST(ExternalPose, PoseThatIsNoNumberIsNeverValid) {
+  PoseVector pose(1.0, 2.0, 0.0);
+  SceneDrive* drive = nullptr;
+  SceneDrive robot(scenes::lot(),
+                   std::make_unique<ExternalPose>(SceneDrive::in_lockstep({}), ExternalParameters{}, [&] {
+                     return std::optional(StampedPose{drive->now_ns, pose});
+                   }));
+  drive = &robot;
+  ASSERT_TRUE(robot.drive(0.0, 0.0, 2.0).valid);
+  pose.z() = std::numeric_limits<double>::quiet_NaN();
+  robot.tick(0.0, 0.0);
+  EXPECT_FALSE(robot.newest.valid);
+  EXPECT_EQ(robot.newest.message.code, "localization.not_a_number");
+}
+
 }  // namespace
 }  // namespace mtr_localization

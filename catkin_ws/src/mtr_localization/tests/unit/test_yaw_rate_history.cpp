@@ -61,6 +61,13 @@ TEST_F(YawRateHistoryTest, RepeatedStampIsIgnored) {
   EXPECT_DOUBLE_EQ(history.rate_at(300 * kMs), 3.0);
 }
 
+TEST_F(YawRateHistoryTest, SoIsOneOfTheSameInstantOnTheSteadyClock) {
+  EXPECT_TRUE(history.add({300 * kMs - 250, 9.0}));
+  EXPECT_TRUE(history.add({300 * kMs + 250, 9.0}));
+  EXPECT_EQ(history.newest_received_ns(), 300 * kMs);
+  EXPECT_DOUBLE_EQ(history.rate_at(300 * kMs), 3.0);
+}
+
 TEST_F(YawRateHistoryTest, LongestGapIsFoundBetweenTheTimesAsked) {
   history.add({900 * kMs, 1.0});
   EXPECT_EQ(history.max_gap_ns(100 * kMs, 300 * kMs), 100 * kMs);
