@@ -5,6 +5,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "mtr_surfel_map/adjustment/map_adjustment.hpp"
@@ -16,6 +17,9 @@ namespace {
 
 // Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
 constexpr std::int64_t kSilentNs = 300'000'000;
+// A blind robot that somebody carries notices nothing of it, and nobody carries it within a moment. A LiDAR that is off
+// for a second, or whose driver is started anew, costs no pose.
+constexpr std::int64_t kMaxBlindNs = 5'000'000'000;
 // What the growing map adds to the uncertainty of the place where the frozen one is entered.
 constexpr double kEntrySigmaM = 0.02;
 constexpr double kEntrySigmaRad = 0.005;
@@ -72,6 +76,7 @@ Estimate Localizer::step(const GatedSample& sample) {
   // Correct by what has been seen meanwhile.
   correct_by_scans();
   correct_by_satellites();
+  doubt_blind_pose();
   return estimate();
 }
 
@@ -85,7 +90,9 @@ bool Localizer::correct_by_scans() {
     } else if (judgement == Judgement::kLost) {
       relocalize(set, scan);
     }
-    last_scan_ns_ = scan.stamp_ns;
+    if (std::any_of(set.sweeps.begin(), set.sweeps.end(), [](const Sweep& sweep) { return sweep.says_anything(); })) {
+      last_scan_ns_ = scan.stamp_ns;
+    }
     if (!tracker_.lost()) {
       map(set.step, scan);
     }
@@ -124,6 +131,16 @@ void Localizer::map(std::size_t step, const ScanPoints& scan) {
 void Localizer::correct_by_satellites() {
   if (const mtr_core::Problem contradiction = gnss_.use_due(tracker_, history())) {
     tracker_.lose(contradiction);
+  }
+}
+
+void Localizer::doubt_blind_pose() {
+  if (!is_blind() || tracker_.lost() || tracker_.surfaces().surfels().empty()) {
+    return;
+  }
+  const std::int64_t confirmed_ns = std::max(last_scan_ns_, gnss_.agreed_ns());
+  if (history().newest().stamp_ns - confirmed_ns > kMaxBlindNs || tracker_.is_too_uncertain(filter())) {
+    tracker_.doubt(problems::kDoubted({{"cause", problems::kBlind()}}), true);
   }
 }
 
@@ -214,11 +231,14 @@ PoseFigures Localizer::figures() const {
 
 Estimate Localizer::estimate() const {
   const bool is_tracking = odometry().state() == MotionState::kTracking;
-  const std::int64_t stamp_ns = history().newest().stamp_ns;
-  Estimate estimate = answer(stamp_ns, is_tracking ? tracker_.lost_reason() : odometry().problem());
-  const bool is_blind = tracker_.has_map() && stamp_ns - last_scan_ns_ > kSilentNs;
-  estimate.degenerate = tracker_.degenerate() || is_blind;
+  const mtr_core::Problem& problem = is_tracking ? tracker_.lost_reason() : odometry().problem();
+  Estimate estimate = answer(history().newest().stamp_ns, problem);
+  estimate.degenerate = tracker_.degenerate() || is_blind();
   return estimate;
+}
+
+bool Localizer::is_blind() const {
+  return tracker_.has_map() && history().newest().stamp_ns - last_scan_ns_ > kSilentNs;
 }
 
 Estimate Localizer::pose_at(std::int64_t stamp_ns) const {

@@ -40,6 +40,7 @@ class Localizer : public PoseSource {
   void relocalize(const ScanSet& set, const ScanPoints& scan);
   void map(std::size_t step, const ScanPoints& scan);
   void correct_by_satellites();
+  void doubt_blind_pose();
   void begin_map();
   void take_up(const Memory& memory);
   void enter(const AdjustedMap& map);
@@ -50,6 +51,8 @@ class Localizer : public PoseSource {
   std::optional<double> turn_of(const GatedSample& sample) const;
   Estimate estimate() const;
   PoseMode mode() const;
+  /// There is a map, and no LiDAR says anything.
+  bool is_blind() const;
 
   ScanTracker tracker_;
   GnssMonitor gnss_;

@@ -51,6 +51,7 @@ constexpr Sentence kDoubted{"localization.doubted",
                             "Position lost: {cause} It is taken up again when the LiDARs see what the map shows here; "
                             "else drive or turn the robot by hand until it knows where it is."};
 constexpr Sentence kStartedAnew{"localization.started_anew", "Localization was started anew."};
+constexpr Sentence kBlind{"localization.blind", "The LiDARs have been silent, frozen or covered for too long."};
 
 // The map
 constexpr Sentence kLostOnTheWay{

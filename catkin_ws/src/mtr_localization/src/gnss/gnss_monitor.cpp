@@ -25,7 +25,9 @@ constexpr double kTwiceAsUncertain = 2.0;
 constexpr double kFarInSigmas = 5.0;
 constexpr double kFarM = 1.0;
 constexpr int kContradictions = 5;
-// A pose as good as this teaches the frame.
+// A fix that is no farther off speaks for the pose.
+constexpr double kNearInSigmas = 3.0;
+// A pose as good as this teaches the frame, and a fix as good as this speaks for a pose.
 constexpr double kKnownSigmaM = 0.1;
 
 Eigen::Matrix<double, 2, 3> antenna_by_pose(const PoseVector& pose, const Eigen::Vector2d& antenna) {
@@ -54,6 +56,7 @@ void GnssMonitor::clear() {
   waiting_.clear();
   frame_.clear();
   contradictions_ = 0;
+  agreed_ns_ = 0;
   figures_.residual_m = 0.0;
 }
 
@@ -104,6 +107,9 @@ mtr_core::Problem GnssMonitor::compare(const GnssFix& fix, const GnssPosition& s
     return problems::kElsewhere({{"distance_m", figures_.residual_m}});
   }
   contradictions_ = 0;
+  if (seen.sigma_m <= kKnownSigmaM && figures_.residual_m <= kNearInSigmas * std::hypot(seen.sigma_m, pose_sigma_m)) {
+    agreed_ns_ = fix.stamp_ns;
+  }
   if (pose_sigma_m > kTwiceAsUncertain * seen.sigma_m) {
     const double weight = 1.0 / (seen.sigma_m * seen.sigma_m);
     PoseCorrection correction;

@@ -26,6 +26,9 @@ class GnssMonitor {
   /// Uses the fixes that are due at the history's newest step; one sentence when they say that the pose is wrong.
   mtr_core::Problem use_due(const ScanTracker& tracker, FilterHistory& history);
 
+  /// Time of the newest precise fix that was where the pose is; 0: none was on this map.
+  std::int64_t agreed_ns() const { return agreed_ns_; }
+
   const GnssFigures& figures() const { return figures_; }
 
  private:
@@ -36,6 +39,7 @@ class GnssMonitor {
   GnssFrame frame_;
   GnssFigures figures_;
   int contradictions_ = 0;
+  std::int64_t agreed_ns_ = 0;
 };
 
 }  // namespace mtr_localization

@@ -42,6 +42,9 @@ struct Sweep {
   /// Time at which a LiDAR that turns without a break has sent it.
   std::int64_t end_ns() const;
 
+  /// False when no beam tells either a range or that nothing is there: the LiDAR is covered, or broken.
+  bool says_anything() const;
+
   /// One sentence on what is wrong with its header; empty when it can be used.
   std::string problem() const;
 };

@@ -150,7 +150,7 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
     is_contradicted_ = true;
     lose_sight(problems::kOtherView());
   }
-  if (history.newest().filter.position_sigma_m() > parameters_.lost_sigma_m && state_ == State::kLocalized) {
+  if (is_too_uncertain(history.newest().filter)) {
     lose_sight(problems::kOutOfView());
   }
   is_contradicted_ = is_contradicted_ || all.is_contradicted();

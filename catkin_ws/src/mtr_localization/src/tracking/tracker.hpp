@@ -42,6 +42,10 @@ class ScanTracker {
   bool is_reckoned() const { return !lost() || is_reckoned_; }
   /// The scans leave a direction free, or show something else.
   bool degenerate() const { return degenerate_; }
+  /// A pose in the adjusted map that is less certain than may be.
+  bool is_too_uncertain(const PoseFilter& filter) const {
+    return state_ == State::kLocalized && filter.position_sigma_m() > parameters_.lost_sigma_m;
+  }
   const TrackingFigures& figures() const { return figures_; }
   const SurfelMap& surfaces() const { return map_->surfaces; }
 

@@ -104,6 +104,9 @@ class SceneDrive {
       Sweep seen = sweep();
       ranges_ = lidar_is_frozen ? ranges_ : seen.ranges_m;
       seen.ranges_m = ranges_;
+      if (lidar_is_covered) {
+        std::fill(seen.ranges_m.begin(), seen.ranges_m.end(), std::numeric_limits<float>::quiet_NaN());
+      }
       EXPECT_EQ(source_->add_scan(std::move(seen)).empty(), !lidar_is_frozen);
     }
     feel(linear_mps, angular_radps);
@@ -165,6 +168,8 @@ class SceneDrive {
   bool imu_is_frozen = false;
   bool wheels_are_frozen = false;
   bool lidar_is_frozen = false;
+  /// It tells no range of any beam.
+  bool lidar_is_covered = false;
   /// What the accelerometer shows; 0: there is none.
   double gravity_mps2 = 0.0;
   /// False: the sensors work, and nothing of them arrives.

@@ -111,6 +111,13 @@ TEST_F(GnssTest, WithoutLidarsTheReceiverKeepsThePose) {
   EXPECT_LT(robot.position_sigma_m(), 0.15);
 }
 
+TEST_F(GnssTest, WithoutLidarsAReceiverThatIsAsideDoesNotVouchForThePose) {
+  robot.lidar_works = false;
+  error = {0.0, 0.5};
+  drive(0.0, 0.0, 6.0);
+  EXPECT_FALSE(robot.newest.valid);
+}
+
 TEST_F(GnssTest, WithoutLidarsAndReceiverItDrifts) {
   robot.lidar_works = receiver_works = false;
   go_on_for_long();

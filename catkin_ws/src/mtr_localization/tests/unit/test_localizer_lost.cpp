@@ -80,16 +80,21 @@ TEST_F(LocalizerLostTest, PoseThatWasContradictedIsTakenUpOnlyWhenSeveralViewsAg
 
 TEST_F(LocalizerLostTest, PoseThatIsTooUncertainIsSearchedForAndNeverCalledValidBefore) {
   robot.lidar_works = false;
+  const auto is_valid_and_uncertain = [this] {
+    return robot.newest.valid && robot.position_sigma_m() > Parameters{}.tracking.lost_sigma_m;
+  };
   for (int lap = 0; lap < 150; ++lap) {
     robot.drive(0.5, 0.0, 4.0);
+    EXPECT_FALSE(is_valid_and_uncertain()) << "lap " << lap;
     robot.drive(0.0, M_PI / 2.0, 6.0);
+    EXPECT_FALSE(is_valid_and_uncertain()) << "lap " << lap;
   }
   robot.lidar_works = true;
   robot.drive(0.0, 0.0, 0.2);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   for (int tick = 0; tick < 300; ++tick) {
     robot.tick(0.0, 0.0);
-    EXPECT_FALSE(robot.newest.valid && robot.position_sigma_m() > Parameters{}.tracking.lost_sigma_m);
+    EXPECT_FALSE(is_valid_and_uncertain());
   }
 }
 
