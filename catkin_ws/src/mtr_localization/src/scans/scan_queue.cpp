@@ -13,8 +13,8 @@ namespace {
 
 // A driver whose time jumps back farther was started anew.
 constexpr std::int64_t kRestartNs = 1'000'000'000;
-// Without wheel odometry nothing is used; then the oldest are dropped.
-constexpr std::size_t kMaxWaiting = 20;
+// Without wheel odometry nothing is used; then the oldest of each LiDAR are dropped.
+constexpr std::ptrdiff_t kMaxWaiting = 20;
 // On the robot's clock a sweep does not wait for the wheels' next message, which comes within 20 ms: over so short a
 // time a robot that brakes with 2.5 m/s2 is less than 1 mm from where it would be at constant velocity.
 constexpr std::int64_t kExtrapolatedNs = 25'000'000;
@@ -31,6 +31,8 @@ std::string ScanQueue::add(Sweep sweep) {
     ++refused_;
     return problem;
   }
+  // One whose stamps run ahead must not push out the other's.
+  const auto is_of_same = [lidar = sweep.lidar](const Sweep& other) { return other.lidar == lidar; };
   newest_ns_[static_cast<std::size_t>(sweep.lidar)] = sweep.stamp_ns;
   newest_ranges_[static_cast<std::size_t>(sweep.lidar)] = sweep.ranges_m;
   // Equal stamps stand in the order of the LiDARs, so that it does not matter whose message comes first.
@@ -38,8 +40,8 @@ std::string ScanQueue::add(Sweep sweep) {
     return std::make_pair(a.stamp_ns, a.lidar) < std::make_pair(b.stamp_ns, b.lidar);
   });
   waiting_.insert(place, std::move(sweep));
-  if (waiting_.size() > kMaxWaiting) {
-    waiting_.pop_front();
+  if (std::count_if(waiting_.begin(), waiting_.end(), is_of_same) > kMaxWaiting) {
+    waiting_.erase(std::find_if(waiting_.begin(), waiting_.end(), is_of_same));
     ++refused_;
   }
   return "";

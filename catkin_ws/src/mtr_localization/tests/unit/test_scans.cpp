@@ -190,6 +190,28 @@ TEST(ScanQueue, WithoutWheelOdometrySweepsDoNotPileUp) {
   EXPECT_EQ(queue.refused(), 80);
 }
 
+TEST(ScanQueue, LidarWhoseStampsRunAheadDoesNotPushOutTheOther) {
+  for (const std::int64_t ahead_ns : {0 * kMs, 500 * kMs, 2000 * kMs, 3'600'000 * kMs}) {
+    ScanQueue queue(std::nullopt);
+    FilterHistory history(PoseFilter(SensorParameters{}), 0);
+    int front_used = 0;
+    for (int number = 0; number < 100; ++number) {
+      const float range_m = 3.0F + 0.01F * static_cast<float>(number);
+      Sweep rear = sweep_at(number * 40 * kMs + ahead_ns, range_m);
+      rear.lidar = Lidar::kRear;
+      queue.add(rear);
+      queue.add(sweep_at(number * 40 * kMs, range_m));
+      for (const int half : {1, 2}) {
+        history.advance((2 * number + half) * 20 * kMs, {FilterInput::Kind::kMove, {0.02, 0.0, 0.0}});
+      }
+      for (const ScanSet& set : queue.take_due(history)) {
+        front_used += set.sweeps[0].lidar == Lidar::kFront ? 1 : 0;
+      }
+    }
+    EXPECT_EQ(front_used, 100) << ahead_ns;
+  }
+}
+
 TEST(FilterHistory, CorrectionInThePastCountsAsIfItHadComeInTime) {
   PoseCorrection correction;
   correction.information = Eigen::Vector3d(1e6, 1e6, 1e6).asDiagonal();
