@@ -71,13 +71,12 @@ mtr_core::Problem ExternalPose::problem_at(std::int64_t stamp_ns) const {
   return is_fresh ? mtr_core::Problem{} : problems::kWaitingForOther();
 }
 
-PoseVector ExternalPose::map_from_odom() const { return map_from_odom_ ? map_from_odom_->pose : PoseVector::Zero(); }
-
 Estimate ExternalPose::pose_at(std::int64_t stamp_ns) const {
   const double position = own_.external_position_sigma_m;
   const double heading = own_.external_heading_sigma_rad;
   const Eigen::Vector3d variances(position * position, position * position, heading * heading);
-  Estimate estimate = estimate_of(stamp_ns, compose(map_from_odom(), history().newest().odom), variances.asDiagonal());
+  const PoseVector map_from_odom = map_from_odom_.value_or(StampedPose{}).pose;
+  Estimate estimate = estimate_of(stamp_ns, compose(map_from_odom, history().newest().odom), variances.asDiagonal());
   if (odometry().state() == MotionState::kLost) {
     estimate.mode = PoseMode::kLost;
   } else if (map_from_odom_) {

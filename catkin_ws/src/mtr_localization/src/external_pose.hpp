@@ -47,7 +47,6 @@ class ExternalPose : public PoseSource {
   /// The other program may use satellites; this one does not.
   bool add_fix(const GnssFix&) override { return true; }
   const std::vector<Surfel>& surfels() const override { return no_surfels_; }
-  PoseVector map_from_odom() const override;
   bool owns_map_frame() const override { return false; }
 
  protected:

@@ -218,10 +218,6 @@ std::optional<double> Localizer::turn_of(const GatedSample& sample) const {
   return duration_s * filter().corrected_rate(angle_rad / duration_s);
 }
 
-PoseVector Localizer::map_from_odom() const {
-  return compose(filter().pose(), relative(history().newest().odom, PoseVector::Zero()));
-}
-
 PoseFigures Localizer::figures() const {
   PoseFigures figures = PoseSource::figures();
   figures.tracking = tracker_.figures();

@@ -25,7 +25,6 @@ class Localizer : public PoseSource {
 
   bool add_fix(const GnssFix& fix) override { return gnss_.add(fix); }
   const std::vector<Surfel>& surfels() const override { return tracker_.surfaces().surfels(); }
-  PoseVector map_from_odom() const override;
   bool owns_map_frame() const override { return true; }
   PoseFigures figures() const override;
   using PoseSource::filter;

@@ -47,8 +47,8 @@ class PoseSource {
   /// Surfaces of the map that is tracked.
   virtual const std::vector<Surfel>& surfels() const = 0;
 
-  /// Pose of odom in map at the newest wheel sample.
-  virtual PoseVector map_from_odom() const = 0;
+  /// The pose at the newest wheel sample, also as a scan between two samples has corrected it; not said to be valid.
+  Estimate newest() const { return pose_at(history().newest().stamp_ns); }
   /// The transform from map to odom and the grid /map are this source's to publish.
   virtual bool owns_map_frame() const = 0;
 

@@ -125,12 +125,13 @@ mtr_msgs::LocalizedPose message_of(const Estimate& estimate) {
   return message;
 }
 
-geometry_msgs::TransformStamped map_from_odom_message(const Estimate& estimate, const std::array<double, 3>& odom) {
+geometry_msgs::TransformStamped map_from_odom_message(std::int64_t stamp_ns, const Estimate& estimate,
+                                                      const std::array<double, 3>& odom) {
   const PoseVector pose(estimate.x_m, estimate.y_m, estimate.heading_rad);
   const PoseVector base(odom[0], odom[1], odom[2]);
   const PoseVector map_from_odom = compose(pose, relative(base, PoseVector::Zero()));
-  return transform_message(estimate.stamp_ns, {mtr_core::names::kMap, mtr_core::names::kOdom, map_from_odom.x(),
-                                               map_from_odom.y(), map_from_odom.z()});
+  return transform_message(stamp_ns, {mtr_core::names::kMap, mtr_core::names::kOdom, map_from_odom.x(),
+                                      map_from_odom.y(), map_from_odom.z()});
 }
 
 geometry_msgs::TransformStamped transform_message(std::int64_t stamp_ns, const Transform2& parent_from_child) {

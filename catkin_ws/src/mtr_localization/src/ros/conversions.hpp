@@ -53,8 +53,10 @@ struct Transform2 {
   double heading_rad = 0.0;
 };
 
+/// @param stamp_ns of the transform
 /// @param odom base_link in the frame odom that is published: x, y (m), heading (rad)
-geometry_msgs::TransformStamped map_from_odom_message(const Estimate& estimate, const std::array<double, 3>& odom);
+geometry_msgs::TransformStamped map_from_odom_message(std::int64_t stamp_ns, const Estimate& estimate,
+                                                      const std::array<double, 3>& odom);
 geometry_msgs::TransformStamped transform_message(std::int64_t stamp_ns, const Transform2& parent_from_child);
 
 }  // namespace mtr_localization

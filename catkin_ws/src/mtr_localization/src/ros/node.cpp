@@ -175,7 +175,7 @@ void Node::receive_sweep(Sweep sweep) {
   if (source_->use_scans()) {
     load_.add(timer.elapsed_ms(), 1);
     if (source_->owns_map_frame()) {
-      outputs_.publish_map_from_odom(stamp_of(end_ns), source_->map_from_odom());
+      outputs_.publish_map_from_odom(stamp_of(end_ns), source_->newest());
     }
   }
 }

@@ -66,20 +66,22 @@ void Outputs::publish_map(const MapResult& result, bool with_grid) {
            1e3 * result.map.range_bias.value_m[1]);
 }
 
-void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom) {
+const std::array<double, 3>& Outputs::odom_of(const Estimate& estimate) const {
+  return publish_odom_tf_ ? estimate.odom : estimate.wheel_odom;
+}
+
+void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const Estimate& corrected) {
   // Sweeps of two LiDARs may end at one instant, or at that of a pose.
-  if (!map_stamps_.note(stamp_ns)) {
-    return;
+  if (map_stamps_.note(stamp_ns)) {
+    transforms_.sendTransform(map_from_odom_message(stamp_ns, corrected, odom_of(corrected)));
   }
-  transforms_.sendTransform(transform_message(
-      stamp_ns, {names::kMap, names::kOdom, map_from_odom.x(), map_from_odom.y(), map_from_odom.z()}));
 }
 
 void Outputs::publish_transforms(const Estimate& estimate, bool with_map) {
-  const auto& odom = publish_odom_tf_ ? estimate.odom : estimate.wheel_odom;
+  const std::array<double, 3>& odom = odom_of(estimate);
   std::vector<geometry_msgs::TransformStamped> messages;
   if (with_map && map_stamps_.note(estimate.stamp_ns)) {
-    messages.push_back(map_from_odom_message(estimate, odom));
+    messages.push_back(map_from_odom_message(estimate.stamp_ns, estimate, odom));
   }
   if (publish_odom_tf_) {
     messages.push_back(transform_message(estimate.stamp_ns, {names::kOdom, names::kBase, odom[0], odom[1], odom[2]}));

@@ -6,6 +6,7 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -28,10 +29,12 @@ class Outputs {
 
   /// A new map before the first pose that is in it, then the estimates.
   void publish(PoseSource& source, const std::vector<Estimate>& estimates, const WorkLoad& load);
-  /// Between two estimates: where the newest scan puts odom.
-  void publish_map_from_odom(std::int64_t stamp_ns, const PoseVector& map_from_odom);
+  /// Between two estimates: where odom is by the pose that the newest scan has corrected.
+  void publish_map_from_odom(std::int64_t stamp_ns, const Estimate& corrected);
 
  private:
+  /// Base_link in the odom of tf: x, y (m), heading (rad).
+  const std::array<double, 3>& odom_of(const Estimate& estimate) const;
   void publish_map(const MapResult& result, bool with_grid);
   void publish_transforms(const Estimate& estimate, bool with_map);
   void publish_each_second(const PoseSource& source, const Estimate& estimate, const WorkLoad& load);
