@@ -56,6 +56,11 @@ class LocalizationTf(unittest.TestCase):
         # It was a turn in which the two are far apart.
         self.assertGreater(abs(math.remainder(headings[-1] - headings[0], 2.0 * math.pi)), 4.0 * LARGEST_STEP_RAD)
 
+    def test_transform_of_another_program_needs_the_odom_of_localization(self):
+        node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=False,
+                           pose_source="external", publish_odom_tf=False)
+        self.assertEqual(node.exit_status(), 2)
+
     def drive(self, turn_radps, duration_s):
         """The sensors speak at their rates, by the clock on the wall."""
         begin_ns = (rospy.Time.now().to_nsec() // STEP_NS + 1) * STEP_NS

@@ -55,6 +55,12 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   reader.read("rear_lidar", parameters.rear_lidar);
   reader.read("pose_source", parameters.pose_source, {"own", "external"});
   reader.read("memory_folder", parameters.memory_folder);
+  if (parameters.pose_source == "external" && !parameters.publish_odom_tf) {
+    // The other program's transform would end at the base's odom, which drifts away from the one that is known here.
+    throw mtr_core::ConfigurationError(
+        "Parameter pose_source is external and publish_odom_tf false; allowed is external with publish_odom_tf true, "
+        "and the base has to leave odom to base_link to localization.");
+  }
   return parameters;
 }
 
