@@ -75,6 +75,21 @@ def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, 
     assert not later.window.welcome.offer.isVisible()
 
 
+def test_test_of_another_profile_does_not_go_on_and_says_why(operator, notice):
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    operator.click(operator.window.header.stop)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
+    operator.wait(screen.resume.isEnabled)
+    operator.model.test.progress.session["car profile"] = "my_car"
+    operator.click(screen.resume)
+    operator.wait(lambda: notice)
+    assert "begun at a real Car" in notice[0] and operator.model.phase is Phase.PAUSED
+    operator.model.test.progress.session["car profile"] = "substitute"
+    operator.click(screen.resume)
+    operator.finish()
+
+
 def test_offer_can_be_dismissed_until_the_next_start_and_the_file_stays__B13(operator, start, qtbot):
     screen = operator.begin()
     operator.wait(lambda: operator.model.done >= 1)

@@ -100,6 +100,25 @@ def test_ctrl_c_stops_the_robot_saves_and_can_be_continued(parameters, tmp_path,
     assert len(results) == 8
 
 
+def test_continued_test_refuses_another_car_profile_before_the_robot_moves(parameters, tmp_path, world, robot_link,
+                                                                           capsys):
+    out = tmp_path / "out"
+    world.spoil = lambda status: status if status.id < 200 else None
+    assert run("autolock", parameters, out, "--car-profile", "mtr_demo_car", "--robot", "192.168.0.10") == 2
+    measured, world.spoil = (out / "progress.json").read_text(encoding="utf-8"), lambda status: status
+    count = robot_link.status_id
+    for others, sentence in ((["--car-profile", "mtr_honest_car"], "demo_car, and now it is mtr_honest_car;"),
+                             (["--simulated-car"], "begun at a real Car"), (["--simulated-robot"], "a real robot")):
+        capsys.readouterr()
+        assert run("autolock", parameters, out, "--continue", out / "progress.json", *others) == 2
+        assert sentence in capsys.readouterr().err
+    assert (robot_link.status_id, (out / "progress.json").read_text(encoding="utf-8")) == (count, measured)
+
+    assert run("autolock", parameters, out, "--continue", out / "progress.json", "--robot", "192.168.0.11") == 0
+    assert json.loads((out / "progress.json").read_text(encoding="utf-8"))["session"]["robot"] == \
+        "192.168.0.10, 192.168.0.11"
+
+
 def test_lost_link_keeps_the_lines_and_says_how_to_go_on(parameters, tmp_path, world, capsys):
     world.spoil = lambda status: status if status.id < 200 else None
     assert run("autolock", parameters, tmp_path / "out") == 2

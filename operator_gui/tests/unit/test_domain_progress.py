@@ -1,7 +1,9 @@
 """Progress files: round trip, and a sentence for every file that does not fit."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import dataclasses
 import json
+import math
 import os
 import pathlib
 import resource
@@ -136,9 +138,21 @@ def test_missing_file_is_a_sentence(tmp_path):
 
 
 def test_another_car_is_a_sentence(progress):
-    progress.check_car(CarDimensions(4.4, 1.9, 0.02, 0.02))
+    progress.check_car(CarDimensions(4.42, 1.86, 0.02, 0.02))
     with pytest.raises(ProgressFileError, match=r"length was 4\.50 m, now it measures 4\.20 m"):
         progress.check_car(CarDimensions(4.2, 1.8, 0.02, 0.02))
+
+
+@pytest.mark.parametrize(("sigma_m", "apart_m", "is_other"), [
+    # Sure of both sizes: 14 cm are another Car, and what two mappings of one differ by is none.
+    (0.005, 0.14, True), (0.005, 0.02, False), (0.0, 0.019, False), (0.0, 0.021, True),
+    # Unsure, or as sure as nobody knows.
+    (0.05, 0.14, False), (0.05, 0.16, True), (0.87, 0.16, True), (math.nan, 0.14, False), (math.nan, 0.16, True)])
+def test_car_mapped_anew_is_the_same_within_its_own_sigmas(progress, sigma_m, apart_m, is_other):
+    progress.car = CarDimensions(4.5, 1.8, sigma_m, sigma_m)
+    for length, width in ((4.5 - apart_m, 1.8), (4.5, 1.8 + apart_m)):
+        with pytest.raises(ProgressFileError, match="another Car") if is_other else contextlib.nullcontext():
+            progress.check_car(CarDimensions(length, width, sigma_m, sigma_m))
 
 
 def test_measured_lines_are_not_overwritten(path):

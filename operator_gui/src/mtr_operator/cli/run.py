@@ -12,14 +12,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import (
-    CONTINUED,
-    ROBOT_SOFTWARE,
-    SUBSTITUTE,
-    now,
-    session_record,
-    written,
-)
+from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE, SUBSTITUTE, now, session_record
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.assessment import Assessment
@@ -34,6 +27,7 @@ from mtr_operator.storage import progress_file
 from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given, calibration_of
 from mtr_operator.storage.journal.beside import JournalBeside
+from mtr_operator.storage.means import Means
 from mtr_operator.storage.parameter_file import load_parameters
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
@@ -100,14 +94,14 @@ class CommandLineRun:
             progress_file.refuse_to_overwrite(path, FILE_NAMES)
         parameters = self._parameters.to_mapping()
         if continued is None:
-            progress = Progress(self._scenario.name, parameters, _session_record(self._options))
+            progress = Progress(self._scenario.name, parameters, session_record(now(), *_means(self._options)))
             self._given.give(progress)
             self._identity.give(progress)
             return progress
         progress = progress_file.load_progress(continued, self._scenario, parameters)
         self._given.compare(progress)
         self._identity.compare(progress)
-        progress.session[CONTINUED] = written(now())
+        _means(self._options).go_on(progress)
         return progress
 
     def _measure(self, display: Display, interrupt: Interrupt, store: Store) -> None:
@@ -131,7 +125,7 @@ class CommandLineRun:
             person = HandleQuestion(display.say, enter).person
             loop.person, loop.switcher, loop.phone = person, person, self._phone
             rejected_before = loop.status.rejected_messages
-            self._progress.session[ROBOT_SOFTWARE] = loop.status.software_version
+            self._progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)
             display.outlook = Outlook(self._scenario, self._parameters, car.facts, self._progress)
             display.say(display.outlook.before(loop.status))
             try:
@@ -181,9 +175,9 @@ class CommandLineRun:
         print(f"{len(results)} lines measured{tail}; results are in {self._options.out}.")
 
 
-def _session_record(options: argparse.Namespace) -> dict[str, str]:
-    return session_record(now(), SUBSTITUTE if options.simulated_robot else options.robot,
-                          SUBSTITUTE if options.simulated_car else options.car_profile)
+def _means(options: argparse.Namespace) -> Means:
+    return Means(SUBSTITUTE if options.simulated_robot else options.robot,
+                 SUBSTITUTE if options.simulated_car else options.car_profile)
 
 
 def _say_statistics(display: Display, robot: RobotLink, rejected: int) -> None:

@@ -30,7 +30,7 @@ from mtr_operator.station.events import (
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.readiness import Phase
 from mtr_operator.station.settings_file import SettingsStore
-from mtr_operator.station.test import NOTHING_SAID, note_continued, open_test
+from mtr_operator.station.test import NOTHING_SAID, go_on, open_test
 from mtr_operator.storage.given_files import GivenPaths
 from mtr_operator.storage.identity_file import GivenIdentity
 
@@ -130,18 +130,26 @@ class Flow(QObject):
         self.show(Step.MEASUREMENT)
 
     def resume(self) -> None:
-        """Measure what is left of the test at hand."""
+        """Measure what is left of the test at hand; failed follows when it was begun with other means."""
+        self._goes_on()
+
+    def _goes_on(self) -> bool:
         test = self.model.current_test
-        if self.model.results:
-            note_continued(test)
+        try:
+            go_on(test, self.connecting.connection)
+        except OperatorError as error:
+            test.again = ()
+            self.failed.emit(str(error))
+            return False
         self.model.begin()
         self.connecting.links.run_test(test)
+        return True
 
     def measure_again(self, numbers: Sequence[int]) -> None:
         """Measure lines of the test at hand once more; their former results stay in its journal."""
         self.model.current_test.again = tuple(numbers)
-        self.resume()
-        self.show(Step.MEASUREMENT)
+        if self._goes_on():
+            self.show(Step.MEASUREMENT)
 
     def stop(self) -> None:
         """Stop the robot, whatever it does: the stop has left when this returns. The line that is being measured is

@@ -12,7 +12,7 @@ from typing import Iterator
 from mtr_operator.domain.identity.identity import Identity, Photo
 from mtr_operator.domain.results.journal import IDENTITY
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import ANNOTATED, CONTINUED, SUBSTITUTE, now, session_record, written
+from mtr_operator.domain.results.session_record import ANNOTATED, SUBSTITUTE, now, session_record, written
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -20,6 +20,7 @@ from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given
 from mtr_operator.storage.identity_file import GivenIdentity
 from mtr_operator.storage.journal.beside import JournalBeside
+from mtr_operator.storage.means import Means
 from mtr_operator.storage.photos import copy_photos, discard_photos, keep_photos, photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME, free_path, holds_no_other, open_progress
 from mtr_operator.storage.recovery import progress_path
@@ -152,7 +153,7 @@ def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: path
              connection: Connection, given: Given | None = None, *, who: GivenIdentity = NOTHING_SAID) -> Test:
     """A test that has measured nothing yet; without anything given it has no limits and the design's calibration."""
     started = now()
-    session = session_record(started, connection.robot.host, profile_name(connection.can))
+    session = session_record(started, *_means(connection))
     path = free_path(folder / f"{scenario.name}_{started.strftime(_MOMENT)}.json")
     progress = Progress(scenario.name, parameters.to_mapping(), session)
     (given or Given()).give(progress)
@@ -180,6 +181,10 @@ def open_test(path: pathlib.Path) -> Test:
     return Test(scenario, parameters, progress, progress_path(path))
 
 
-def note_continued(test: Test) -> None:
-    """Say in the progress that the test goes on now."""
-    test.progress.session[CONTINUED] = written(now())
+def go_on(test: Test, connection: Connection) -> None:
+    """Note that the test goes on now, or begins; ProgressFileError when it was begun with other means than these."""
+    _means(connection).go_on(test.progress)
+
+
+def _means(connection: Connection) -> Means:
+    return Means(connection.robot.host, profile_name(connection.can))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass, field
 from typing import Any, Mapping
 
@@ -20,8 +21,10 @@ from .line_result import LineResult
 
 FORMAT = "mtr-operator progress"
 VERSION = 1
-# A Car that measures this much differently on a later day is another Car.
-SAME_CAR_M = 0.15
+# A Car that measures this much differently on a later day is another Car, however unsure both sizes are; one that
+# differs by less than the second is the same, however sure they are.
+SAME_CAR_M, _NO_OTHER_CAR_M = 0.15, 0.02
+_SIGMAS = 3.0
 
 
 @dataclass(frozen=True)
@@ -95,6 +98,11 @@ class Progress:
             raise ValueError("No Car has been mapped in this test.")
         return self.car
 
+    def note_used(self, what: str, name: str) -> None:
+        """What is used from now on stands in the record, behind what something was measured with before."""
+        before = self.session.get(what, "") if self.has_findings else ""
+        self.session[what] = ", ".join(dict.fromkeys(filter(None, (*before.split(", "), name))))
+
     def begin_line(self, number: int) -> None:
         """A line is begun from its start; what was measured on it before stays in the journal."""
         self.line_at_hand = number
@@ -152,9 +160,12 @@ class Progress:
             return
         for name in ("length", "width"):
             then, now = getattr(self.car, name), getattr(mapped, name)
-            if abs(now - then) > SAME_CAR_M:
+            sigma_m = math.hypot(getattr(self.car, f"{name}_sigma"), getattr(mapped, f"{name}_sigma"))
+            # A sigma that is not known (NaN) leaves the first one.
+            if abs(now - then) > max(_NO_OTHER_CAR_M, min(SAME_CAR_M, _SIGMAS * sigma_m)):
                 raise ProgressFileError(f"The progress file belongs to another Car: its {name} was {then:.2f} m, "
-                                        f"now it measures {now:.2f} m.")
+                                        f"now it measures {now:.2f} m. Continue the test at the Car with which it was "
+                                        "begun, or begin a new one.")
 
 
 def car_from(document: Mapping[str, Any]) -> CarDimensions:

@@ -25,13 +25,15 @@ ENCRYPTED = "encrypted"
 # the frames.
 CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
 CAN_ADAPTER_OF_BUS = CAN_ADAPTER + " of the bus {}"
-CAR_PROFILE = "car profile"
+ROBOT, CAR_PROFILE = "robot", "car profile"
 # Only in the record of a test with a robot that tells the time of day.
 CLOCK_OFFSET = "robot's clock ahead of the laptop's by"
 # Only in the record of a test whose robot had one since it was started.
 PREFLIGHT = "robot's preflight"
 # What stands in the record for the robot or the profile where a substitute took its part.
 SUBSTITUTE = "substitute"
+# The window names the robot's substitute so, and a campaign its own with what it simulates behind a colon.
+_SIMULATED = "simulated"
 # Only in the record of a test in which something tells the distance of a phone.
 PHONE_FEED = "phone's distance from"
 REFUSED_REPORTS = "distances of the phone that were not used"
@@ -43,11 +45,16 @@ def session_record(started: datetime.datetime, robot: str, car_profile: str) -> 
     return {
         STARTED: written(started),
         "software": f"mtr-operator {__version__}",
-        "robot": robot,
+        ROBOT: robot,
         CAR_PROFILE: car_profile,
         "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
         "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
     }
+
+
+def is_simulated(robot: str) -> bool:
+    """True when the robot of a record is none."""
+    return robot.partition(":")[0] in (SUBSTITUTE, _SIMULATED)
 
 
 def controller_record(name: str) -> dict[str, str]:

@@ -125,7 +125,8 @@ SENTENCES = (
     *cars.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
-    QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m."),
+    QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m. "
+                                  "Continue the test at the Car with which it was begun, or begin a new one."),
     QT_TRANSLATE_NOOP("Sentence", "The file {} cannot be written: {}."),
     QT_TRANSLATE_NOOP("Sentence", "Results cannot be written to the folder {}: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The settings in {} were not used. {}"),

@@ -3,6 +3,16 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with the simulated robot; continue it with that one, or begin a "
+                                  "new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with a real robot, and now it is the simulated one; continue it "
+                                  "with a real one, or begin a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with the simulated Car; continue it with that one, or begin a "
+                                  "new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun at a real Car, and now it is the simulated one; continue it at "
+                                  "the real one, or begin a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The test was begun with the car profile {}, and now it is {}; continue it with that "
+                                  "of before, or begin a new test."),
     QT_TRANSLATE_NOOP("Sentence", "The test in {} does not say which car profile it had; name one (--car-profile)."),
     QT_TRANSLATE_NOOP("Sentence", "There is no recording of the test in {}; tests of this version and later have one."),
     QT_TRANSLATE_NOOP("Sentence", "Of {} lines nothing was recorded ({})."),

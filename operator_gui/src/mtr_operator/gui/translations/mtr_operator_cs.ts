@@ -4076,11 +4076,6 @@
     </message>
     <message>
         <location filename="../texts/application.py" line="9"/>
-        <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m.</source>
-        <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m.</translation>
-    </message>
-    <message>
-        <location filename="../texts/application.py" line="9"/>
         <source>The file {} cannot be written: {}.</source>
         <translation>Soubor {} nelze zapsat: {}.</translation>
     </message>
@@ -6873,6 +6868,36 @@
         <location filename="../texts/pairing.py" line="5"/>
         <source>Others may write {}; say chmod {} {}.</source>
         <translation>Do {} mohou zapisovat i jiní; spusťte chmod {} {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m. Continue the test at the Car with which it was begun, or begin a new one.</source>
+        <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m. Pokračujte v testu u auta, se kterým začal, nebo začněte nový.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test was begun with the simulated robot; continue it with that one, or begin a new test.</source>
+        <translation>Test začal se simulovaným robotem; pokračujte s ním, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test was begun with a real robot, and now it is the simulated one; continue it with a real one, or begin a new test.</source>
+        <translation>Test začal se skutečným robotem a nyní je to simulovaný; pokračujte se skutečným, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test was begun with the simulated Car; continue it with that one, or begin a new test.</source>
+        <translation>Test začal se simulovaným autem; pokračujte s ním, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test was begun at a real Car, and now it is the simulated one; continue it at the real one, or begin a new test.</source>
+        <translation>Test začal u skutečného auta a nyní je to simulované; pokračujte u skutečného, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The test was begun with the car profile {}, and now it is {}; continue it with that of before, or begin a new test.</source>
+        <translation>Test začal s profilem auta {} a nyní je to {}; pokračujte s tím původním, nebo začněte nový test.</translation>
     </message>
 </context>
 <context>

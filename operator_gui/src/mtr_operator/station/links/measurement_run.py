@@ -110,7 +110,7 @@ class MeasurementRun:
                 loop.course = recording.begin(self._car)
                 with self._event_log.told_to(recording.event), run_told(self._event_log, test.progress.has_findings), \
                         test.written_beside(store) as journal:
-                    test.progress.session[ROBOT_SOFTWARE] = loop.status.software_version
+                    test.progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)
                     Runner(test.scenario, test.parameters, loop, test.progress, lambda _: self._save(journal),
                            journal=journal, again=test.again).run()
             finally:
