@@ -10,7 +10,7 @@ from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.ports import PASSIVE_ENTRY
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.robot_status import Interventions
+from mtr_operator.domain.robot_status import CarFrame, Interventions
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
@@ -54,6 +54,63 @@ def test_one_more_pass_is_slow_only_about_where_the_first_one_says_that_the_car_
     assert driven == [(pytest.approx(slow_m, abs=0.006), FORWARD, 1.0), (0.5, FORWARD, 0.1), (3.5, BACKWARD, 0.1)]
     assert after.unlock_pass_speeds_mps == after.lock_pass_speeds_mps == pytest.approx((0.4, 0.1, 0.1))
     assert after.unlock_distance_m == before.unlock_distance_m
+
+
+@pytest.fixture
+def measured(robot_link, car_link):
+    """A runner that has measured all axes."""
+    progress, loop = Progress("autolock", TWO.to_mapping()), ControlLoop(robot_link, car_link)
+    runner = Runner(SCENARIO, TWO, loop, progress, lambda _: None)
+    runner.run()
+    return runner, progress, SCENARIO.lines(TWO, loop.car_dimensions)[0]
+
+
+def test_axis_of_the_present_frame_gets_one_more_pass(measured):
+    runner, progress, line = measured
+    assert runner._measure_line_further(line)
+    assert len(progress.results[0].unlock_pass_distances_m) == 3
+
+
+@pytest.mark.parametrize("when", ["before", "on the way"])
+def test_axis_of_a_frame_before_gets_no_more_attempts_and_stays_as_it_is(measured, world, robot_link, when):
+    runner, progress, line = measured
+    before, lines, done = progress.results[0], dict(progress.frame_record.lines), len(robot_link.answers)
+
+    def correct(status):
+        world.frame = CarFrame(2, 0.08, 0.0, 0.0)
+        return status
+    if when == "before":
+        correct(None)
+        # As the robot stood: the frame of the next Status is the new one.
+        runner._loop.step()
+        done = len(robot_link.answers)
+    else:
+        world.spoil = correct
+    assert not runner._measure_line_further(line)
+    assert (progress.results[0], progress.frame_record.lines) == (before, lines)
+    if when == "before":
+        assert len(robot_link.answers) == done
+
+
+def test_line_that_nobody_knows_the_frame_of_gets_no_more_attempts(measured):
+    runner, progress, line = measured
+    del progress.frame_record.lines["1"]
+    assert not runner._measure_line_further(line)
+
+
+@pytest.mark.parametrize("kept", ["lock", "unlock 2"])
+def test_passes_of_two_frames_are_not_mixed_and_the_axis_stays_in_that_of_the_first(run_scenario, world, kept):
+    """The frame is corrected between the passes, where nothing is watched, or in the middle of the second one."""
+    def correct(status):
+        if status.stamp_s > 5.0 and kept in run_scenario.progress.points:
+            world.frame = CarFrame(2, 0.08, 0.0, 0.0)
+        return status
+    world.spoil = correct
+    first, second, *_ = run_scenario(SCENARIO, TWO)
+    record = run_scenario.progress.frame_record
+    assert (len(first.unlock_pass_distances_m), len(second.unlock_pass_distances_m)) == (1, 2)
+    assert (first.unlock_status.value, first.lock_status.value) == ("ok", "ok")
+    assert [record.frames[record.lines[number]].revision for number in ("1", "2")] == [0, 2]
 
 
 def test_axis_on_which_the_car_did_not_lock_again_has_no_more_pass(further):

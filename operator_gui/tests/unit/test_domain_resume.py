@@ -198,3 +198,17 @@ def test_line_finished_before_a_check_that_fails_does_not_count(laptop, world):
         laptop.run()
     assert INTERRUPTED not in laptop.progress.measured()
     assert set(laptop.progress.points) == {"unlock", "lock"}
+
+
+def test_line_finished_before_a_check_that_corrects_the_frame_stays_in_its_own(laptop, world):
+    laptop.reload()
+    world.check = CarCheck(1, CheckState.PASSED, 0.03, 0.0, 0.1, 0.1)
+
+    def correct(status):
+        if world.checked_id:
+            correct_the_frame(world)
+        return status
+    world.spoil = correct
+    laptop.run()
+    record = laptop.progress.frame_record
+    assert [record.frames[record.lines[str(number)]].revision for number in (1, INTERRUPTED, 3)] == [0, 0, 2]

@@ -107,7 +107,7 @@ class Runner:
         if parameters.self_check:
             self._check_car()
         if half is not None:
-            self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame()})
+            self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame_of_line()})
         self._measure(lines)
         self._measure_further(lines)
         self._loop.refusals.keep()
@@ -164,6 +164,11 @@ class Runner:
 
     def _frame(self) -> Any:
         return None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)
+
+    def _frame_of_line(self) -> Any:
+        """That in which the line at hand was measured: one that was corrected behind its points says nothing of it."""
+        point = next(iter(self._progress.points.values()), None)
+        return self._frame() if point is None else point.frame
 
     def _finish_half_line(self, lines: Sequence[Line]) -> LineResult | None:
         """Result of the line on which the test was interrupted, when it can be finished; it counts when the Car stands
@@ -223,16 +228,26 @@ class Runner:
                 waiting[number] = line
 
     def _measure_line_further(self, line: Line) -> bool:
-        """True when the line has a new result, and more attempts may tell more."""
+        """True when the line has a new result, and more attempts may tell more; none of another Car frame may."""
+        if not self._is_in_its_frame(line):
+            return False
         self._car.wait_for_bus()
         self._notebook.add(FURTHER, {"line": line.number})
         so_far = next(result for result in self._progress.results if result.number == line.number)
         with self._at_hand(line):
             result = self._scenario.measure_further(line, self._parameters, self._robot, self._car, so_far)
-        if result is None:
+        if result is None or not self._is_in_its_frame(line):
             return False
         self._keep_line(result)
         return not result.invalid_count
+
+    def _is_in_its_frame(self, line: Line) -> bool:
+        newest = self._loop.frames.newest
+        if newest is not None and self._progress.frame_record.is_of(line.number, newest):
+            return True
+        self._warn(f"The Car coordinate system is another one than that of {self._scenario.line_word} {line.number}, "
+                   "which gets no more attempts.")
+        return False
 
     def _measure_line(self, line: Line) -> None:
         self._car.wait_for_bus()
@@ -256,7 +271,7 @@ class Runner:
             self._notebook.add(SKIPPED, {"line": line.number})
 
     def _keep_line(self, result: LineResult) -> None:
-        self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame()})
+        self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame_of_line()})
         self._loop.settle()
         self._save(self._progress)
         self._loop.settle()

@@ -11,7 +11,7 @@ from ..geometry.pose import Pose
 from ..geometry.ray import Ray
 from ..requests import Direction, Press, Waypoint
 from ..results.course import UNWATCHED
-from ..results.frame_history import frame_from
+from ..results.frame_history import KnownFrame, frame_from
 from ..results.journal import DECISION, POINT, PRESS, KeptPoint, plain_fields
 from ..results.line_result import LineResult, LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
@@ -52,6 +52,11 @@ class Robot:
     def now_s(self) -> float:
         """Robot time."""
         return self._loop.now_s
+
+    @property
+    def frame(self) -> KnownFrame | None:
+        """Car coordinate system that poses are in now, None before the Car was found."""
+        return self._loop.frames.newest
 
     @property
     def rest_s(self) -> float:
@@ -174,7 +179,7 @@ class Robot:
 
     def kept_point(self, word: str) -> tuple[LineStatus, Distance] | None:
         """The same with what became of it, for a place where nothing happened says something too."""
-        point, frame = self._kept.get(word), self._loop.frames.newest
+        point, frame = self._kept.get(word), self.frame
         if point is None or point.distance is None or frame is None:
             return None
         measured_in = frame_from(point.frame)
@@ -194,7 +199,7 @@ class Robot:
         """
         self._loop.journal.add(POINT, {
             "word": word, "status": status.value, "distance": None if distance is None else plain_fields(distance),
-            "frame": None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)})
+            "frame": None if self.frame is None else plain_fields(self.frame)})
         # Nobody reads of what follows from it before it is safe.
         self._loop.settle()
 

@@ -86,6 +86,12 @@ class FrameRecord:
         if known is not None:
             self.lines[str(number)] = self._index_of(known)
 
+    def is_of(self, number: int, known: KnownFrame) -> bool:
+        """True when a line was measured in this frame; of a line whose frame is not known nobody can say so."""
+        index = self.lines.get(str(number))
+        # When it began says when this run of the application saw it first.
+        return index is not None and replace(self.frames[index], since_s=0.0) == replace(_entry_of(known), since_s=0.0)
+
     def note_check(self, entry: CheckEntry, known: KnownFrame | None) -> None:
         """A self-check has ended while the robot was in this frame."""
         self.checks.append(replace(entry, frame=None if known is None else self._index_of(known)))
@@ -100,13 +106,16 @@ class FrameRecord:
             yield f"self-check at {check.robot_time_s:.1f} s: {check.state}{check.figures}"
 
     def _index_of(self, known: KnownFrame) -> int:
-        frame = known.frame
-        entry = FrameEntry(f"{known.robot_session_id:x}", frame.revision, round(known.since_s, 3),
-                           round(frame.correction_x, 6), round(frame.correction_y, 6),
-                           round(frame.correction_heading, 6))
+        entry = _entry_of(known)
         if entry not in self.frames:
             self.frames.append(entry)
         return self.frames.index(entry)
+
+
+def _entry_of(known: KnownFrame) -> FrameEntry:
+    frame = known.frame
+    return FrameEntry(f"{known.robot_session_id:x}", frame.revision, round(known.since_s, 3),
+                      round(frame.correction_x, 6), round(frame.correction_y, 6), round(frame.correction_heading, 6))
 
 
 def record_from(document: Any) -> FrameRecord:

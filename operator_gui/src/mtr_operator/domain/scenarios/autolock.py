@@ -165,6 +165,8 @@ def _further(course: Course, first: AxisPass, passes: Sequence[AxisPass], robot:
                     raise
                 done = [each for each in done if each.lock.time_s < error.since_s]
                 robot.say(f"warning: pass {planned.number} of this axis was not measured. {error}")
+                if course.is_frame_left:
+                    return done
             else:
                 done.append(planned)
                 break

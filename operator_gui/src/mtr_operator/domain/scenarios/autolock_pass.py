@@ -14,6 +14,7 @@ from ..actions.trouble import LineInvalid
 from ..geometry.axes import Axis
 from ..ports import PASSIVE_ENTRY, LockState
 from ..requests import Direction
+from ..results.frame_history import KnownFrame
 from ..results.line_result import LineStatus
 from .autolock_parameters import AutolockParameters
 from .autolock_result import LOCK, UNLOCK, pass_word
@@ -59,6 +60,14 @@ class Course:
         self._parameters = parameters
         self._robot = robot
         self._car = car
+        # Of the first pass, None before it.
+        self._frame: KnownFrame | None = None
+
+    @property
+    def is_frame_left(self) -> bool:
+        """True when the robot has another Car coordinate system than in the first pass, so that none belongs to it."""
+        now = self._robot.frame
+        return self._frame is not None and (now is None or not now.is_same(self._frame))
 
     def measure(self, this: AxisPass, former: AxisPass | None = None) -> None:
         """Fill a pass, with what is kept of it; former: one that tells where the Car reacts. Raises LineInvalid."""
@@ -67,6 +76,9 @@ class Course:
         _take_up(this.lock, self._robot.kept(lock_word))
         if this.unlock.distance is None:
             slow_m = self._go_to_start() if former is None else self._go_back(former)
+        if self.is_frame_left:
+            raise LineInvalid("The Car coordinate system was corrected during the measurement.")
+        self._frame = self._robot.frame
         with self._robot.watched(self._parameters) as watch:
             if this.unlock.distance is None:
                 self._approach(this, watch, slow_m)

@@ -3,6 +3,8 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "The Car coordinate system is another one than that of {} {}, which gets no more "
+                                  "attempts."),
     QT_TRANSLATE_NOOP("Sentence", "The test was begun with the simulated robot; continue it with that one, or begin a "
                                   "new test."),
     QT_TRANSLATE_NOOP("Sentence", "The test was begun with a real robot, and now it is the simulated one; continue it "

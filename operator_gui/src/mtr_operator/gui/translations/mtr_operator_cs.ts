@@ -6899,6 +6899,11 @@
         <source>The test was begun with the car profile {}, and now it is {}; continue it with that of before, or begin a new test.</source>
         <translation>Test začal s profilem auta {} a nyní je to {}; pokračujte s tím původním, nebo začněte nový test.</translation>
     </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The Car coordinate system is another one than that of {} {}, which gets no more attempts.</source>
+        <translation>Souřadnicová soustava auta je jiná než ta, ve které byla změřena {} {}; další pokusy nepřibudou.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
