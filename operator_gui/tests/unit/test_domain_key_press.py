@@ -8,6 +8,7 @@ import pytest
 
 from mtr_operator.domain.errors import InvalidParameter, RobotFailed
 from mtr_operator.domain.ports import KEY_BUTTON, PASSIVE_ENTRY, LockFacts
+from mtr_operator.domain.results.figure import Figure, Kind, figure_of
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.key_press import SCENARIO
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
@@ -98,6 +99,25 @@ def test_each_place_gets_all_its_attempts(run_scenario):
     results = run_scenario(SCENARIO, replace(PARAMETERS, attempts=3))
     assert results[0].attempts == 7
     assert results[0].failed_distance_m == pytest.approx(5.5)
+
+
+def test_place_whose_second_attempt_works_is_none_that_failed(run_scenario, world):
+    take, lapsed = world.take, set()
+
+    def lapse(desired):
+        """The first press at 5 m on each radial finds the Car deaf."""
+        press, radial = desired.press, round(math.atan2(*world.key()), 1)
+        is_lapsing = (press is not None and press.id not in world.pressed and radial not in lapsed
+                      and math.hypot(*world.key()) == pytest.approx(5.0, abs=0.05))
+        world.press_range_m = 0.0 if is_lapsing else 5.2
+        lapsed.update([radial] if is_lapsing else [])
+        take(desired)
+    world.take = lapse
+    results = run_scenario(SCENARIO, replace(PARAMETERS, attempts=2))
+    assert [result.attempts for result in results] == 4 * [6] and len(lapsed) == 4
+    for result in results:
+        assert (result.distance_m, result.failed_distance_m) == pytest.approx((5.0, 5.5), abs=0.01)
+        assert figure_of(result.distances[0]) == Figure(Kind.BETWEEN, result.distance_m, result.failed_distance_m)
 
 
 def test_reaction_after_the_time_limit_is_invalid_and_says_so(run_scenario):  # B10

@@ -155,7 +155,8 @@ def _press_here(radial: Ray, watch: LineWatch, measured: _Measured, parameters: 
         if made.worked and _is_confirmed(radial, watch, measured, parameters, robot):
             measured.success = made.place
             return True
-        measured.failure = made.place
+    # A place at which one of the attempts works is none at which they fail.
+    measured.failure = made.place
     return False
 
 
