@@ -24,6 +24,7 @@ from mtr_operator.car_link.bus import CanCarLink
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.further.companions import Companions
 from mtr_operator.car_link.further.cycles import CycleCheck
+from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.actions.lock_history import Expected, LockHistory
 from mtr_operator.domain.actions.trouble import LineInvalid
@@ -72,6 +73,42 @@ def test_what_contradicts_a_change_is_its_doubt(bench, change, words):
     bench.count += change.get("count", 1)
     bench.run(1.5)
     assert any(words in event.doubt for event in bench.events)
+
+
+@pytest.mark.parametrize(("lines", "words"), [
+    ((KEY,), "did not say which key moved its locks, and number 3 is under test"),
+    ((COUNTER,), "Events was silent"), ((CAUSE, COUNTER, ALIVE, KEY), "did not say which key")])
+def test_message_that_has_fallen_silent_vouches_for_no_change(tmp_path, monkeypatch, lines, words):
+    bench, send = Bench(written(tmp_path, *lines)), LockWatch.frame
+    assert bench.change(1).doubt == ""
+    monkeypatch.setattr(LockWatch, "frame",
+                        lambda watch, frame: None if frame.can_id == CAUSE_ID else send(watch, frame))
+    bench.run(5.0)
+    assert words in bench.change(0, key=5).doubt
+    monkeypatch.undo()
+    bench.run(1.0)
+    assert bench.change(1).doubt == ""
+
+
+@pytest.mark.parametrize("late_s", [-0.4, 0.4])
+def test_message_that_comes_once_about_a_change_vouches_for_it(tmp_path, monkeypatch, late_s):
+    bench, send = Bench(written(tmp_path, COUNTER, KEY)), LockWatch.frame
+    told_s = bench.now_s + 1.0 + late_s
+    monkeypatch.setattr(LockWatch, "frame", lambda watch, frame: send(watch, frame) if frame.can_id == STATE_ID
+                        or abs(frame.arrival_s - told_s) < 0.03 else None)
+    bench.count += 1
+    bench.run(1.0)
+    event = bench.change(1, count=0)
+    assert (event.doubt, event.key_number) == ("", 3)
+
+
+def test_key_that_is_not_told_is_none_where_any_may_be_tested(tmp_path, monkeypatch):
+    bench, send = Bench(written(tmp_path, KEY.replace(", under_test: 3", ""))), LockWatch.frame
+    monkeypatch.setattr(LockWatch, "frame",
+                        lambda watch, frame: None if frame.can_id == CAUSE_ID else send(watch, frame))
+    bench.run(5.0)
+    event = bench.change(1)
+    assert (event.doubt, event.key_number) == ("", None)
 
 
 def test_two_causes_of_one_change_contradict_each_other(bench):

@@ -82,20 +82,31 @@ class Companions:
         sources, raws = self._causes(change_s)
         key = self._key(change_s)
         return Told(next(iter(sources), ""), "" if sources else next(iter(raws), ""), key,
-                    self._doubt(change_s, sources, key))
+                    next(self._doubts(change_s, sources, key), ""))
 
-    def _doubt(self, change_s: float, sources: list[str], key: int | None) -> str:
+    def _doubts(self, change_s: float, sources: list[str], key: int | None) -> Iterator[str]:
         if len(set(sources)) > 1:
-            return f"The Car's bus names two causes of one change, {sources[0]} and {sources[-1]}."
+            yield f"The Car's bus names two causes of one change, {sources[0]} and {sources[-1]}."
         under_test = self._further.key_under_test
-        if key is not None and under_test is not None and key != under_test:
-            return f"The key with the number {key} moved the Car's locks, and number {under_test} is under test."
-        still = next((place for place in self._further.counters if self._stood_still(place, change_s)), None)
-        if still is not None:
-            return f"The Car's locks moved on its bus, and {still.signal} counted nothing."
+        if under_test is not None and key is None:
+            yield (f"The Car's bus did not say which key moved its locks, and number {under_test} is under test; "
+                   "increase cause_within_s of the car profile if it says so later.")
+        elif under_test is not None and key != under_test:
+            yield f"The key with the number {key} moved the Car's locks, and number {under_test} is under test."
+        for counter in self._further.counters:
+            yield from self._doubts_of(counter, change_s)
         if self._open:
-            return f"The Car's locks moved while {', '.join(sorted(self._open))} was open."
-        return ""
+            yield f"The Car's locks moved while {', '.join(sorted(self._open))} was open."
+
+    def _doubts_of(self, counter: Place, change_s: float) -> Iterator[str]:
+        """None where too little was seen before the change to say that it was not counted."""
+        kept, around = self._values[counter.key, counter.signal], self._around(counter, change_s)
+        before = [value for time_s, value in kept if time_s < change_s - self._further.within_s]
+        if not around:
+            yield (f"The Car's locks moved on its bus, and {counter.signal} was silent; increase cause_within_s of the "
+                   "car profile if it counts later.")
+        elif before and around[-1] == before[-1]:
+            yield f"The Car's locks moved on its bus, and {counter.signal} counted nothing."
 
     def _causes(self, change_s: float) -> tuple[list[str], list[str]]:
         """Causes that are listed, and values that are not."""
@@ -112,16 +123,12 @@ class Companions:
 
     def _key(self, change_s: float) -> int | None:
         place = self._further.key
-        values = [] if place is None else self._about(place, change_s, 0.0) or self._about(
-            place, change_s, self._further.within_s)
+        values = [] if place is None else self._about(place, change_s, 0.0) or self._around(place, change_s)
         return values[-1] if values else None
 
-    def _stood_still(self, place: Place, change_s: float) -> bool:
-        """False where too little was seen to say so."""
-        kept, within_s = self._values[place.key, place.signal], self._further.within_s
-        before = [value for time_s, value in kept if time_s < change_s - within_s]
-        after = self._about(place, change_s, within_s)
-        return bool(before and after) and after[-1] == before[-1]
+    def _around(self, place: Place, change_s: float) -> list[int]:
+        """Values from before and behind a change: a counter may be told with either."""
+        return self._about(place, change_s, self._further.within_s)
 
     def _about(self, place: Place, change_s: float, before_s: float) -> list[int]:
         """Values of a signal from so long before a change to the end of the window behind it."""

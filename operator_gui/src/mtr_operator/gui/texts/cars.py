@@ -34,6 +34,10 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The Car's bus names two causes of one change, {} and {}."),
     QT_TRANSLATE_NOOP("Sentence", "The key with the number {} moved the Car's locks, and number {} is under test."),
     QT_TRANSLATE_NOOP("Sentence", "The Car's locks moved on its bus, and {} counted nothing."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's bus did not say which key moved its locks, and number {} is under test; "
+                                  "increase cause_within_s of the car profile if it says so later."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's locks moved on its bus, and {} was silent; increase cause_within_s of the "
+                                  "car profile if it counts later."),
     QT_TRANSLATE_NOOP("Sentence", "The Car's locks moved while {} was open."),
     QT_TRANSLATE_NOOP("Sentence", "The Car was {} by something that its profile does not list ({}), not by {}; leave "
                                   "its doors and switches alone during the test."),

@@ -6904,6 +6904,16 @@
         <source>The Car coordinate system is another one than that of {} {}, which gets no more attempts.</source>
         <translation>Souřadnicová soustava auta je jiná než ta, ve které byla změřena {} {}; další pokusy nepřibudou.</translation>
     </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car&apos;s bus did not say which key moved its locks, and number {} is under test; increase cause_within_s of the car profile if it says so later.</source>
+        <translation>Sběrnice auta neřekla, který klíč změnil jeho zámky, a testuje se číslo {}; pokud to říká později, zvyšte cause_within_s v profilu auta.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>The Car&apos;s locks moved on its bus, and {} was silent; increase cause_within_s of the car profile if it counts later.</source>
+        <translation>Zámky auta se podle sběrnice změnily a {} mlčel; pokud počítá později, zvyšte cause_within_s v profilu auta.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
