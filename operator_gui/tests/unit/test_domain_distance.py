@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.actions.distance import distance_to_outline, measure, outline_sigma
+from mtr_operator.domain.actions.distance import distance_to_outline, measure, measure_at, outline_sigma
 from mtr_operator.domain.actions.pose_history import PoseHistory, PoseSample, PoseUnknown
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.geometry.ray import Ray
@@ -64,6 +64,52 @@ def test_uncertainty_is_the_root_of_the_sum_of_squares():
     sample = PoseSample(1.0, Pose(0.0, 3.0, 0.0), 0.4, 0.03, 0.02, 0.25, 0.0)
     expected = math.sqrt(0.03 ** 2 + (0.02 * 0.25) ** 2 + (0.4 * 0.1) ** 2 + 0.01 ** 2)
     assert measure(LEFT, sample, 0.1, 0.01).uncertainty_m == pytest.approx(expected)
+
+
+def test_time_counts_by_the_speed_or_by_where_the_key_was_about_the_instant():
+    sample, near = (PoseSample(1.0, Pose(0.0, y, -math.pi / 2), 0.4, 0.0, 0.0, 0.25, 0.0) for y in (3.0, 3.1))
+    assert measure(LEFT, sample, 0.1, 0.0, [near, sample]).uncertainty_m == pytest.approx(math.sqrt(0.1 ** 2 / 2.0))
+    assert measure(LEFT, sample, 0.1, 0.0, [sample]).uncertainty_m == pytest.approx(0.04)
+
+
+SPEED_MPS, BRAKES_MPS2, STOPS_S, STOPS_M = 0.4, 0.5, 10.0, 0.5
+
+
+def stopping(time_s):
+    """Distance of the key, and speed, of an approach that ends."""
+    left_s = max(STOPS_S - time_s, 0.0)
+    braking_s = min(left_s, SPEED_MPS / BRAKES_MPS2)
+    return (STOPS_M + BRAKES_MPS2 * braking_s ** 2 / 2.0 + SPEED_MPS * (left_s - braking_s),
+            min(BRAKES_MPS2 * left_s, SPEED_MPS))
+
+
+def stopping_poses(until_s=13.0):
+    """A Status each 0.1 s."""
+    told = ((8.0 + 0.1 * index, *stopping(8.0 + 0.1 * index)) for index in range(round((until_s - 8.0) * 10.0) + 1))
+    return history(*(replace(status(stamp_s, 0.9 + 0.25 + distance_m), speed_mps=speed_mps, position_sigma_m=0.004)
+                     for stamp_s, distance_m, speed_mps in told))
+
+
+@pytest.mark.parametrize("cycle_s", [0.1, 0.4, 0.77])
+def test_change_within_a_cycle_in_which_the_robot_came_to_a_stand_is_within_3_sigma(cycle_s):
+    poses, ratios = stopping_poses(), []
+    for changed_s in (STOPS_S - 0.35, *(9.0 + 0.05 * index for index in range(40))):
+        for phase in range(8):
+            frame_s = changed_s + phase / 8.0 * cycle_s
+            measured = measure_at(LEFT, poses, frame_s - cycle_s / 2.0, math.hypot(cycle_s / math.sqrt(12.0), 0.004))
+            ratios.append(abs(stopping(changed_s)[0] - measured.distance_m) / measured.uncertainty_m)
+    assert max(ratios) <= 3.0
+
+
+def test_time_counts_as_before_where_the_speed_is_the_same_all_the_while():
+    measured = measure_at(LEFT, stopping_poses(), 8.5, 0.1)
+    assert measured.uncertainty_m == pytest.approx(math.hypot(0.004, 0.1 * SPEED_MPS))
+
+
+@pytest.mark.parametrize("time_s", [8.0, 8.5])
+def test_instants_without_a_pose_say_nothing_of_where_the_key_was(time_s):
+    measured = measure_at(LEFT, stopping_poses(8.5), time_s, 0.1)
+    assert measured.uncertainty_m == pytest.approx(math.hypot(0.004, 0.1 * SPEED_MPS))
 
 
 def test_heading_does_not_count_when_the_key_lies_on_the_ray():

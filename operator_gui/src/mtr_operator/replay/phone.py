@@ -7,7 +7,7 @@ from typing import Mapping
 
 from mtr_operator.car_link.phone.car_signal import CarSignalFeed, PhoneSignal, is_bus_feed
 from mtr_operator.car_link.profile import CarProfile
-from mtr_operator.domain.actions.distance import Distance, measure
+from mtr_operator.domain.actions.distance import Distance, measure_at
 from mtr_operator.domain.actions.pose_history import PoseHistory
 from mtr_operator.domain.distance_feed import Reported
 from mtr_operator.domain.geometry.ray import Ray
@@ -59,7 +59,7 @@ class ReplayedPhone:
         PoseUnknown, or LineInvalid, when nobody knows where the phone was.
         """
         def key_distance(ray: Ray, time_s: float, origin_sigma_m: float) -> Distance:
-            return measure(ray, poses.at(time_s), 0.0, origin_sigma_m)
+            return measure_at(ray, poses, time_s, 0.0, origin_sigma_m)
 
         line = self._places[number]
         stood = stood_at(line, made, self._parameters, self._car, key_distance)

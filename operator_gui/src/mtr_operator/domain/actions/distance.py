@@ -4,7 +4,9 @@ The uncertainty is 1 sigma, the root of the sum of squares of independent parts:
     position    of base_link in the Car coordinate system along the ray, or in its worst direction when the robot does
                 not say more; the error of the Car's centre and heading is in it and is not added again,
     heading     sigma of the heading times the lever from base_link to the key across the ray,
-    time        sigma of the instant (the CAN message's cycle is part of it) times the robot's speed,
+    time        sigma of the instant (the CAN message's cycle is part of it) times the robot's speed, or how far the key
+                was from there about that instant, as the root of its mean square, whichever is more: at the end of a
+                way the robot stands, and may have moved within the cycle,
     outline     half the sigma of the Car's length and width, as far as they move the ray's origin: what is missing
                 from the error of the Car's centre to that of the side that was seen.
 It is NaN when the robot does not say how well it knows its pose.
@@ -14,13 +16,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, fields, replace
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 from ..geometry.pose import Point, wrap_angle
 from ..geometry.ray import Ray
 from ..ports import CarEvent
 from ..robot_status import CarDimensions
-from .pose_history import PoseSample
+from .pose_history import PoseHistory, PoseSample
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,8 @@ class Distance:
         return replace(self, source=event.source, key_number=event.key_number, doors=event.doors)
 
 
+# An instant that is as likely anywhere within a cycle of the message, as one is that a cyclic message tells.
+_END_PER_SIGMA = math.sqrt(3.0)
 # In a record what is not known is null; of these it is NaN here, of a key's number None.
 _MAY_BE_NAN = {each.name for each in fields(Distance) if each.type == "float"}
 
@@ -69,16 +73,26 @@ def recorded_values(distance: Distance | None) -> tuple[float | None, float | No
             round(distance.robot_time_s, 6))
 
 
-def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
-    """Distance on a ray when base_link is at the sample."""
+def measure_at(ray: Ray, poses: PoseHistory, time_s: float, time_sigma_s: float,
+               origin_sigma_m: float = 0.0) -> Distance:
+    """Distance on a ray at an instant of robot time; PoseUnknown when the pose then is not known well enough."""
+    return measure(ray, poses.at(time_s), time_sigma_s, origin_sigma_m,
+                   poses.about(time_s, _END_PER_SIGMA * time_sigma_s))
+
+
+def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: float = 0.0,
+            about: Sequence[PoseSample] = ()) -> Distance:
+    """Distance on a ray when base_link is at the sample; about: poses at instants, evenly spread, that may be the one
+    meant instead."""
     key_in_base = (sample.key_x, sample.key_y)
     lever_x, lever_y = sample.pose.rotate(key_in_base)
     across_m = ray.direction_y * lever_x - ray.direction_x * lever_y
-    sigma_m = math.hypot(position_sigma(ray, sample), sample.heading_sigma_rad * across_m,
-                         time_sigma_s * sample.speed_mps, origin_sigma_m)
-    return Distance(ray.distance_of(sample.pose.apply(key_in_base)), sigma_m, sample.stamp_s,
-                    ray.offset_of(sample.pose.apply(key_in_base)), wrap_angle(sample.pose.heading - ray.heading),
-                    sample.key_height_m, sample.speed_mps)
+    distance_m = ray.distance_of(sample.pose.apply(key_in_base))
+    moved_m = [ray.distance_of(each.pose.apply(key_in_base)) - distance_m for each in about]
+    time_m = max(abs(time_sigma_s * sample.speed_mps), math.hypot(*moved_m) / math.sqrt(max(len(moved_m), 1)))
+    sigma_m = math.hypot(position_sigma(ray, sample), sample.heading_sigma_rad * across_m, time_m, origin_sigma_m)
+    return Distance(distance_m, sigma_m, sample.stamp_s, ray.offset_of(sample.pose.apply(key_in_base)),
+                    wrap_angle(sample.pose.heading - ray.heading), sample.key_height_m, sample.speed_mps)
 
 
 def position_sigma(ray: Ray, sample: PoseSample) -> float:

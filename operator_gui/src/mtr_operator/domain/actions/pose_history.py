@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import bisect
+import contextlib
 import math
 from collections import deque
 from dataclasses import dataclass
@@ -19,6 +20,8 @@ KEPT_S = 60.0
 STANDING_MPS = 0.02
 # A pose is at most that old when it is sent. So long after the robot's clock was set a stamp may be one of before.
 _MAX_AGE_S = 1.0
+# Middles of eight equal parts of a span about 0 whose ends are -1 and 1.
+_PARTS = tuple((2 * index - 7) / 8.0 for index in range(8))
 
 
 class PoseUnknown(Exception):
@@ -107,6 +110,15 @@ class PoseHistory:
         if gap_s > MAX_GAP_S:
             raise PoseUnknown(f"The robot's pose is unknown for {gap_s:.1f} s around the instant {time_s:.3f} s.")
         return _between(before, after, (time_s - before.stamp_s) / gap_s, time_s)
+
+
+    def about(self, time_s: float, half_s: float) -> tuple[PoseSample, ...]:
+        """Poses at instants that are spread evenly up to so long before and behind an instant; those that are known."""
+        found = []
+        for part in _PARTS if half_s > 0.0 else ():
+            with contextlib.suppress(PoseUnknown):
+                found.append(self.at(time_s + part * half_s))
+        return tuple(found)
 
 
 def _is_known(status: RobotStatus) -> bool:

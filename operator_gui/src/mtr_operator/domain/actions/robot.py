@@ -16,7 +16,7 @@ from ..results.journal import DECISION, POINT, PRESS, KeptPoint, plain_fields
 from ..results.line_result import LineResult, LineStatus
 from ..robot_status import CarCheck, CheckState, PressReport, RobotStatus, WaypointResult
 from .control_loop import ControlLoop
-from .distance import Distance, distance_from, measure
+from .distance import Distance, distance_from, measure_at
 from .line_watch import LineWatch
 from .pose_history import PoseUnknown
 from .tolerances import Tolerances
@@ -164,7 +164,7 @@ class Robot:
         if not math.isfinite(time_sigma_s):
             raise LineInvalid("The instant of the event is not known.")
         try:
-            return measure(ray, self._loop.poses.at(time_s), time_sigma_s, origin_sigma_m)
+            return measure_at(ray, self._loop.poses, time_s, time_sigma_s, origin_sigma_m)
         except PoseUnknown as error:
             raise LineInvalid(str(error)) from None
 
