@@ -81,7 +81,7 @@ def _capability_texts(found: Capability | None) -> list[str]:
     if found is None:
         return []
     indices = (("Cpk, by repeatability", found.within), ("Ppk, by reproducibility", found.overall))
-    return [f"{name}: {index.value:.2f}, 95 % {index.low:.2f} to {index.high:.2f}" for name, index in indices]
+    return [f"{name}: {index.value:.2f}, 95 % {interval_text(index.low, index.high)}" for name, index in indices]
 
 
 def show_trend(options: argparse.Namespace) -> int:

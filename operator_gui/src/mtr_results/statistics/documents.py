@@ -60,7 +60,7 @@ def capability_document(found: Capability | None) -> Document:
 
 
 def _index(index: Index) -> Document:
-    return {"value": index.value, "low": index.low, "high": index.high}
+    return {"value": index.value, "low": finite(index.low), "high": finite(index.high)}
 
 
 def _component(component: Component) -> Document:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
+from dataclasses import replace
 
 import measured
 import numpy as np
@@ -14,6 +15,7 @@ from mtr_operator.history.estimate import Known, estimate
 from mtr_operator.history.same_lines import Tests
 from mtr_results.statistics.capability import capability
 from mtr_results.statistics.comparison import AREA, NEARER, NOT_SHOWN, compare_sets
+from mtr_results.statistics.documents import capability_document
 from mtr_results.statistics.multiplicity import chance, holm
 from mtr_results.statistics.trend import trend
 
@@ -163,10 +165,29 @@ def test_interval_of_an_index_holds_about_as_often_as_it_says():
     held = 0
     for _ in range(400):
         values = generator.normal(2.0, 0.1, 20)
-        spread = Spread(20, float(values.mean()), (Component("repeat", 20, float(values.std(ddof=1)), 0.0, 1.0),))
-        index = capability(spread, 1.6, None).overall
+        index = capability(components(values, {}), 1.6, None).overall
         held += index.low <= 0.4 / 0.3 <= index.high
     assert 0.92 <= held / 400 <= 0.98
+
+
+def test_interval_of_ppk_knows_how_few_cars_there_were():
+    generator, held = np.random.default_rng(5), 0
+    for _ in range(200):
+        cars_m = np.repeat(generator.normal(0.0, 1.0, 3), 5)
+        spread = components(cars_m + generator.normal(0.0, 0.3, 15), {"car": np.repeat(list("abc"), 5)})
+        index = capability(spread, -4.0, None).overall
+        held += index.low <= 4.0 / (3.0 * math.hypot(1.0, 0.3)) <= index.high
+    assert held / 200 >= 0.9
+
+
+def test_end_that_the_components_do_not_bound_is_open():
+    spread = Spread(4, 2.0, (Component("key", 2, 0.1, 0.0, math.inf), Component("repeat", 4, 0.0, 0.0, 0.1)))
+    assert capability(spread, 1.0, None) is None
+    spread = replace(spread, components=(spread.components[0], Component("repeat", 4, 0.01, 0.0, 0.1)))
+    overall = capability(spread, 1.0, None).overall
+    assert overall.low < overall.value < overall.high and math.isfinite(overall.low)
+    assert capability(spread, 1.0, None).within.high == math.inf
+    assert capability_document(capability(spread, 1.0, None))["cpk"]["high"] is None
 
 
 def test_trend_marks_what_is_beyond_its_limits_and_only_that():
