@@ -17,7 +17,7 @@ TWO = AutolockParameters(measurements_distance_m=10.0, passes=2, measuring_speed
 SHARED_M = 0.03
 
 
-def axis(distances_m, speeds_mps, sigma_m=None, told_every_s=0.0):
+def axis(distances_m, speeds_mps, sigma_m=0.0, told_every_s=0.0):
     """Result of an axis with these passes in both directions, not yet read."""
     return AutolockResult(
         1, "front", 2.25, 0.0, 1.0, 0.0, LineStatus.OK, distances_m[0], sigma_m, 10.0,
@@ -47,7 +47,7 @@ def test_error_that_all_passes_share_widens_the_boundary_without_the_part_of_eac
 def test_pass_that_is_less_certain_by_its_message_than_told_shares_nothing():
     certain = axis((1.3, 1.45), (0.4, 0.1), 0.01, told_every_s=0.8)
     assert read(certain).unlock_static_sigma_m == read(
-        replace(certain, unlock_uncertainty_m=None)).unlock_static_sigma_m
+        replace(certain, unlock_uncertainty_m=0.0)).unlock_static_sigma_m
 
 
 def test_car_of_which_no_cycle_is_recorded_is_read_as_one_that_tells_at_once():
@@ -57,13 +57,14 @@ def test_car_of_which_no_cycle_is_recorded_is_read_as_one_that_tells_at_once():
     assert at_once.unlock_static_sigma_m < slow.unlock_static_sigma_m
 
 
-def test_robot_that_does_not_say_how_well_it_knows_its_place_leaves_the_passes_own_interval(run_scenario, spoil):
+def test_robot_that_does_not_say_how_well_it_knows_its_place_leaves_no_interval(run_scenario, spoil):
     said = run_scenario(SCENARIO, TWO)[0]
     spoil(lambda status: True, position_sigma_m=math.nan)
     unsaid = run_scenario(SCENARIO, TWO)[0]
     assert unsaid.unlock_uncertainty_m is unsaid.lock_uncertainty_m is None
-    for low, high in (("unlock_static_low_m", "unlock_static_high_m"), ("lock_static_low_m", "lock_static_high_m")):
-        assert 0.0 < getattr(unsaid, high) - getattr(unsaid, low) < getattr(said, high) - getattr(said, low)
+    assert (unsaid.unlock_static_m, unsaid.lock_static_m) == pytest.approx((said.unlock_static_m, said.lock_static_m))
+    for name in ("sigma_m", "low_m", "high_m"):
+        assert getattr(unsaid, f"unlock_static_{name}") is getattr(unsaid, f"lock_static_{name}") is None
 
 
 def turn_locks_later(world, delay_s):

@@ -89,8 +89,9 @@ def test_interval_includes_what_the_keys_place_is_not_known_to(run_scenario, spo
     assert wide.d50_high_m - wide.d50_low_m > 1.9 > narrow.d50_high_m - narrow.d50_low_m
 
 
-def test_pose_without_sigma_leaves_no_interval(run_scenario, spoil):
-    spoil(lambda status: True, position_sigma_m=math.nan)
+@pytest.mark.parametrize("every", [1, 7])
+def test_pose_without_sigma_leaves_no_interval(run_scenario, spoil, every):
+    spoil(lambda status: status.id % every == 0, position_sigma_m=math.nan)
     result = run_scenario(SCENARIO, PARAMETERS)[0]
     assert result.status.value == "ok" and result.d50_m is not None
     assert (result.d50_sigma_m, result.d50_low_m, result.d50_high_m, result.d95_low_m) == (None, None, None, None)

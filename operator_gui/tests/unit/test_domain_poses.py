@@ -57,6 +57,14 @@ def test_a_pose_near_one_of_two_is_hardly_surer_than_that_one_along_a_ray(sigmas
     assert near_first >= 0.98 * sigmas_m[0] and near_second >= 0.98 * sigmas_m[1]
 
 
+@pytest.mark.parametrize("sigmas", [(0.05, math.nan), (math.nan, 0.05)])
+def test_a_pose_beside_one_that_does_not_say_its_sigma_does_not_say_it_either(sigmas):
+    poses = PoseHistory()
+    for stamp_s, sigma in zip((1.0, 1.1), sigmas):
+        poses.add(status(stamp_s, position_sigma_m=sigma, heading_sigma_rad=sigma))
+    assert math.isnan(poses.at(1.05).position_sigma_m) and math.isnan(poses.at(1.05).heading_sigma_rad)
+
+
 def test_a_pose_beside_one_that_does_not_say_its_covariance_counts_in_its_worst_direction():
     poses = PoseHistory()
     poses.add(status(1.0, variance_x_m2=1e-6, variance_y_m2=1e-6, covariance_xy_m2=0.0))

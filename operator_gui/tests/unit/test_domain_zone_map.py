@@ -42,6 +42,12 @@ def test_no_place_is_nearer_to_the_car_than_the_clearance():
     assert len({zone.side for zone in zones}) == 8
 
 
+def test_map_of_a_robot_that_does_not_say_how_well_it_knows_its_place_has_no_interval(measured, spoil):
+    spoil(lambda status: status.id % 7 == 0, position_sigma_m=math.nan)
+    for result in measured().results:
+        assert result.distance_m is not None and result.uncertainty_m is result.low_m is result.high_m is None
+
+
 def test_the_map_finds_where_the_car_obeys(measured, world):
     results = measured().results
     assert [result.number for result in results] == list(range(1, 9))

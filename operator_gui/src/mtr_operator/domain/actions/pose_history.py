@@ -7,6 +7,7 @@ import contextlib
 import math
 from collections import deque
 from dataclasses import dataclass
+from typing import Iterable
 
 from ..clocks.clock_step import clock_was_set
 from ..geometry.pose import Pose, wrap_angle
@@ -44,6 +45,18 @@ class PoseSample:
     key_y: float
     covariance: tuple[float, float, float] = (math.nan, math.nan, math.nan)
     key_height_m: float = math.nan
+
+
+def worst_sigma(sigmas: Iterable[float]) -> float:
+    """The greatest of some sigmas; NaN, which is not known, when one of them is not, or there is none."""
+    each = tuple(sigmas)
+    return math.nan if any(map(math.isnan, each)) else max(each, default=math.nan)
+
+
+def worst_known(sigmas: Iterable[float | None]) -> float | None:
+    """The same of a record, where what is not known is None."""
+    worst = worst_sigma(math.nan if sigma is None else sigma for sigma in sigmas)
+    return None if math.isnan(worst) else worst
 
 
 def sample_of(status: RobotStatus) -> PoseSample:
@@ -135,6 +148,7 @@ def _between(a: PoseSample, b: PoseSample, part: float, time_s: float) -> PoseSa
     variance_x, variance_y, covariance_xy = map(mix, a.covariance, b.covariance)
     turn = wrap_angle(b.pose.heading - a.pose.heading)
     pose = Pose(mix(a.pose.x, b.pose.x), mix(a.pose.y, b.pose.y), wrap_angle(a.pose.heading + part * turn))
-    return PoseSample(time_s, pose, mix(a.speed_mps, b.speed_mps), max(a.position_sigma_m, b.position_sigma_m),
-                      max(a.heading_sigma_rad, b.heading_sigma_rad), b.key_x, b.key_y,
-                      (variance_x, variance_y, covariance_xy), mix(a.key_height_m, b.key_height_m))
+    position_sigma_m = worst_sigma((a.position_sigma_m, b.position_sigma_m))
+    heading_sigma_rad = worst_sigma((a.heading_sigma_rad, b.heading_sigma_rad))
+    return PoseSample(time_s, pose, mix(a.speed_mps, b.speed_mps), position_sigma_m, heading_sigma_rad, b.key_x,
+                      b.key_y, (variance_x, variance_y, covariance_xy), mix(a.key_height_m, b.key_height_m))

@@ -52,11 +52,12 @@ def _tell_reaction(passes: Sequence[Pass]) -> bool:
 
 
 def _place_sigma(result: AutolockResult, word: str) -> float:
-    """1 sigma in m of the first pass that all passes share: its own without the part of the bus' cycle."""
+    """1 sigma in m of the first pass that all passes share: its own without the part of the bus' cycle; NaN when it is
+    not known."""
     sigma_m, speed_mps = getattr(result, f"{word}_uncertainty_m"), getattr(result, f"{word}_speed_mps")
-    if sigma_m is None or speed_mps is None:
-        return 0.0
-    told_m = abs(speed_mps) * (result.told_every_s or 0.0) / math.sqrt(12.0)
+    if sigma_m is None:
+        return math.nan
+    told_m = abs(speed_mps or 0.0) * (result.told_every_s or 0.0) / math.sqrt(12.0)
     return math.sqrt(max(sigma_m ** 2 - told_m ** 2, 0.0))
 
 

@@ -9,6 +9,7 @@ from typing import Sequence
 from ...actions.car import Car
 from ...actions.distance import recorded_values
 from ...actions.line_watch import LineWatch
+from ...actions.pose_history import worst_known, worst_sigma
 from ...actions.robot import Robot
 from ...estimation.press.radial_search import PRESSES_IN_DOUBT
 from ...geometry.axes import axes_around
@@ -83,7 +84,7 @@ class AxisTrial(Trial[HandleRequestResult]):
         line, parameters = self._line, self._handle_request
         inside_m, outside_m = _places(made.counted, worked=True), _places(made.counted, worked=False)
         at_border = made.all[:parameters.border_requests]
-        sigma_m = max((each.place.uncertainty_m for each in made.counted), default=math.nan)
+        sigma_m = worst_sigma(each.place.uncertainty_m for each in made.counted)
         ray = self.ray
         return HandleRequestResult(
             line.number, line.side, round(line.key_height_m, DIGITS), LineStatus.INVALID, len(made.all),
@@ -106,14 +107,14 @@ class AxisTrial(Trial[HandleRequestResult]):
     def joined(self, before: HandleRequestResult, after: HandleRequestResult) -> HandleRequestResult:
         """See Trial; the requests at the border were made before."""
         farther = max((before, after), key=lambda result: -math.inf if result.distance_m is None else result.distance_m)
-        sigmas_m = [result.place_sigma_m for result in (before, after) if result.place_sigma_m is not None]
         return replace(
             after, requests=before.requests + after.requests, inside=before.inside + after.inside,
             outside=before.outside + after.outside, inside_at_border=before.inside_at_border,
             outside_at_border=before.outside_at_border, requested_by=after.requested_by or before.requested_by,
             unconfirmed_m=f"{before.unconfirmed_m} {after.unconfirmed_m}".strip(),
             worked_at_m=before.worked_at_m + after.worked_at_m, failed_at_m=before.failed_at_m + after.failed_at_m,
-            place_sigma_m=max(sigmas_m, default=None), **{name: getattr(farther, name) for name in _OF_FARTHEST})
+            place_sigma_m=worst_known(each.place_sigma_m for each in (before, after) if each.attempts_made),
+            **{name: getattr(farther, name) for name in _OF_FARTHEST})
 
     @property
     def silence(self) -> str:

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 
 from ...actions.distance import recorded_values
+from ...actions.pose_history import worst_known, worst_sigma
 from ...geometry.radials import Radial
 from ...results.carried import carried_values
 from ...results.line_result import LineStatus
@@ -21,7 +22,7 @@ _OF_FARTHEST = ("distance_m", "uncertainty_m", "robot_time_s", "lateral_offset_m
 def invalid_result(line: Radial, made: AttemptsMade, reason: str, evidence: tuple[str, ...] = ()) -> KeyPressResult:
     """The presses alone, those that count and those that do not; nothing follows from them."""
     counted = made.counted
-    sigma_m = max((press.place.uncertainty_m for press in counted), default=math.nan)
+    sigma_m = worst_sigma(press.place.uncertainty_m for press in counted)
     return KeyPressResult(
         line.number, line.clockwise_deg, LineStatus.INVALID, None, None, None, len(made.all), None, reason,
         evidence=evidence, method=ADAPTIVE, place_sigma_m=sigma_m if math.isfinite(sigma_m) else None,
@@ -42,12 +43,11 @@ def result_of(line: Radial, made: AttemptsMade) -> KeyPressResult:
 def joined(before: KeyPressResult, after: KeyPressResult) -> KeyPressResult:
     """Of a radial that was measured further."""
     farther = max((before, after), key=lambda result: -math.inf if result.distance_m is None else result.distance_m)
-    sigmas_m = [result.place_sigma_m for result in (before, after) if result.place_sigma_m is not None]
     return _with_failure(replace(
         after, attempts=before.attempts + after.attempts, worked_at_m=before.worked_at_m + after.worked_at_m,
         failed_at_m=before.failed_at_m + after.failed_at_m,
         unconfirmed_m=f"{before.unconfirmed_m} {after.unconfirmed_m}".strip(),
-        place_sigma_m=max(sigmas_m, default=None),
+        place_sigma_m=worst_known(each.place_sigma_m for each in (before, after) if each.attempts_made),
         **{name: getattr(farther, name) for name in _OF_FARTHEST}))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ...actions.car import Car
 from ...actions.distance import Distance
+from ...actions.pose_history import worst_sigma
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid, LineSkipped
 from ...estimation.field.zone_search import ZoneSearch
@@ -60,7 +61,7 @@ class _Measured:
         self.pressed.append(place)
         x, y = place.ray.point(made.distance_m)
         (self.worked if worked else self.failed).append((round(x, _PLACES_DIGITS), round(y, _PLACES_DIGITS)))
-        self.sigma_m = max(self.sigma_m, made.uncertainty_m)
+        self.sigma_m = worst_sigma((self.sigma_m, made.uncertainty_m))
 
 
 class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
@@ -190,6 +191,9 @@ def _result(zone: Zone, measured: _Measured, search: ZoneSearch, parameters: Zon
     if measured.reason:
         return result
     distance_m, low_m, high_m = map(_rounded, boundaries(search, zone.ray, zone.height_m, parameters, car))
+    if math.isnan(measured.sigma_m):
+        # Nobody knows how far the places were from where they are in the map.
+        low_m = high_m = None
     part = search.coverage()
     return replace(result, status=LineStatus.NOT_REACHED if distance_m is None else LineStatus.OK,
                    distance_m=distance_m, low_m=low_m, high_m=high_m,
