@@ -17,6 +17,7 @@ from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameter
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.station.connection import Connection
 from mtr_operator.station.test import Test, new_test, report_folder
+from mtr_operator.storage.journal import journal_file
 from mtr_operator.storage.journal.journal_file import journal_path, read_journal
 from mtr_operator.storage.progress_file import load_progress, open_progress, save_progress
 from mtr_operator.storage.store import Store
@@ -113,6 +114,41 @@ def test_flipped_byte_is_found_wherever_it_is_and_nothing_wrong_is_taken(killed)
         assert recovered.is_damaged
         assert {json.dumps(entry.values) for entry in recovered.entries} < whole
         assert loaded(killed).measured() in ([1], [1, 2])
+
+
+def test_journal_that_is_longer_than_any_of_its_lines_may_be_is_read_and_the_test_goes_on(killed, monkeypatch):
+    progress = loaded(killed)
+    with Store(killed, progress) as store:
+        notebook = Notebook(progress, KeyPressResult, store)
+        for number in range(4, 40):
+            measure(notebook, number)
+    longest = max(map(len, journal_path(killed).read_bytes().splitlines()))
+    monkeypatch.setattr(journal_file, "MAX_LINE_BYTES", longest + 1)
+    assert journal_path(killed).stat().st_size > 3 * longest
+    progress = loaded(killed)
+    assert progress.notice == "" and progress.measured() == [1, 2, *range(4, 40)]
+    with Store(killed, progress) as store:
+        measure(Notebook(progress, KeyPressResult, store), 40)
+    assert 40 in loaded(killed).measured()
+
+
+def test_line_that_is_too_long_ends_what_is_recovered(killed):
+    journal = journal_path(killed)
+    whole = read_journal(journal)
+    with journal.open("ab") as file:
+        file.truncate(len(whole.content) + 3 * journal_file.MAX_LINE_BYTES)
+    recovered = read_journal(journal)
+    assert (recovered.entries, recovered.content) == (whole.entries, whole.content)
+    assert recovered.is_damaged and not recovered.is_torn
+
+
+def test_large_file_that_is_no_journal_is_a_sentence_and_is_not_read_to_its_end(killed):
+    journal = journal_path(killed)
+    journal.write_bytes(b"")
+    os.truncate(journal, 1 << 40)
+    with pytest.raises(ProgressFileError, match="is larger than 16 MiB"):
+        read_journal(journal)
+    assert loaded(killed).measured() == [1]
 
 
 def test_damaged_journal_is_kept_aside_when_the_test_goes_on(killed):

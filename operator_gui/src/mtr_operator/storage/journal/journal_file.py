@@ -25,8 +25,9 @@ from ..atomic import checked_size, sync_folder
 FORMAT = "mtr-operator journal"
 VERSION = 1
 SUFFIX = ".journal"
-# A test of some hundred lines takes a megabyte; a larger file is something else.
-MAX_BYTES = 16 * 1024 * 1024
+# Of a line. The longest one holds a whole progress, some hundred kB; a longer one is something else. The file may be as
+# long as the test: nothing that is written shall be too long to be read.
+MAX_LINE_BYTES = 16 * 1024 * 1024
 _CRC = b',"crc":"%08x"}\n'
 _CRC_LENGTH = len(_CRC % 0)
 
@@ -88,22 +89,25 @@ def line_of(entry: Entry) -> bytes:
 
 def read_journal(path: pathlib.Path) -> Recovered:
     """All entries up to the first one that is not good; ProgressFileError when the file cannot be read."""
+    entries: list[Entry] = []
+    lines: list[bytes] = []
     try:
-        if checked_size(path) > MAX_BYTES:
-            raise ProgressFileError(f"The journal {path} is larger than {MAX_BYTES // 1024 ** 2} MiB.")
-        content = path.read_bytes()
+        size = checked_size(path)
+        with path.open("rb") as file:
+            while line := file.readline(MAX_LINE_BYTES):
+                entry = _entry(line) if line.endswith(b"\n") else None
+                if entry is None or not _follows(entry, entries):
+                    break
+                entries.append(entry)
+                lines.append(line)
     except OSError as error:
         raise ProgressFileError(f"The journal {path} cannot be read: {error.strerror or error}.") from None
-    entries: list[Entry] = []
-    used = 0
-    *lines, tail = content.split(b"\n")
-    for line in lines:
-        entry = _entry(line + b"\n")
-        if entry is None or not _follows(entry, entries):
-            return Recovered(tuple(entries), content[:used], is_damaged=True)
-        entries.append(entry)
-        used += len(line) + 1
-    return Recovered(tuple(entries), content[:used], is_damaged=bool(tail), is_torn=bool(tail))
+    if not entries and size > MAX_LINE_BYTES:
+        # None at all, which nobody shall copy or cut off.
+        raise ProgressFileError(f"The journal {path} is larger than {MAX_LINE_BYTES // 1024 ** 2} MiB.")
+    content = b"".join(lines)
+    is_last = len(content) + len(line) == size
+    return Recovered(tuple(entries), content, is_damaged=bool(line), is_torn=is_last and not line.endswith(b"\n"))
 
 
 def _follows(entry: Entry, before: Sequence[Entry]) -> bool:
