@@ -93,10 +93,6 @@ def test_wrong_way_that_crosses_the_right_one_is_not_found():
     assert fate({0.0: FAR_OFF, 5.0: RIGHT, 5.5: FAR_OFF}).found_s is None
 
 
-def test_robot_that_did_not_know_before_is_told():
-    assert not fate({-1.0: LOST, 0.0: LOST}).knew_before
-
-
 def results(fates, failures=(), repeats=()):
     drives = abductions(len(fates) + len(failures))
     found = [DriveResult(drive, {}, {}, SEGMENTS, each, repeats) for drive, each in zip(drives, fates)]
@@ -115,7 +111,23 @@ def test_robots_that_are_right_or_lost_meet_the_table():
     assert found[abduction.WRONG.name]["value"] == 0 and found[abduction.SETTLED.name]["value"] == 1.0
     assert found[abduction.NOTICED.name]["value"] == 1.0 and found[abduction.FOUND.name]["value"] == 0.5
     assert found[abduction.FOUND_TIME.name]["value"] == pytest.approx(6.0, abs=0.03)
+    assert found[abduction.VAGUE.name]["value"] == 0
     assert all(row["met"] for row in found.values())
+
+
+def test_one_robot_that_was_lost_before_meets_nothing():
+    lost = fate({-1.0: LOST, 0.0: LOST})
+    found = report.abduction_report(results([fate(GOOD)] * 99 + [lost]))
+    assert not lost.knew_before
+    assert not any(row.is_met for row in found.rows if row.requirement in (abduction.WRONG, abduction.SETTLED))
+    assert found.rows[0].remark == "100 robots, lost before: 1"
+
+
+def test_valid_poses_that_are_far_off_are_counted_whatever_their_sigma():
+    vague, wrong = fate({0.0: (6.0, 1.6, True)}), fate({0.0: FAR_OFF})
+    found = rows(results([vague, wrong, fate(GOOD), fate({0.0: LOST})]))
+    assert found[abduction.VAGUE.name]["value"] == 2
+    assert (found[abduction.SETTLED.name]["value"], found[abduction.SETTLED.name]["met"]) == (0.5, False)
 
 
 def test_one_wrong_robot_of_a_hundred_fails_the_table():

@@ -71,7 +71,11 @@ def test_car_that_is_off_by_what_it_says_is_right():
 
 @pytest.mark.parametrize("errors", [{"along_error_m": -0.031}, {"across_error_m": 0.04}, {"length_error_body_m": 0.05},
                                     {"width_error_body_m": -0.05}, {"yaw_error_deg": 0.6},
-                                    {"length_error_body_m": 0.4, "length_sigma_m": 0.1}])
+                                    {"length_error_body_m": 0.4, "length_sigma_m": 0.1},
+                                    {"along_error_m": math.nan}, {"yaw_error_deg": math.nan},
+                                    {"width_error_body_m": math.nan, "width_sigma_m": math.inf},
+                                    {"across_error_m": 0.01, "sigmas": [0.001, math.inf, 0.0005]},
+                                    {"length_sigma_m": math.nan}, {"sigmas": [0.001, 0.001, math.nan]}])
 def test_car_that_is_off_by_more_is_wrong_and_told(errors):
     found = judged(**errors)
     assert found.verdict == any_car.WRONG and " with a sigma of " in found.sentence
@@ -87,8 +91,23 @@ def test_rows_count_what_is_asked_and_what_is_wrong():
     assert table["found right"].value == 0.5 and not table["found right"].is_met
     assert table["wrong without a word"].value == 1 and not table["wrong without a word"].is_met
     assert all_met(list(rows_of(*[judged()] * 39, asked).values()))
-    assert not any(row.is_met for row in rows_of().values())
-    assert not any(row.is_met for row in rows_of(judged(), failed=1).values())
+    for none in (rows_of(), rows_of(judged(), failed=1)):
+        assert [row.requirement for row in none.values() if row.is_met] == [any_car.CLOSE_CARS]
+
+
+def test_rows_tell_what_right_is_made_of():
+    by_sigma = judged(along_error_m=0.5, length_error_body_m=1.0, sigmas=[0.4, 0.001, 0.001], length_sigma_m=0.8)
+    table = rows_of(judged(), judged(), judged(), by_sigma)
+    assert table["found right"].value == 1.0
+    close, largest = (table[each.name.partition(": ")[2]] for each in (any_car.CLOSE_CARS, any_car.LARGEST_SIGMA))
+    assert close.value == 0.75 and close.remark == "3 of 4; the other right ones by their sigmas"
+    assert largest.value == 0.8 and largest.is_met
+
+
+def test_car_of_which_nothing_is_said_is_right_but_its_sigma_is_not_met():
+    vague = judged(along_error_m=2.0, sigmas=[0.7, 0.7, 0.001], length_error_body_m=2.0, length_sigma_m=0.9)
+    assert vague.verdict == any_car.RIGHT
+    assert not rows_of(judged(), vague)[any_car.LARGEST_SIGMA.name.partition(": ")[2]].is_met
 
 
 def drawn(**options):

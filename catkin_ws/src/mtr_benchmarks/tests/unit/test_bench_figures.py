@@ -61,8 +61,10 @@ def test_kidnapped_robot_that_stops_for_good_is_met():
     {(4.0, 7.0): 2.0, (7.0, 20.0): float("nan")},
     {(4.0, 20.0): 2.0},
     {(4.0, 4.5): 2.0, (4.5, 8.0): float("nan"), (8.0, 20.0): 1.5},
+    {(0.0, 20.0): float("nan")},
+    {(3.0, 4.0): 0.5, (4.0, 20.0): float("nan")},
 ])
-def test_kidnapping_that_is_noticed_late_or_never_or_recovered_wrongly_is_not_met(course):
+def test_kidnapping_that_is_noticed_late_or_never_or_before_or_recovered_wrongly_is_not_met(course):
     assert not kidnapped(course)[1].met
 
 

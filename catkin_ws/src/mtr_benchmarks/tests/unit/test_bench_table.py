@@ -146,3 +146,55 @@ def test_row_says_for_how_long_the_position_was_unknown():
     assert found["unknown_share"] == pytest.approx(0.5)
     assert found["value"] == pytest.approx(0.004)
     assert line(report.report(results, None).rows[0]).endswith("unknown for 50.0 % of the time")
+
+
+def partly_unknown(scene, variant, share):
+    """A drive that is right but does not know its pose for this share of its time."""
+    unknown = errors(0.003)
+    unknown.key_m[:round(100 * share)] = np.nan
+    return DriveResult(drive(scene, variant, 7), {THIS_SYSTEM: MethodOutcome(unknown, 0.5, CAR)}, {}, [])
+
+
+@pytest.mark.parametrize(("share", "met"), [(0.05, True), (0.06, False), (1.0, False)])
+def test_one_drive_on_level_ground_that_does_not_know_its_pose_for_long_is_not_met(share, met):
+    results = [*all_results(), partly_unknown("open", PLAIN, share)]
+    found = rows(results)["open, pose not valid, worst drive"]
+    assert (found["value"], found["met"], found["must"]) == (pytest.approx(share), met, 0.05)
+    assert rows(results)["lot, pose not valid, worst drive"]["value"] == 0.0
+    assert any(line(row).endswith("open_plain_7") for row in report.report(results, None).rows)
+
+
+def test_drive_without_any_instant_never_knew_its_pose():
+    empty = DriveResult(drive("far", PLAIN, 7), {THIS_SYSTEM: MethodOutcome(joined([]), 0.5, CAR)}, {}, [])
+    assert rows([*all_results(), empty])["far, pose not valid, worst drive"]["value"] == 1.0
+
+
+def test_further_error_tells_for_how_long_the_pose_was_not_valid():
+    found = rows([*all_results(), partly_unknown("cones", TILT, 0.3)])["1 deg of tilt, pose not valid, worst drive"]
+    assert (found["value"], found["must"], found["met"]) == (pytest.approx(0.3), None, True)
+    assert found["mean_share"] == pytest.approx(0.3 / 9.0)
+
+
+def without(name, results):
+    """All drives but those whose name begins so."""
+    return [each for each in results if not each.drive.name.startswith(name)]
+
+
+@pytest.mark.parametrize(("variant", "name"), [
+    (TILT, position_rows.TILTED.name), (RANGE_BIAS, position_rows.BIAS.name)])
+def test_position_that_is_unknown_with_a_further_error_may_be_the_worst(variant, name):
+    lost = [result("cones", variant, seed, np.nan) for seed in (1, 2)]
+    found = rows([*without(f"cones_{variant}_", all_results()), *lost])[name]
+    assert (found["value"], found["met"]) == (None, False)
+
+
+def test_pitched_lidars_without_a_pose_in_one_scene_are_not_met():
+    others = without("cones_pitched_", all_results())
+    assert not rows([*others, result("cones", PITCHED, 1, np.nan)])[position_rows.PITCH.name]["met"]
+
+
+def test_drive_that_never_has_a_pose_is_not_left_out_of_the_honest_ones():
+    silent = errors(np.nan, nees=np.nan)
+    lost = DriveResult(drive("lot", TILT, 7), {THIS_SYSTEM: MethodOutcome(silent, 0.5, CAR)}, {}, [])
+    found = rows([*all_results(), lost])
+    assert not found[consistency.SUREST.name]["met"] and not found[consistency.MOST_CAUTIOUS.name]["met"]

@@ -25,12 +25,15 @@ ABOUT = {
 }
 ABOUT_ABDUCTED = {
     "wrong": "the key is off by more than 0.1 m and by more than 4 sigma in the error's direction; counted from 2 s on",
+    "knew_before": "right and valid before it was carried away; a robot that was lost already proves nothing",
+    "vague": "valid and more than 0.1 m off at 10 s, whatever its sigma: neither right nor lost",
     "key": "as published, frame map laid on the truth by the adjusted key frames: the Car locator has no part in it",
     "repeats": "drives that touched something or gave no map, and were made again with another seed",
 }
 ABOUT_ANY_CAR = {
     "right": "centre, length and width as published are off by at most 3 cm or 3 of their own sigmas, the heading by "
              "0.5 deg or 3 of its own",
+    "close": "the same within 3 cm and 0.5 deg, whatever the sigmas are",
     "asked": "there is no map, or the Car locator publishes nothing and says why",
 }
 

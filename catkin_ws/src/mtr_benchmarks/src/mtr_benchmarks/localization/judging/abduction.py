@@ -23,6 +23,7 @@ RIGHT, LOST, UNSURE, WRONG_STATE = "right", "lost", "unsure", "wrong"
 WRONG = Requirement("kidnapped while driving: robots that were wrong and valid 2 s after it", "(count)", must=0.0)
 SETTLED = Requirement("kidnapped while driving: right again or lost within 10 s", "(share)", must=0.9, at_least=True)
 NOTICED = Requirement("kidnapped while driving: noticed within 2 s", "(share)", at_least=True)
+VAGUE = Requirement("kidnapped while driving: valid and more than 0.1 m off after 10 s, whatever its sigma", "(count)")
 FOUND = Requirement("kidnapped while driving: found themselves again within 25 s", "(share)", at_least=True)
 FOUND_TIME = Requirement("kidnapped while driving: until they found themselves again, in the middle", "s")
 
@@ -66,11 +67,14 @@ class AbductionFigures:
     """Over all robots; names are those of the file.
 
     Attributes:
+        knew_before: were right and valid before; of one that was lost already nothing is proved.
         noticed: within 2 s.
+        vague_at_10_s: valid then and more than RECOVERED_M off, whatever their sigma: neither right nor lost.
         repeated: drives that touched something or gave no map, and were repeated with another seed.
     """
 
     robots: int
+    knew_before: int
     wrong: int
     settled: int
     noticed: int
@@ -80,6 +84,7 @@ class AbductionFigures:
     found_p90_s: Optional[float]
     lost_at_10_s: int
     right_at_10_s: int
+    vague_at_10_s: int
     repeated: int
 
 
@@ -95,7 +100,7 @@ def fate(track: KeyTrack, segments: Sequence[Dict[str, Any]]) -> Fate:
     then = int(np.argmin(np.abs(elapsed - SETTLED_S)))
     state = LOST if not track.valid[then] else RIGHT if right[then] else WRONG_STATE if wrong[then] else UNSURE
     return Fate(
-        carried["distance_m"], math.degrees(carried["turn_rad"]), bool(right[~after][-1:].all()),
+        carried["distance_m"], math.degrees(carried["turn_rad"]), bool(right[~after][-1:].any()),
         float(elapsed[unknown[0]]) if len(unknown) else None, _found(track, right & after, carried["begin_s"]), state,
         len(late) * float(np.median(np.diff(track.stamps_s))),
         _pose(track, int(late[0]), elapsed[late[0]]) if len(late) else None,
@@ -108,20 +113,26 @@ def figures(fates: Sequence[Fate], repeated: int = 0) -> AbductionFigures:
     found = np.array([each.found_s for each in fates if each.found_s is not None])
     lost, right = (sum(each.after_10_s == state for each in fates) for state in (LOST, RIGHT))
     return AbductionFigures(
-        len(fates), sum(each.first_wrong is not None for each in fates), lost + right,
+        len(fates), sum(each.knew_before for each in fates), sum(each.first_wrong is not None for each in fates),
+        lost + right,
         sum(each <= DETECTION_LIMIT_S for each in noticed), max(noticed, default=None), len(found),
-        percentile(found, 50.0), percentile(found, 90.0), lost, right, repeated)
+        percentile(found, 50.0), percentile(found, 90.0), lost, right,
+        sum(each.after_10_s in (UNSURE, WRONG_STATE) for each in fates), repeated)
 
 
 def rows(found: AbductionFigures, failed_drives: int = 0) -> List[Row]:
-    """A drive that failed, or none at all, meets nothing."""
-    details: Dict[str, Optional[float]] = {"failed_drives": failed_drives, "repeated_drives": found.repeated}
-    is_complete = found.robots > 0 and not failed_drives
+    """A drive that failed, a robot that was lost before it was carried away, or none at all, meets nothing."""
+    lost_before = found.robots - found.knew_before
+    details: Dict[str, Optional[float]] = {"failed_drives": failed_drives, "repeated_drives": found.repeated,
+                                           "lost_before": lost_before}
+    is_complete = found.robots > 0 and not failed_drives and not lost_before
     told = f"{found.robots} robots" + (f", {failed_drives} drives failed" if failed_drives else "") + (
-        f", {found.repeated} drives repeated" if found.repeated else "")
+        f", {found.repeated} drives repeated" if found.repeated else "") + (
+        f", lost before: {lost_before}" if lost_before else "")
     states = f"{found.right_at_10_s} right, {found.lost_at_10_s} lost"
     return [Row(WRONG, found.wrong if found.robots else None, is_complete, details, told),
             Row(SETTLED, _share(found.settled, found.robots), is_complete, details, states),
+            Row(VAGUE, found.vague_at_10_s if found.robots else None, is_complete, details),
             Row(NOTICED, _share(found.noticed, found.robots), is_complete, details),
             Row(FOUND, _share(found.found, found.robots), is_complete, details),
             Row(FOUND_TIME, found.found_median_s, is_complete, details,

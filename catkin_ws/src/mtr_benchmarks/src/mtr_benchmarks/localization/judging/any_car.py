@@ -15,6 +15,9 @@ RIGHT, ASKED, WRONG = "right", "asked", "wrong"
 RIGHT_M, RIGHT_DEG, RIGHT_SIGMAS = 0.03, 0.5, 3.0
 FOUND_CARS = Requirement("any Car: found right", "(share)", goal=0.995, must=0.975, at_least=True)
 WRONG_CARS = Requirement("any Car: wrong without a word", "(count)", must=0.0)
+CLOSE_CARS = Requirement("any Car: centre, length and width within 3 cm, heading within 0.5 deg", "(share)")
+# An end or side that was not seen has the sigma of all ordinary cars; who says more says nothing.
+LARGEST_SIGMA = Requirement("any Car: largest sigma of centre, length and width", "m", must=0.87)
 SEEN = Requirement("any Car: centre and size in the LiDAR's plane where body is seen, 95 %", "m", must=0.01)
 
 
@@ -38,11 +41,21 @@ class CarVerdict:
 def verdict(errors: CarErrors, drawn: Dict[str, Any]) -> CarVerdict:
     """Of what was published: the Car's pose in the map, and its size."""
     beyond = [f"{name} by {100.0 * abs(error):.1f} cm with a sigma of {100.0 * sigma:.1f}"
-              for name, error, sigma in published(errors) if abs(error) > max(RIGHT_M, RIGHT_SIGMAS * sigma)]
+              for name, error, sigma in published(errors) if not is_within(error, sigma, RIGHT_M)]
     yaw_sigma_deg = math.degrees(errors.sigmas[2])
-    if errors.yaw_error_deg > max(RIGHT_DEG, RIGHT_SIGMAS * yaw_sigma_deg):
+    if not is_within(errors.yaw_error_deg, yaw_sigma_deg, RIGHT_DEG):
         beyond.append(f"heading by {errors.yaw_error_deg:.2f} deg with a sigma of {yaw_sigma_deg:.2f}")
     return CarVerdict(WRONG if beyond else RIGHT, ", ".join(beyond), drawn, errors)
+
+
+def is_within(error: float, sigma: float, limit: float) -> bool:
+    """True when an error is within the limit or its sigmas; a number that is none, or a sigma without end, is not."""
+    return math.isfinite(sigma) and abs(error) <= max(limit, RIGHT_SIGMAS * sigma)
+
+
+def is_close(errors: CarErrors) -> bool:
+    """True when it is right whatever its sigmas are."""
+    return errors.yaw_error_deg <= RIGHT_DEG and all(abs(error) <= RIGHT_M for _, error, _ in published(errors))
 
 
 def published(errors: CarErrors) -> List[Tuple[str, float, float]]:
@@ -67,8 +80,14 @@ def rows(verdicts: Sequence[CarVerdict], failed_drives: int = 0, repeated: int =
     told = f"{counts[RIGHT]} of {len(verdicts)} right, {counts[ASKED]} asked about" + (
         f", {failed_drives} drives failed" if failed_drives else "") + (
         f", {repeated} drives repeated" if repeated else "")
+    estimates = [one.errors for one in verdicts if one.errors]
+    close = sum(is_close(each) for each in estimates)
+    sigmas_m = [sigma for each in estimates for _, _, sigma in published(each)]
     body = [one.errors for one in verdicts if one.errors and not one.errors.only_wheels]
     seen_m = np.abs([value for each in body for value in errors_where_seen(each)])
     return [Row(FOUND_CARS, counts[RIGHT] / len(verdicts) if verdicts else None, is_complete, details, told),
+            Row(CLOSE_CARS, close / len(verdicts) if verdicts else None, is_complete, details,
+                f"{close} of {len(verdicts)}; the other right ones by their sigmas"),
+            Row(LARGEST_SIGMA, float(np.max(sigmas_m)) if sigmas_m else None, is_complete, details),
             Row(WRONG_CARS, counts[WRONG] if verdicts else None, is_complete, details),
             Row(SEEN, percentile(seen_m), is_complete, details, f"{len(body)} Cars")]

@@ -24,9 +24,11 @@ class DriveRatio(NamedTuple):
 
 
 def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
-    """Both ends, for one number cannot say how far drives are off on either side."""
+    """Both ends, for one number cannot say how far drives are off on either side; a drive without any valid pose has
+    failed."""
     found = ratios(outcomes)
-    missing = sum(failed(failures, scene, variant) for scene in SCENES for variant in KNOWN_OF)
+    missing = sum(failed(failures, scene, variant) + len(outcomes[scene].get(variant, {})) for scene in SCENES
+                  for variant in KNOWN_OF) - len(found)
     surest = max(found, key=lambda each: each.value, default=None)
     most_cautious = min(found, key=lambda each: each.value, default=None)
     honest = honest_bounds(outcomes)

@@ -20,11 +20,13 @@ class Kidnapping(NamedTuple):
     """One robot's fate.
 
     Attributes:
+        knew_before: its last pose before was valid and right; who is lost already notices nothing.
         detected_s: from the lift to the first pose that is not valid; None: never.
         recovered_s: from the lift to the first valid pose after that; None: it stood until the end.
         wrong_share: of the time from DETECTION_LIMIT_S on, in which a wrong pose was called valid.
     """
 
+    knew_before: bool
     detected_s: Optional[float]
     recovered_s: Optional[float]
     wrong_share: float
@@ -35,6 +37,7 @@ class KidnappingFigures:
     """Over all robots."""
 
     robots: int
+    knew_before: int
     detected: int
     slowest_detection_s: Optional[float]
     recovered: int
@@ -52,7 +55,9 @@ def kidnapping(errors: PoseErrors, segments: Sequence[Dict[str, Any]]) -> Kidnap
     wrong = ~unknown & (np.nan_to_num(errors.key_m[after]) > RECOVERED_M)
     detected = float(elapsed[np.argmax(unknown)]) if unknown.any() else None
     again = ~unknown & (elapsed > detected) if detected is not None else np.zeros(0, bool)
-    return Kidnapping(detected, float(elapsed[np.argmax(again)]) if again.any() else None,
+    before_m = errors.key_m[errors.stamps_s < lifted_s][-1:]
+    return Kidnapping(bool(np.any(before_m <= RECOVERED_M)), detected,
+                      float(elapsed[np.argmax(again)]) if again.any() else None,
                       float(np.mean(wrong[elapsed > DETECTION_LIMIT_S])))
 
 
@@ -60,10 +65,11 @@ def figures(all_of_them: List[Kidnapping]) -> KidnappingFigures:
     """Over all robots."""
     detected = [each.detected_s for each in all_of_them if each.detected_s is not None]
     recovered = [each.recovered_s for each in all_of_them if each.recovered_s is not None]
-    good = [each for each in all_of_them if each.detected_s is not None and each.detected_s <= DETECTION_LIMIT_S
-            and each.wrong_share == 0.0]
+    good = [each for each in all_of_them if each.knew_before and each.detected_s is not None
+            and each.detected_s <= DETECTION_LIMIT_S and each.wrong_share == 0.0]
     return KidnappingFigures(
-        len(all_of_them), len(detected), max(detected, default=None), len(recovered), max(recovered, default=None),
+        len(all_of_them), sum(each.knew_before for each in all_of_them), len(detected),
+        max(detected, default=None), len(recovered), max(recovered, default=None),
         max((each.wrong_share for each in all_of_them), default=None), DETECTION_LIMIT_S,
         len(good) == len(all_of_them) > 0)
 
@@ -71,6 +77,9 @@ def figures(all_of_them: List[Kidnapping]) -> KidnappingFigures:
 def rows(found: KidnappingFigures, failed_drives: int = 0) -> List[Row]:
     """Without failed drives both are met exactly when `met` of the figures is true."""
     remark = f"{found.detected} of {found.robots} noticed, {found.recovered} recovered, the others stood"
-    is_complete = found.detected == found.robots and not failed_drives
-    return [Row(DETECTION, found.slowest_detection_s, is_complete, {"failed_drives": failed_drives}, remark),
-            Row(WRONG, found.longest_wrong_share, not failed_drives, {"failed_drives": failed_drives})]
+    if found.knew_before < found.robots:
+        remark += f", lost before: {found.robots - found.knew_before}"
+    proves = found.knew_before == found.robots and not failed_drives
+    details: Dict[str, Optional[float]] = {"failed_drives": failed_drives}
+    return [Row(DETECTION, found.slowest_detection_s, proves and found.detected == found.robots, details, remark),
+            Row(WRONG, found.longest_wrong_share, proves, details)]

@@ -1,6 +1,6 @@
 """The rows of the table that plain drives and their variants give: positions, heading, size, robustness."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Any, Callable, Dict, List, NamedTuple, Optional
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence
 
 import numpy as np
 
@@ -43,6 +43,8 @@ SIZE_BODY = Requirement("Car's length and width, widest parts", "m", 0.5 * CM, 2
 BIAS = Requirement("worse with 2 cm of range error, worst of the positions", "m", 0.5 * CM, 2.0 * CM)
 OPPOSED_BIAS = Requirement("front ranges +10 mm, rear -10 mm, mean error within 5 m", "m", 0.2 * CM, 0.3 * CM)
 TILTED = Requirement("factor with 1 deg of tilt, worst of the positions", "(ratio)", 1.5, 2.0)
+# Who tests on level ground stands and waits while the robot does not know where it is.
+MAX_UNKNOWN = 0.05
 PITCH = Requirement("LiDARs pitched by 0.7 deg, open and cones, standing, worst", "m", 1.5 * CM, 2.5 * CM)
 
 
@@ -62,7 +64,37 @@ def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
                         sum(failed(failures, scene, OPPOSED) for scene in SCENES)))
     table.append(judged(PITCH, worst([standing(outcomes, scene, PITCHED) for scene in PITCHED_SCENES]),
                         sum(failed(failures, scene, PITCHED) for scene in SCENES)))
-    return table
+    return table + unknown_rows(outcomes, failures)
+
+
+def unknown_rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
+    """For how long the pose was not valid, of the drive that is worst: all other rows are of valid poses alone.
+
+    On level ground it is limited in each scene; nobody has said for how long it may be so with a further error.
+    """
+    level = [unknown_row(Requirement(f"{scene}, pose not valid, worst drive", "(share)", must=MAX_UNKNOWN), outcomes,
+                         failures, (scene,), PLAIN) for scene in SCENES]
+    return level + [unknown_row(Requirement(f"{name}, pose not valid, worst drive", "(share)"), outcomes, failures,
+                                SCENES, variant)
+                    for name, variant in (("2 cm of range error", RANGE_BIAS), ("1 deg of tilt", TILT),
+                                          ("front ranges +10 mm, rear -10 mm", OPPOSED),
+                                          ("LiDARs pitched by 0.7 deg", PITCHED))]
+
+
+def unknown_row(requirement: Requirement, outcomes: Outcomes, failures: Failures, scenes: Sequence[str],
+                variant: str) -> Row:
+    """The drive of these scenes that is longest without a valid pose."""
+    shares = {f"{scene}_{variant}_{seed}": not_valid(each.errors) for scene in scenes
+              for seed, each in outcomes[scene].get(variant, {}).items()}
+    name = max(shares, key=lambda each: shares[each], default="")
+    return judged(requirement, shares.get(name), sum(failed(failures, scene, variant) for scene in scenes),
+                  {"mean_share": float(np.mean(list(shares.values()))) if shares else None},
+                  name if shares.get(name) else "")
+
+
+def not_valid(errors: PoseErrors) -> float:
+    """Share of a drive's instants without a valid pose; a drive that has no instant at all never had one."""
+    return float(np.mean(np.isnan(errors.key_m))) if len(errors.key_m) else 1.0
 
 
 def variants(outcomes: Outcomes) -> List[Dict[str, Any]]:
@@ -140,8 +172,9 @@ def size_error(plain: List[MethodOutcome], suffix: str) -> Optional[float]:
 
 
 def worst(values: List[Optional[float]]) -> Optional[float]:
-    """The maximum of those that are known."""
-    return max((value for value in values if value is not None), default=None)
+    """The maximum; None where one is not known, for that one may be the worst."""
+    known = [value for value in values if value is not None]
+    return max(known, default=None) if len(known) == len(values) else None
 
 
 def failed(failures: Failures, scene: str, variant: str) -> int:
