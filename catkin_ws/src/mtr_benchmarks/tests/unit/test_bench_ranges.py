@@ -12,8 +12,9 @@ from mtr_benchmarks.ranges.pass_methods import AxesDraw
 from mtr_benchmarks.ranges.press_methods import Draw, scan
 from mtr_benchmarks.ranges.referees import up_and_down
 from mtr_benchmarks.ranges.repeated import pairs_agree
-from mtr_benchmarks.ranges.result import LineFound, false_passes, figures, point
-from mtr_benchmarks.ranges.table import report
+from mtr_benchmarks.ranges.result import LineFound, false_passes, figures, point, without_interval
+from mtr_benchmarks.ranges.table import BIAS, RATIO, WITHOUT, report
+from mtr_operator.domain.estimation.interval import UNKNOWN
 
 
 @pytest.mark.parametrize("share", [0.0, 0.88])
@@ -112,7 +113,49 @@ def test_pairs_of_campaigns_agree_within_their_sigmas():
     assert np.mean(pairs_agree(campaigns)) == pytest.approx(0.95, abs=0.04)
 
 
+def test_line_without_an_interval_holds_nothing():
+    known, unknown = LineFound(1.0, point(1.0, 0.1), 1, 1.0, 1.0, 0.9, point(0.9, 0.1)), LineFound(1.0, UNKNOWN)
+    assert figures([known] * 3 + [unknown])["coverage_95"] == 0.75
+    assert without_interval([known, unknown, known._replace(found_95=UNKNOWN)]) == 2
+    assert math.isnan(figures([known, unknown])["bias_m"])
+
+
+def test_line_without_an_interval_makes_no_share_of_false_passes_smaller():
+    too_far, unknown = LineFound(1.0, point(1.3, 0.01)), LineFound(1.0, UNKNOWN)
+    assert false_passes([too_far, unknown, unknown])["at least, missed by 0 m"] == 1.0
+    assert all(math.isnan(value) for value in false_passes([unknown]).values())
+
+
 def test_every_row_has_a_value_and_its_details():
+    made = report(measured())
+    assert [row.value is not None and row.value >= 0.0 for row in made.rows] == [True] * 14
+    values = {row.requirement.name: row.value for row in made.rows}
+    assert values["rms of d50 by the scan's, equal time, worst"] == pytest.approx(0.2, abs=0.06)
+    assert values["presses for +-0.3 m, width 1 m"] == 9.0
+    assert made.document()["details"]["adaptive"]["fading/6.6"]["lines"] == 300.0
+
+
+@pytest.mark.parametrize("key", [("adaptive", "steady", "4"), ("adaptive", "fading", "0.4"),
+                                 ("adaptive_scan_time", "fading", "1"), ("passes", "poll_300_cycle_200"),
+                                 ("adaptive", "again_key_press")])
+def test_one_line_without_an_interval_fails_the_table(key):
+    found = measured()
+    first, *others = found[key][1]
+    found[key][1] = [first._replace(found=UNKNOWN), *others]
+    row, = (each for each in report(found).rows if each.requirement is WITHOUT)
+    assert row.value == 1 and not row.is_met and row.details == {"/".join(key): 1.0}
+
+
+def test_value_that_is_no_number_is_the_worst_one():
+    found = measured()
+    for key in (("adaptive", "steady", "0.4"), ("adaptive_scan_time", "fading", "4")):
+        found[key][0][7] = found[key][0][7]._replace(found=UNKNOWN)
+    unmet = {row.requirement for row in report(found).rows if not row.is_met}
+    assert {BIAS, RATIO} <= unmet
+
+
+def measured():
+    """Lines of all methods and Cars whose intervals are right."""
     rng = np.random.default_rng(4)
 
     def lines(sigma_m):
@@ -126,9 +169,4 @@ def test_every_row_has_a_value_and_its_details():
             kind = (fading, f"{width_m:g}")
             found.update({("adaptive", *kind): lines(0.1), ("adaptive_scan_time", *kind): lines(0.1),
                           ("scan_beside", *kind): lines(0.5)})
-    made = report(found)
-    assert [row.value is not None and row.value >= 0.0 for row in made.rows] == [True] * 13
-    values = {row.requirement.name: row.value for row in made.rows}
-    assert values["rms of d50 by the scan's, equal time, worst"] == pytest.approx(0.2, abs=0.06)
-    assert values["presses for +-0.3 m, width 1 m"] == 9.0
-    assert made.document()["details"]["adaptive"]["fading/6.6"]["lines"] == 300.0
+    return found

@@ -26,13 +26,16 @@ def point(value_m: float, sigma_m: float) -> Interval:
 
 
 def figures(lines: List[LineFound]) -> Dict[str, Optional[float]]:
-    """Of one method on one kind of Car; names are a promise."""
+    """Of one method on one kind of Car; names are a promise.
+
+    A line without an interval holds nothing, unless the method has no intervals at all.
+    """
     errors = np.array([line.found.value_m - line.truth_m for line in lines])
     far = [line for line in lines if math.isfinite(line.truth_95_m)]
-    sure = [line for line in lines if math.isfinite(line.found.half_width_m)]
+    sure = [line for line in lines if is_known(line.found)]
     return {
         "lines": float(len(lines)), "bias_m": float(np.mean(errors)), "rms_m": float(np.sqrt(np.mean(errors ** 2))),
-        "coverage_95": share([line.found.holds(line.truth_m) for line in sure]),
+        "coverage_95": share([line.found.holds(line.truth_m) for line in lines]) if sure else None,
         "half_width_median_m": float(np.median([line.found.half_width_m for line in sure])) if sure else None,
         "d95_bias_m": float(np.mean([line.found_95.value_m - line.truth_95_m for line in far])) if far else None,
         "d95_coverage_95": share([line.found_95.holds(line.truth_95_m) for line in far]),
@@ -40,6 +43,17 @@ def figures(lines: List[LineFound]) -> Dict[str, Optional[float]]:
         "robot_time_s_median": float(np.median([line.time_s for line in lines])),
         "way_m_median": float(np.median([line.way_m for line in lines])),
     }
+
+
+def is_known(interval: Interval) -> bool:
+    """True when value and both ends are numbers."""
+    return math.isfinite(interval.value_m) and math.isfinite(interval.half_width_m)
+
+
+def without_interval(lines: List[LineFound]) -> int:
+    """Of lines of a method that has intervals, also of the 95 % distance where there is one."""
+    return sum(not is_known(line.found) or (math.isfinite(line.truth_95_m) and not is_known(line.found_95))
+               for line in lines)
 
 
 def share(values: List[bool]) -> Optional[float]:
@@ -52,15 +66,16 @@ BEYOND_M = (0.0, 0.1, 1.0)
 
 
 def false_passes(lines: List[LineFound]) -> Dict[str, float]:
-    """Share of a verdict Pass on Cars that are to fail, by limit.
+    """Share of a verdict Pass on Cars that are to fail, by limit; of lines with an interval, for no other has one.
 
     Pass is when the whole 95 % interval lies on the good side of the limit (guard band, JCGM 106), as
     mtr_operator.domain.verdict has it.
     """
     shares = {}
+    lines = [line for line in lines if is_known(line.found)]
     for beyond_m in BEYOND_M:
-        shares[f"at least, missed by {beyond_m:g} m"] = np.mean([line.found.low_m >= line.truth_m + beyond_m
-                                                                 for line in lines])
-        shares[f"at most, missed by {beyond_m:g} m"] = np.mean([line.found.high_m <= line.truth_m - beyond_m
-                                                                for line in lines])
-    return {name: float(value) for name, value in shares.items()}
+        shares[f"at least, missed by {beyond_m:g} m"] = share([line.found.low_m >= line.truth_m + beyond_m
+                                                               for line in lines])
+        shares[f"at most, missed by {beyond_m:g} m"] = share([line.found.high_m <= line.truth_m - beyond_m
+                                                              for line in lines])
+    return {name: math.nan if value is None else value for name, value in shares.items()}
