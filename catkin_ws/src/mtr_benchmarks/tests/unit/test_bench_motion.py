@@ -13,7 +13,9 @@ from mtr_benchmarks.motion import encounters, latency, tip_over, tracking
 from mtr_benchmarks.motion.__main__ import PROMISED, report
 from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
 from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
+from mtr_benchmarks.motion.trial import DrivenLeg
 from mtr_core.se2 import Pose2
+from mtr_core.states import Result
 from mtr_description.shipped import shipped_geometry
 from mtr_motion_planner.following.ramp import ANGULAR_SHARE, LINEAR_SHARE
 from mtr_motion_planner.geometry.keep_out import KeepOut
@@ -111,7 +113,7 @@ def test_promised_figures_are_numbers_on_top_and_everything_is_below():
     assert list(written) == [*PROMISED, "details", "table"]
     assert written["encounters"] == 1000 and written["details"]["tracking"]["pairs"] == 200
     assert written["details"]["tracking"]["min_clearance_m"] is None, "JSON has no infinity"
-    assert len(written["table"]) == len(PROMISED)
+    assert len(written["table"]) == len(PROMISED) + len((tracking.NOT_REACHED, tracking.CONTACTS))
 
 
 def test_parts_that_were_not_run_have_no_rows():
@@ -122,8 +124,32 @@ def test_parts_that_were_not_run_have_no_rows():
 @pytest.mark.parametrize("key, value, is_good", [
     ("time_ratio_p95", 1.15, True), ("time_ratio_p95", 1.151, False), ("encounters", 999, False),
     ("contacts_while_moving", 1, False), ("tip_margin_n", 0.0, False), ("stop_latency_p99_ms", math.nan, False),
-    ("time_ratio_median", 99.0, True)])
+    ("time_ratio_median", 99.0, True), ("not_reached", ["pair 7: REFUSED There is no way."], False),
+    ("contacts_with_car", 1, False)])
 def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
     rows = report(parts(**{key: value})).rows
     assert all_met(rows) == is_good
     assert any("NOT MET" in line(row) for row in rows) != is_good
+
+
+def leg(result, message="", time_s=4.0):
+    """Of a robot that stands where it should."""
+    return DrivenLeg(result, message, time_s, Pose2(0.0, 0.0, 0.0), (), 1.0)
+
+
+@pytest.mark.parametrize("failed", [leg(Result.REFUSED, "There is no way.", 0.02), leg(Result.PENDING, time_s=90.0),
+                                    leg(Result.REACHED, "It was blocked.")])
+def test_way_that_was_not_driven_is_not_the_fastest(failed):
+    assert tracking.ratio_of(leg(Result.REACHED), 2.0) == 2.0
+    assert tracking.ratio_of(failed, 2.0) == math.inf
+
+
+def test_one_pair_that_was_not_driven_or_touched_the_car_fails_the_table():
+    fine = tracking.PairOutcome(1.04, ((0.004, 0.1),) * 4, ((0.001, 0.1),) * 300, 0.3, 0, ())
+    refused = replace(fine, ratio=math.inf, failures=("pair 7: REFUSED There is no way.",))
+    touched = replace(fine, contacts=1)
+    assert all_met(tracking.figures([fine] * 200).rows())
+    for bad, name in ((refused, tracking.NOT_REACHED), (touched, tracking.CONTACTS)):
+        found = tracking.figures([fine] * 199 + [bad]).rows()
+        assert [row.requirement for row in found if not row.is_met] == [name]
+    assert not all_met(tracking.figures([fine] * 120 + [refused] * 80).rows()[:2])

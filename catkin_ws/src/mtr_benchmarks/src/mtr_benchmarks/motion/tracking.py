@@ -44,11 +44,16 @@ CROSS_TRACK = Requirement("across the axis, 95 %", "m", must=0.02)
 HEADING = Requirement("heading on the axis, 95 %", "deg", must=1.0)
 STOP = Requirement("distance from the waypoint at a stop, 95 %", "m", must=0.02)
 STOP_HEADING = Requirement("heading at a stop, 95 %", "deg", must=1.0)
+NOT_REACHED = Requirement("ways on which the planner complained or did not reach the waypoint", "(count)", must=0.0)
+CONTACTS = Requirement("pairs on whose ways the robot touched the Car", "(count)", must=0.0)
 
 
 @dataclass(frozen=True)
 class PairOutcome:
-    """What one pair came to; ratio of time to its lower bound, stops as (m, deg), axis samples as (m, deg)."""
+    """What one pair came to; ratio of time to its lower bound, stops as (m, deg), axis samples as (m, deg).
+
+    A way that was not driven to its end has an infinite ratio.
+    """
 
     ratio: float
     stops: Tuple[Tuple[float, float], ...]
@@ -79,10 +84,12 @@ class TrackingFigures:
     not_reached: List[str]
 
     def rows(self) -> List[Row]:
-        """Times, and errors on the axis and at stops."""
+        """Times, errors on the axis and at stops, and what must not happen on any way."""
         return [Row(TIME_MEDIAN, self.time_ratio_median), Row(TIME_P95, self.time_ratio_p95),
                 Row(CROSS_TRACK, self.cross_track_p95_m), Row(HEADING, self.heading_p95_deg),
-                Row(STOP, self.stop_error_p95_m), Row(STOP_HEADING, self.stop_heading_p95_deg)]
+                Row(STOP, self.stop_error_p95_m), Row(STOP_HEADING, self.stop_heading_p95_deg),
+                Row(NOT_REACHED, len(self.not_reached), remark="; ".join(self.not_reached[:1])),
+                Row(CONTACTS, self.contacts_with_car)]
 
 
 def measure(options: MotionOptions) -> TrackingFigures:
@@ -125,9 +132,14 @@ def _pair(task: Tuple[int, int]) -> PairOutcome:
     speed = dice.choice(AXIS_SPEEDS_MPS)
     axis = [trial.go(near, Direction.FORWARD, speed), trial.go(far, Direction.BACKWARD, speed)]
     legs += axis
-    return PairOutcome(pair.time_s / bound_s, tuple(_stop(leg) for leg in legs), tuple(_beside(far, axis)),
+    return PairOutcome(ratio_of(pair, bound_s), tuple(_stop(leg) for leg in legs), tuple(_beside(far, axis)),
                    min(leg.clearance_m for leg in legs), len(trial.contacts & {"car"}),
                    tuple(f"pair {number}: {leg.result.name} {leg.message}" for leg in legs if _failed(leg)))
+
+
+def ratio_of(leg: DrivenLeg, bound_s: float) -> float:
+    """Of its time to the lower bound; who does not drive is not the fastest."""
+    return math.inf if _failed(leg) else leg.time_s / bound_s
 
 
 def min_gap() -> float:
