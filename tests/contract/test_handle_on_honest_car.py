@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from honest_car import HonestCarLink
 
+from mtr_bringup.demo import HONEST_LIMITS
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.assistance import OUTPUT
 from mtr_operator.domain.ports import HANDLE
@@ -63,7 +64,7 @@ def test_the_border_is_where_half_of_the_requests_work_in_truth(measured):
 
 def test_results_stand_beside_the_truth_of_the_simulation(measured, capsys):
     _, results, _, arguments = measured
-    assert compare.main(arguments) == 0
+    assert compare.main([*arguments, *HONEST_LIMITS]) == 0
     told = capsys.readouterr().out
     with open(f"{arguments[3]}/truth.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(file))

@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from mtr_bringup.demo import compare
+from mtr_bringup.demo import THRESHOLD_LIMITS, compare
 
 SESSION = pathlib.Path(__file__).with_name("gui_session.py")
 SCREEN = "-screen 0 1440x900x24 -nolisten tcp"
@@ -37,7 +37,7 @@ def test_csv_and_png_are_saved(session):
 def test_results_agree_with_the_truth(session):
     folder, = (session / "results").iterdir()
     shutil.copytree(folder, session / "key_press")
-    assert compare(session / "truth_events.csv", session / "key_press") == 0
+    assert compare(session / "truth_events.csv", session / "key_press", *THRESHOLD_LIMITS) == 0
 
 
 def test_finished_test_is_not_offered_again(session):

@@ -74,6 +74,16 @@ def test_results_that_do_not_match_the_truth_are_a_problem(tmp_path, monkeypatch
     assert problems == ["autolock: measured and true events do not match"]
 
 
+def test_distances_of_the_demo_are_held_against_the_truth_as_its_car_allows(tmp_path, monkeypatch):
+    asked = []
+    monkeypatch.setattr(demo, "run_part", lambda part, names: None)
+    monkeypatch.setattr(demo, "compare", lambda events, folder, *arguments: asked.append(arguments) or 0)
+    for car in ("gentle", "honest"):
+        run_demo(DemoOptions(tmp_path / car, car=car, scenarios=("autolock",)))
+    assert asked == [("--car", "gentle", "--seed", "1", "--max-error", "0.05"),
+                     ("--car", "honest", "--seed", "1", "--max-error", "0.15", "--max-sigmas", "4")]
+
+
 def test_last_event_is_read_past_metadata_and_empty_cells(tmp_path):
     results(tmp_path / "autolock", 2)
     assert last_event(read_rows(tmp_path / "autolock" / "results.csv")) == 1.5

@@ -169,6 +169,29 @@ def test_line_that_is_ok_without_a_true_event_fails_and_is_named(folder, capsys)
     assert truth(folder) == [HEADER]
 
 
+@pytest.mark.parametrize(("limits", "status"), [
+    ((), 0), (("--max-error", 0.049), 1), (("--max-error", 0.051), 0), (("--max-sigmas", 1.9), 1),
+    (("--max-sigmas", 2.1), 0), (("--max-error", 0.051, "--max-sigmas", 1.9), 1)])
+def test_distance_that_is_farther_off_than_allowed_fails_and_is_named(folder, capsys, limits, status):
+    line = "0,left,0.5,0.88,0,1,ok,1.52,0.01,10.1,ok,2.45,0.05,19.9"
+    assert run(folder, f"{AUTOLOCK_HEADER}\n{line}\n", *limits) == status
+    said = capsys.readouterr().err
+    assert ("m off with a sigma of" in said) is bool(status)
+    if limits[:1] == ("--max-error",) and status and len(limits) == 2:
+        assert said == "Line 0: its lock is -0.050 m off with a sigma of 0.050 m.\n"
+
+
+@pytest.mark.parametrize(("line", "said"), [
+    ("1,45,ok,6.1,,0.1,3,40.08", "Line 1: its press is +1.100 m off with a sigma of 0.100 m."),
+    ("1,45,ok,5.0,,nan,3,40.08", "Line 1: its press is +0.000 m off with a sigma of nan m."),
+    ("1,45,not_reached,,,,3,", "No distance is ok, so that none agrees with the truth.")])
+def test_results_that_only_happened_at_the_right_time_do_not_agree_with_the_truth(folder, capsys, line, said):
+    results = f"{KEY_PRESS_HEADER}\n{line}\n"
+    assert run(folder, results) == 0
+    assert run(folder, results, "--max-error", 0.15, "--max-sigmas", 4) == 1
+    assert said in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("results", "word"),
     [

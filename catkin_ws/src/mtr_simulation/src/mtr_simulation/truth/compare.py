@@ -1,8 +1,9 @@
 """Compares the results of a test with the simulator's truth: writes truth.csv and prints the errors.
 
 Usage: python -m mtr_simulation.truth.compare --events FILE --results DIR --car-length M --car-width M
-       [--car NAME --seed N]
-The exit status is 0 when each line that is `ok` has its true event, 1 when one has none, 2 when a file is unusable.
+       [--car NAME --seed N] [--max-error M] [--max-sigmas N]
+The exit status is 0 when each line that is `ok` has its true event and is as near to it as is asked for, 1 when one has
+none or is farther, or when a limit is given and no distance is `ok`, 2 when a file is unusable.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -72,12 +73,30 @@ def main(arguments: Optional[List[str]] = None) -> int:
     at_border = border_table(results, comparisons) if scenario == HANDLE_REQUEST else []
     print("\n".join([*table(comparisons), *interval_table(told), *at_border, *summary(scenario, comparisons),
                      *coverage(scenario, told)]))
-    lost = [c for c in comparisons if c.measured.status == "ok" and c.true_distance_m is None
-            and scenario not in _WITHOUT_EVENT]
-    for comparison in lost:
-        m = comparison.measured
-        print(f"Line {m.line}: no true event for its {m.event} at {m.time_s:.3f} s.", file=sys.stderr)
-    return 1 if lost else 0
+    wrong = [] if scenario in _WITHOUT_EVENT else problems(comparisons, options.max_error, options.max_sigmas)
+    for sentence in wrong:
+        print(sentence, file=sys.stderr)
+    return 1 if wrong else 0
+
+
+def problems(comparisons: List[Comparison], max_error_m: Optional[float], max_sigmas: Optional[float]) -> List[str]:
+    """A sentence for each distance that is ok without a true event, or farther from it than allowed; None: no limit."""
+    good = [c for c in comparisons if c.measured.status == "ok"]
+    found = [f"Line {c.measured.line}: no true event for its {c.measured.event} at {c.measured.time_s:.3f} s."
+             for c in good if c.true_distance_m is None]
+    if max_error_m is None and max_sigmas is None:
+        return found
+    found += [f"Line {c.measured.line}: its {c.measured.event} is {c.error_m:+.3f} m off with a sigma of "
+              f"{c.measured.uncertainty_m:.3f} m." for c in good if c.true_distance_m is not None
+              and not is_near(c, max_error_m, max_sigmas)]
+    return found if good else ["No distance is ok, so that none agrees with the truth."]
+
+
+def is_near(comparison: Comparison, max_error_m: Optional[float], max_sigmas: Optional[float]) -> bool:
+    """True when the error is within both limits; an error or a sigma that is no number is within none."""
+    error_m = abs(comparison.error_m)
+    return ((max_error_m is None or error_m <= max_error_m)
+            and (max_sigmas is None or error_m <= max_sigmas * comparison.measured.uncertainty_m))
 
 
 def guess_scenario(results: pathlib.Path) -> str:
@@ -187,6 +206,8 @@ def _parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument("--car", default="", help="the simulated Car; without it the p columns of truth.csv are empty")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation; default 1")
     parser.add_argument("--scenario", choices=sorted(_READERS), help="default: told by the header of results.csv")
+    parser.add_argument("--max-error", type=float, help="m that a distance may be off; default: any")
+    parser.add_argument("--max-sigmas", type=float, help="of its own that a distance may be off; default: any")
     return parser.parse_args(arguments)
 
 
