@@ -60,7 +60,9 @@ def judge_key_press(world: World, ray: Ray, told: Iterable[MeasuredDistance], wi
 
 def _verdict(ray: Ray, told: Iterable[MeasuredDistance], places: Iterable[Callable[[], Optional[Place]]],
              window: Window) -> Verdict:
-    verdict = Verdict.RIGHT
+    told, places = list(told), list(places)
+    # Who leaves a distance out says nothing of it.
+    verdict = Verdict.RIGHT if len(told) == len(places) else Verdict.INVALID
     for distance, place in zip(told, places):
         if distance.status is LineStatus.INVALID:
             verdict = Verdict.INVALID
@@ -76,6 +78,6 @@ def _is_right(ray: Ray, told: MeasuredDistance, place: Optional[Place], window: 
         return False
     point = (place.x, place.y)
     aside_m = ray.direction_x * (place.y - ray.origin_y) - ray.direction_y * (place.x - ray.origin_x)
-    limit_m = min(MAX_ERROR_M, MAX_SIGMAS * (told.uncertainty_m or 0.0))
-    return (abs(ray.distance_of(point) - told.distance_m) <= limit_m and abs(aside_m) <= MAX_ASIDE_M
-            and abs(place.height_m - window.height_m) <= MAX_HEIGHT_M)
+    error_m = abs(ray.distance_of(point) - told.distance_m)
+    return (error_m <= MAX_ERROR_M and error_m <= MAX_SIGMAS * (told.uncertainty_m or 0.0)
+            and abs(aside_m) <= MAX_ASIDE_M and abs(place.height_m - window.height_m) <= MAX_HEIGHT_M)

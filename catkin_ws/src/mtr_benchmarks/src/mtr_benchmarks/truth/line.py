@@ -1,5 +1,6 @@
 """One line in a world of its own, with one random disturbance."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 import random
 from typing import Any, NamedTuple, Tuple, Union
 
@@ -21,7 +22,7 @@ from .clocks import Clock, Way
 from .disturbances import BOTH, OF_PRESSES
 from .judge import Verdict, Window, judge_autolock, judge_key_press
 from .robot import RobotBody
-from .world import CAR, STATUS_PERIOD_S, World, WorldCar, WorldRobot
+from .world import CAR, STATUS_PERIOD_S, PoseError, World, WorldCar, WorldRobot
 
 PROFILE = load_profile("mtr_demo_car")
 # Disturbances begin within this time from some moments before a line on; a line takes 8 to 15 s.
@@ -30,6 +31,12 @@ WITHIN_S = 16.0
 EFFECT_S = 4.0
 # Share of robots whose software is not of before.
 NEW_ROBOTS = 0.85
+# 1 sigma of the position, from a robot beside walls to one in the open. Its error is of a normal distribution, but at
+# most so many sigmas and so large: in 3 sigmas and 5 cm the error of the instant has to find room, too.
+MIN_SIGMA_M, MAX_SIGMA_M = 0.002, 0.03
+POSE_SIGMAS, POSE_ERROR_M = 2.0, 0.035
+# One part of it stays for the whole line, one swings with a period of so long.
+SWING_S = (20.0, 60.0)
 # Never reached.
 NEVER_M = -1.0
 Parameters = Union[AutolockParameters, KeyPressParameters]
@@ -53,7 +60,7 @@ def run_line(seed: int, number: int) -> Line:
     """Measure one line; the same seed and number give the same."""
     chance = random.Random(f"{seed} {number}")
     is_autolock = number % 2 == 0
-    world = _world(chance, is_autolock)
+    world = _world(chance, is_autolock, pose_error(random.Random(f"{seed} {number} pose")))
     robot_link = WorldRobot(world)
     loop = ControlLoop(robot_link, WorldCar(world, robot_link, PROFILE))
     robot, car = Robot(loop), Car(loop)
@@ -98,7 +105,17 @@ def _told(measured: Any) -> Tuple[str, ...]:
     return tuple(f"{distance.status.value} {distance.distance_m}" for distance in result.distances)
 
 
-def _world(chance: random.Random, is_autolock: bool) -> World:
+def pose_error(chance: random.Random) -> PoseError:
+    """Of one line."""
+    sigma_m = math.exp(chance.uniform(math.log(MIN_SIGMA_M), math.log(MAX_SIGMA_M)))
+    limit_m = min(POSE_SIGMAS * sigma_m, POSE_ERROR_M)
+    still, swing = (tuple(chance.gauss(0.0, sigma_m / math.sqrt(2.0)) for _ in "xy") for _ in range(2))
+    far = max(math.hypot(*still) + math.hypot(*swing), limit_m) / limit_m
+    return PoseError(sigma_m, (still[0] / far, still[1] / far), (swing[0] / far, swing[1] / far),
+                     chance.uniform(*SWING_S))
+
+
+def _world(chance: random.Random, is_autolock: bool, error: PoseError) -> World:
     unlock_m = chance.uniform(0.8, 2.8) if is_autolock and chance.random() < 0.75 else NEVER_M
     car = CarBody(unlock_m, max(unlock_m, 0.0) + chance.uniform(0.2, 0.6), chance.uniform(0.0, CYCLE_S))
     if not is_autolock and chance.random() < 0.3:
@@ -109,7 +126,7 @@ def _world(chance: random.Random, is_autolock: bool) -> World:
         Way(chance, chance.uniform(0.0005, 0.003), chance.uniform(0.001, 0.006)), Way(chance, 0.0003, 0.0005),
         press_range_m=chance.uniform(3.2, 6.2) if chance.random() < 0.85 else 1.0,
         reaction_s=chance.uniform(0.05, 0.5), is_stamped=chance.random() < 0.7,
-        tells_steady_clock=chance.random() < NEW_ROBOTS)
+        tells_steady_clock=chance.random() < NEW_ROBOTS, pose_error=error)
 
 
 def _parameters(chance: random.Random, is_autolock: bool) -> Parameters:

@@ -35,7 +35,7 @@ class Push(NamedTuple):
 
 @dataclass
 class RobotBody:
-    """Where the robot truly is; its pose is known without error.
+    """Where the robot truly is, by which it drives.
 
     beside: since when it drives how far beside its line. heights: since when its key is how much higher.
     pushes, blocks: by hand, and intervals in which an obstacle is in the way. press_delay_s: from order to press.

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
-from typing import Callable, List, Optional, Tuple
+from typing import Callable, List, NamedTuple, Optional, Tuple
 
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.lock_watch import LockWatch
@@ -24,6 +24,23 @@ CATCH_UP_LIMIT_S = 0.25
 POSE_AGE_S = 0.06
 
 
+class PoseError(NamedTuple):
+    """How far the told position is from the true one: a part that stays, and one that swings slowly; m.
+
+    sigma_m: what the robot tells of it.
+    """
+
+    sigma_m: float
+    still: Tuple[float, float] = (0.0, 0.0)
+    swing: Tuple[float, float] = (0.0, 0.0)
+    swing_period_s: float = math.inf
+
+    def at(self, time_s: float) -> Tuple[float, float]:
+        """Told less true position."""
+        share = math.sin(2.0 * math.pi * time_s / self.swing_period_s)
+        return self.still[0] + share * self.swing[0], self.still[1] + share * self.swing[1]
+
+
 @dataclass
 class World:
     """True time is the laptop's. loses: whether a Status that is sent now is lost.
@@ -42,6 +59,7 @@ class World:
     reaction_s: float
     is_stamped: bool
     tells_steady_clock: bool
+    pose_error: PoseError
     loses: Callable[[float], bool] = lambda time_s: False
     late_reaction_s: float = 0.0
     late_presses: int = 0
@@ -79,11 +97,13 @@ class World:
         robot, clock, now_s = self.robot, self.robot_clock, self.time_s
         self._status_id += 1
         pose_s, x, y, heading, speed_mps = next(pose for pose in self._poses if pose[0] >= now_s - POSE_AGE_S - 1e-6)
+        error_x, error_y = self.pose_error.at(pose_s)
         steady_s = clock.steady_s(now_s) - 1e6 if self.tells_steady_clock else math.nan
         return RobotStatus(
             id=self._status_id, robot_session_id=7, stamp_s=clock.at(pose_s), sent_s=clock.at(now_s),
-            steady_s=steady_s, waits_for_answer=True, x=x, y=y, heading=heading, speed_mps=speed_mps, pose_valid=True,
-            position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M, key_height_m=robot.height_m(now_s),
+            steady_s=steady_s, waits_for_answer=True, x=x + error_x, y=y + error_y, heading=heading,
+            speed_mps=speed_mps, pose_valid=True, position_sigma_m=self.pose_error.sigma_m, heading_sigma_rad=0.01,
+            key_x=KEY_X_M, key_height_m=robot.height_m(now_s),
             mode=Mode.FOLLOWING_WAYPOINT, car=CAR, waypoint_result=robot.result,
             waypoint_id=robot.waypoint.id if robot.waypoint else 0, interventions=robot.interventions(now_s),
             presses=tuple(PressReport(press.id, clock.at(press.start_s), clock.at(press.end_s))
