@@ -5,11 +5,12 @@ import json
 import pytest
 
 from mtr_benchmarks.harness.rows import all_met
-from mtr_benchmarks.preflight.__main__ import main, report
+from mtr_benchmarks.preflight import verdicts
+from mtr_benchmarks.preflight.__main__ import ALARMS, WRONG, main, report
 from mtr_benchmarks.preflight.assemblies import ASSEMBLIES, RIGHT
 from mtr_benchmarks.preflight.drive import drive_of, drives, record
-from mtr_benchmarks.preflight.verdicts import Verdict, counts, says, verdict_on
-from mtr_bringup.preflight.finding import bad, good
+from mtr_benchmarks.preflight.verdicts import Verdict, asks_for_more, counts, says, verdict_on
+from mtr_bringup.preflight.finding import bad, good, needs_more
 
 # One with perfect LiDARs, one with bad ones and a person who walks about.
 DRIVES = {"lot": (4, False), "lot_person": (5, True)}
@@ -31,6 +32,37 @@ def test_verdict_is_right_when_each_cause_and_nothing_else_is_told():
     findings = [good("a", "b", "x"), bad("a", "b", "the wheel is loose"), bad("a", "b", "the wheel is flat")]
     assert says(findings, ("flat", "loose")) and says(findings[:1], ())
     assert not says(findings, ("loose",)) and not says(findings, ("loose", "flat", "gone"))
+
+
+def test_wrong_diagnosis_that_also_asks_for_more_is_wrong():
+    more, flat = needs_more("motion", "Drive on."), bad("a", "b", "the wheel is flat")
+    assert asks_for_more([more], ("flat",)) and asks_for_more([more, flat, good("a", "b", "x")], ("flat", "loose"))
+    assert not asks_for_more([more, flat], ()) and not asks_for_more([more, flat], ("loose",))
+    assert not asks_for_more([flat], ("flat",)) and not asks_for_more([more, flat, flat], ("flat",))
+
+
+class Says:
+    """In place of the preflight's judge."""
+
+    def __init__(self, *findings):
+        self.found = findings
+
+    def __call__(self, lidars):
+        return self
+
+    def findings(self, recording):
+        return self.found
+
+
+def test_alarm_on_a_right_robot_is_one_although_it_also_asks_for_more(recording, monkeypatch):
+    more, swapped = needs_more("motion", "Drive on."), bad("a", "b", "Front and rear LiDAR are swapped.")
+    monkeypatch.setattr(verdicts, "MotionJudge", Says(more, swapped))
+    drive = drive_of("open", 2, False)
+    judged = {drive: {name: verdict_on(recording, assembly) for name, assembly in ASSEMBLIES.items()}}
+    found = {row.requirement: row.value for row in report(judged).rows}
+    assert found[ALARMS] == 1.0 and found[WRONG] == (len(ASSEMBLIES) - 1) / len(ASSEMBLIES)
+    monkeypatch.setattr(verdicts, "MotionJudge", Says(more))
+    assert verdict_on(recording, ASSEMBLIES[RIGHT]).is_undecided
 
 
 def test_counts_and_rows_tell_wrong_from_undecided():
