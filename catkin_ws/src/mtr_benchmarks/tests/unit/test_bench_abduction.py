@@ -76,8 +76,9 @@ def test_pose_that_is_off_within_its_sigma_is_neither_right_nor_lost():
     assert abduction.figures([found]).settled == 0
 
 
-def test_wrong_state_at_10_s_is_not_settled():
-    assert abduction.figures([fate({0.0: LOST, 5.0: FAR_OFF})]).settled == 0
+def test_robot_that_falls_silent_is_neither_right_nor_lost():
+    stamps, zeros = np.arange(0.0, CARRIED_S + 9.0, 0.02), np.zeros(650)
+    assert abduction.fate(KeyTrack(stamps, zeros, zeros, zeros > 0.0, zeros), SEGMENTS).after_10_s == abduction.UNSURE
 
 
 def test_worst_pose_is_told():
@@ -116,16 +117,13 @@ def test_robots_that_are_right_or_lost_meet_the_table():
 
 
 def test_one_robot_that_was_lost_before_meets_nothing():
-    lost = fate({-1.0: LOST, 0.0: LOST})
-    found = report.abduction_report(results([fate(GOOD)] * 99 + [lost]))
-    assert not lost.knew_before
+    found = report.abduction_report(results([fate(GOOD)] * 99 + [fate({-1.0: LOST, 0.0: LOST})]))
     assert not any(row.is_met for row in found.rows if row.requirement in (abduction.WRONG, abduction.SETTLED))
     assert found.rows[0].remark == "100 robots, lost before: 1"
 
 
 def test_valid_poses_that_are_far_off_are_counted_whatever_their_sigma():
-    vague, wrong = fate({0.0: (6.0, 1.6, True)}), fate({0.0: FAR_OFF})
-    found = rows(results([vague, wrong, fate(GOOD), fate({0.0: LOST})]))
+    found = rows(results([fate({0.0: state}) for state in ((6.0, 1.6, True), FAR_OFF, RIGHT, LOST)]))
     assert found[abduction.VAGUE.name]["value"] == 2
     assert (found[abduction.SETTLED.name]["value"], found[abduction.SETTLED.name]["met"]) == (0.5, False)
 

@@ -55,6 +55,18 @@ def test_wrong_heading_moves_the_key_by_its_lever():
     assert errors.yaw_deg == pytest.approx(math.degrees(0.02))
 
 
+@pytest.mark.parametrize("silent", [slice(700, None), slice(300, 600), slice(0, 300)])
+def test_method_that_says_nothing_does_not_know_its_pose(silent):
+    said = np.ones(len(STAMPS)) > 0.0
+    said[silent] = False
+    track = pose_track(STAMPS[said], compose(MAP_FROM_CAR, circle())[said], np.tile(np.eye(3), (sum(said), 1, 1)),
+                       np.ones(sum(said)) > 0.0)
+    errors = errors_of(track, MeasuredCar(MAP_FROM_CAR, NO_COVARIANCE), truth_of(circle()))
+    assert len(errors.key_m) == len(STAMPS)
+    assert np.mean(np.isnan(errors.key_m)) == pytest.approx(np.mean(~said), abs=0.011)
+    assert np.isnan(errors.whitened[np.isnan(errors.key_m)]).all()
+
+
 def test_pose_that_is_not_valid_is_unknown_and_not_good():
     valid = np.ones(len(STAMPS))
     valid[500:] = 0.0

@@ -10,7 +10,7 @@ from mtr_core.arrays import BoolArray
 
 from ...harness.rows import Requirement, Row
 from ..drives.pattern import ABDUCT
-from ..methods.errors import percentile
+from ..methods.errors import SILENT_S, percentile
 from ..methods.key_track import KeyTrack
 from .kidnapping import DETECTION_LIMIT_S, RECOVERED_M
 
@@ -46,7 +46,7 @@ class Fate:
         knew_before: its last pose before was valid and right.
         noticed_s: the first pose that was not valid; None: never.
         found_s: from when on it was right for a second; None: never.
-        after_10_s: right, lost (not valid), wrong, or unsure: valid and off by less than its sigma allows.
+        after_10_s: right, lost (not valid), wrong, or unsure: valid and off by less than its sigma allows, or silent.
         wrong_s: for how long it was wrong and valid from 2 s on.
         first_wrong, worst_wrong: of these poses; None: there were none.
     """
@@ -69,7 +69,7 @@ class AbductionFigures:
     Attributes:
         knew_before: were right and valid before; of one that was lost already nothing is proved.
         noticed: within 2 s.
-        vague_at_10_s: valid then and more than RECOVERED_M off, whatever their sigma: neither right nor lost.
+        vague_at_10_s: valid and more than RECOVERED_M off, whatever their sigma, or silent: neither right nor lost.
         repeated: drives that touched something or gave no map, and were repeated with another seed.
     """
 
@@ -99,6 +99,8 @@ def fate(track: KeyTrack, segments: Sequence[Dict[str, Any]]) -> Fate:
     unknown = np.flatnonzero(after & ~track.valid)
     then = int(np.argmin(np.abs(elapsed - SETTLED_S)))
     state = LOST if not track.valid[then] else RIGHT if right[then] else WRONG_STATE if wrong[then] else UNSURE
+    if abs(elapsed[then] - SETTLED_S) > SILENT_S:
+        state = UNSURE
     return Fate(
         carried["distance_m"], math.degrees(carried["turn_rad"]), bool(right[~after][-1:].any()),
         float(elapsed[unknown[0]]) if len(unknown) else None, _found(track, right & after, carried["begin_s"]), state,

@@ -13,6 +13,8 @@ from ..drives.pose_track import PoseTrack, at, compose, wrapped
 from ..drives.truth import DriveTruth
 
 ROBOT = shipped_robot()
+# An instant without an estimate so near is one without a pose.
+SILENT_S = 0.1
 NAN = math.nan
 
 
@@ -20,7 +22,8 @@ class PoseErrors(NamedTuple):
     """One row for each 20 ms after the loop; angles in degrees.
 
     Attributes:
-        key_m: distance of the key from where it is said to be; NaN where the method says that it does not know.
+        key_m: distance of the key from where it is said to be; NaN where the method says that it does not know, or
+            nothing for longer than SILENT_S.
         yaw_deg: error of the heading, signed.
         whitened: (n, 3), error of the pose in frame car in independent units of its covariance; NaN where the method
             says that it does not know, and from one without covariance.
@@ -49,8 +52,10 @@ class MeasuredCar(NamedTuple):
 
 
 def errors_of(track: PoseTrack, car: MeasuredCar, truth: DriveTruth) -> PoseErrors:
-    """Errors at each judged instant of the truth."""
-    judged = truth.judged & (truth.track.stamps_s >= track.stamps_s[0]) & (truth.track.stamps_s <= track.stamps_s[-1])
+    """Errors at each judged instant of the truth; of a method that never says whether it knows, while it speaks."""
+    judged = truth.judged
+    if track.valid is None:
+        judged = judged & (truth.track.stamps_s >= track.stamps_s[0]) & (truth.track.stamps_s <= track.stamps_s[-1])
     stamps = truth.track.stamps_s[judged]
     measured = compose(car.pose.inverse(), at(track, stamps))
     true = truth.track.poses[judged]
@@ -61,12 +66,20 @@ def errors_of(track: PoseTrack, car: MeasuredCar, truth: DriveTruth) -> PoseErro
     if track.covariances is not None:
         whitened = whitened_errors(measured, true, joined(track.covariances[nearest], car, measured))
     if track.valid is not None:
-        # Who says that he does not know promises nothing.
-        key_m = np.where(track.valid[nearest], key_m, NAN)
-        whitened = np.where(track.valid[nearest, np.newaxis], whitened, NAN)
+        # Who says that he does not know, or nothing, promises nothing.
+        known = track.valid[nearest] & (silence_s(track.stamps_s, stamps) <= SILENT_S)
+        key_m = np.where(known, key_m, NAN)
+        whitened = np.where(known[:, np.newaxis], whitened, NAN)
     yaw = np.degrees(wrapped(measured[:, 2] - true[:, 2]))
     return PoseErrors(stamps, key_m, yaw, whitened, truth.standing[judged], truth.on_axis[judged],
                       truth.beyond_m[judged])
+
+
+def silence_s(said_s: FloatArray, stamps_s: FloatArray) -> FloatArray:
+    """From each stamp to the nearest at which something was said."""
+    after = np.searchsorted(said_s, stamps_s)
+    return np.minimum(np.abs(said_s[np.minimum(after, len(said_s) - 1)] - stamps_s),
+                      np.abs(said_s[np.maximum(after - 1, 0)] - stamps_s))
 
 
 def keys(poses: FloatArray) -> FloatArray:
