@@ -7,11 +7,16 @@ import pytest
 
 from mtr_operator.domain.ports import PASSIVE_ENTRY, LockFacts
 from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios.autolock import SCENARIO
 from mtr_operator.domain.scenarios.autolock_boundary import with_boundaries
 from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.domain.scenarios.autolock_speeds import pass_speeds
+from mtr_operator.domain.verdict.judgement import Circumstances, judge
+from mtr_operator.domain.verdict.limits_document import limits_from
+from mtr_operator.domain.verdict.verdict import Verdict
+from mtr_operator.report.table import line_text
 
 TWO = AutolockParameters(measurements_distance_m=10.0, passes=2, measuring_speeds_mps=(0.4, 0.1))
 SHARED_M = 0.03
@@ -129,3 +134,26 @@ def test_axes_that_are_measured_say_how_wide_the_intervals_of_the_others_will_be
     assert prospect.interval_m == pytest.approx((0.05, 0.2))
     nowhere = replace(wide, unlock_static_m=None, unlock_static_low_m=None, unlock_static_high_m=None)
     assert SCENARIO.prospect(TWO, LockFacts(told_every_s=0.2), [nowhere]).interval_m == pytest.approx((0.05, 0.05))
+
+
+def unlocked(status):
+    """An axis that ended so, and on which nothing locked the Car."""
+    return AutolockResult(1, "front", 2.25, 0.0, 1.0, 0.0, status, None, None, None, LineStatus.NOT_REACHED, None, None,
+                          None, "")
+
+
+def test_boundary_that_was_not_reached_lies_beyond_the_end_of_its_way():
+    assert SCENARIO.unreached(TWO, unlocked(LineStatus.NOT_REACHED), "unlock") == (None, 0.5)
+    assert SCENARIO.unreached(TWO, unlocked(LineStatus.OK), "lock") == (3.5, None)
+
+
+@pytest.mark.parametrize("status", [LineStatus.NOT_REACHED, LineStatus.INVALID])
+def test_car_that_never_unlocked_tells_nothing_of_where_it_locks(status):
+    result, lines = unlocked(status), SCENARIO.lines(TWO, CarDimensions(4.5, 1.8, 0.02, 0.01))[:1]
+    assert line_text(SCENARIO, result, TWO).endswith("lock not reached")
+    limits = limits_from({"limits": [{"what": "lock", "at_least_m": 1.5}, {"what": "lock", "at_most_m": 3.4}]})
+    circumstances = Circumstances(unreached=lambda result, word: SCENARIO.unreached(TWO, result, word))
+    found = judge(limits, lines, [result], circumstances)
+    assert [each.verdict for each in found.judgements] == 2 * [Verdict.INCONCLUSIVE]
+    assert found.reason_of(1) == "It was not reached, and the line does not tell on which side of the limit it lies."
+    assert found.undecided() == []

@@ -142,8 +142,3 @@ def test_what_the_car_did_up_to_a_second_before_a_stop_was_told_is_doubtful(run_
     first = run_scenario.saved[0][0]
     assert (first.unlock_status.value, first.lock_status.value) == (kept, "invalid")
     assert "A motion lock stopped the robot" in first.reason
-
-
-def test_boundary_that_was_not_reached_lies_beyond_the_end_of_its_way():
-    assert SCENARIO.unreached(TWO, "unlock") == (None, 0.5)
-    assert SCENARIO.unreached(TWO, "lock") == (3.5, None)

@@ -64,8 +64,10 @@ def test_interval_that_no_number_of_presses_reaches_is_told_with_a_wider_one_onl
 
 
 def test_side_to_which_a_search_has_no_bound_is_not_taken_for_near_the_car():
-    assert KEY_PRESS.unreached(PARAMETERS, "press") == (None, None)
-    assert KEY_PRESS.unreached(replace(PARAMETERS, method="scan"), "press") == (None, 3.0)
+    searched = radial(1, 5.0, 4.9)
+    assert KEY_PRESS.unreached(PARAMETERS, searched, "press") == (None, None)
+    assert KEY_PRESS.unreached(replace(PARAMETERS, method="scan"), replace(searched, method="scan"),
+                               "press") == (None, 3.0)
 
 
 def test_passes_at_two_speeds_have_an_interval_and_one_pass_has_none():

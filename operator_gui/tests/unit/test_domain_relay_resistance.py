@@ -207,5 +207,6 @@ def test_expected_time_grows_with_the_requests():
 
 
 def test_silence_is_no_distance_that_a_limit_could_pass_by():
-    assert figure_of(good().distances[0], SCENARIO.unreached(PARAMETERS, "relay")) == Figure(Kind.NOT_REACHED)
-    assert SCENARIO.unreached(PARAMETERS, "relay") == (None, None)
+    ends = SCENARIO.unreached(PARAMETERS, good(), "relay")
+    assert ends == (None, None)
+    assert figure_of(good().distances[0], ends) == Figure(Kind.NOT_REACHED)

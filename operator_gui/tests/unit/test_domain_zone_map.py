@@ -9,6 +9,7 @@ import pytest
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.distance import distance_to_outline
 from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.results.figure import Figure, Kind, figure_of
 from mtr_operator.domain.results.line_result import LineStatus, result_from_document
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
@@ -98,6 +99,12 @@ def test_the_picture_has_nested_outlines_and_all_presses(measured):
                for near, middle, far in zip(sure, half, perhaps))
     assert len(sets["Press worked"].points) + len(sets["Press failed"].points) == sum(r.presses for r in results)
     assert all(None not in points for points in (sure, half, perhaps))
+
+
+def test_zone_that_works_everywhere_from_unknown_places_is_not_said_to_end_near_the_car():
+    everywhere = ZoneMapResult(1, "front", 1.0, LineStatus.NOT_REACHED, 10, worked_x_m=(6.0,), worked_y_m=(0.0,))
+    assert figure_of(everywhere.distances[0], SCENARIO.unreached(PARAMETERS, everywhere, "reach")) == Figure(
+        Kind.NOT_REACHED)
 
 
 @pytest.mark.parametrize("values", [{"minimum_distance_m": 6.0}, {"minimum_distance_m": 0.2},

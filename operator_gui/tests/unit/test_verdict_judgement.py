@@ -81,7 +81,7 @@ def test_an_open_end_keeps_or_breaks_a_limit_on_its_other_side():
 
 
 def test_a_boundary_that_was_not_reached_lies_beyond_the_end_of_the_line():
-    unreached = Circumstances(unreached=lambda word: (None, 0.5))
+    unreached = Circumstances(unreached=lambda _, __: (None, 0.5))
     results = [measured(1, None, None), measured(2, 1.0, 2.0, 1.5)]
     found = judge(Limits((AT_LEAST, AT_MOST)), LINES[:1], results, unreached)
     assert [judgement.verdict for judgement in found.judgements] == [Verdict.FAIL, Verdict.PASS]

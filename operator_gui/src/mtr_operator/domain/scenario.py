@@ -115,8 +115,8 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         """What else a limits file may ask for, beside distances."""
         return ()
 
-    def unreached(self, parameters: Parameters, word: str) -> tuple[float | None, float | None]:
-        """Between which distances a boundary lies that was not reached; None for an end that nobody knows."""
+    def unreached(self, parameters: Parameters, result: Result, word: str) -> tuple[float | None, float | None]:
+        """Between which distances a boundary of a line lies that was not reached; None for an end that nobody knows."""
         return None, parameters.minimum_distance_m
 
     def prospect(self, parameters: Parameters, facts: LockFacts, results: Sequence[Result]) -> Prospect | None:

@@ -118,9 +118,9 @@ class DistanceReader:
         self._alive = {distance.word for result in progress.results for distance in result.distances
                        if distance.status is LineStatus.OK}
 
-    def figure(self, distance: MeasuredDistance) -> Figure:
+    def figure(self, result: LineResult, distance: MeasuredDistance) -> Figure:
         """What may be said of it."""
-        return figure_of(distance, self._side.scenario.unreached(self._side.parameters, distance.word))
+        return figure_of(distance, self._side.scenario.unreached(self._side.parameters, result, distance.word))
 
     def ends(self, result: LineResult, distance: MeasuredDistance) -> Ends | None:
         """95 % interval; None where the measurement does not say how sure it is."""
@@ -146,7 +146,8 @@ class DistanceReader:
 def _difference(pair: LinePair, word: str, index: int, sides: tuple[DistanceReader, DistanceReader]) -> Difference:
     results = pair.first, pair.second
     distances = [result.distances[index] for result in results]
-    first, second = (side.figure(distance) for side, distance in zip(sides, distances))
+    first, second = (side.figure(result, distance)
+                     for side, result, distance in zip(sides, results, distances))
     values = [figure.first_m if figure.kind is Kind.VALUE else None for figure in (first, second)]
     known = Difference(pair, word, first, second,
                        None if values[0] is None or values[1] is None else values[1] - values[0])

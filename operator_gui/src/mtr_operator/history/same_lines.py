@@ -87,7 +87,7 @@ class Tests:
         # What was reached nowhere in a test may have been asleep.
         if distance.status is LineStatus.INVALID or not reader.is_alive(word):
             return None
-        figure = reader.figure(distance)
+        figure = reader.figure(result, distance)
         low_m, high_m = _ends(figure)
         unshown_m, lasting = reader.unshown_sigma_m(result, word), self.lasting_sigmas(test, line, word)
         shared_m = math.hypot(unshown_m, lasting.timing_m)

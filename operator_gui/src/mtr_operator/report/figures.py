@@ -44,7 +44,8 @@ def plain_number(value: float, digits: int) -> str:
 
 def figures_of(scenario: AnyScenario, parameters: ScenarioParameters | None, result: LineResult) -> list[Figure]:
     """What may be said of each distance of a line; without parameters less of one that was not reached."""
-    return [figure_of(distance, (None, None) if parameters is None else scenario.unreached(parameters, distance.word))
+    return [figure_of(distance, (None, None) if parameters is None
+                      else scenario.unreached(parameters, result, distance.word))
             for distance in result.distances]
 
 

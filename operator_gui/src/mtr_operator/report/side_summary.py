@@ -59,8 +59,8 @@ def _summary(of: tuple[str, int], results: Sequence[LineResult], test: tuple[Any
              judgement: TestJudgement | None) -> SideSummary:
     (side, index), (scenario, parameters) = of, test
     word = scenario.distance_words[index]
-    unreached = scenario.unreached(parameters, word)
-    figures = {result.number: figure_of(result.distances[index], unreached) for result in results}
+    figures = {result.number: figure_of(result.distances[index], scenario.unreached(parameters, result, word))
+               for result in results}
     known = {number: _ends(figure) for number, figure in figures.items() if figure.kind not in _WITHOUT}
     lows, highs = [low for low, _ in known.values()], [high for _, high in known.values()]
     verdicts = {number: Verdict.NOT_SET if judgement is None else judgement.of_line(number) for number in figures}

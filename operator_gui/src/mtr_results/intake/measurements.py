@@ -61,7 +61,7 @@ def measurement_rows(side: Side, assessment: Assessment | None, entries: Sequenc
 
 
 def _distance(side: Side, assessor: Assessor, result: LineResult, distance: MeasuredDistance) -> Row:
-    figure = figure_of(distance, side.scenario.unreached(side.parameters, distance.word))
+    figure = figure_of(distance, side.scenario.unreached(side.parameters, result, distance.word))
     ends = assessor.interval(result, distance)
     low_m, high_m = (None, None) if ends is None else map(_finite, ends)
     return {"word": distance.word, "status": distance.status.value, "kind": figure.kind.value,

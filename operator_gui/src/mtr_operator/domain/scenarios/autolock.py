@@ -105,9 +105,13 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         """See Scenario: the axes measured so far know the static boundary best."""
         return pass_prospect(parameters, facts.told_every_s, self.expected_line_s(parameters), results)
 
-    def unreached(self, parameters: AutolockParameters, word: str) -> tuple[float | None, float | None]:
-        """See Scenario: the approach ends near the Car, the retreat far from it."""
-        return (parameters.straightened_distance_m, None) if word == LOCK else super().unreached(parameters, word)
+    def unreached(self, parameters: AutolockParameters, result: AutolockResult,
+                  word: str) -> tuple[float | None, float | None]:
+        """See Scenario: the approach ends near the Car, the retreat far from it; a Car that never unlocked could not
+        lock, wherever that is."""
+        if word != LOCK:
+            return super().unreached(parameters, result, word)
+        return (parameters.straightened_distance_m if result.unlock_status is LineStatus.OK else None), None
 
     def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[AutolockResult]) -> Picture:
         """Axes, and the two areas that the points enclose."""

@@ -98,9 +98,10 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
             return prospect.prospect(parameters.search_plan, WIDTHS, results)
         return scan_prospect(parameters, results)
 
-    def unreached(self, parameters: KeyPressParameters, word: str) -> tuple[float | None, float | None]:
+    def unreached(self, parameters: KeyPressParameters, result: KeyPressResult,
+                  word: str) -> tuple[float | None, float | None]:
         """See Scenario: the results of a search say themselves to which side they are not bounded."""
-        return (None, None) if parameters.method == ADAPTIVE else super().unreached(parameters, word)
+        return (None, None) if result.was_searched else super().unreached(parameters, result, word)
 
     def judged_shares(self, parameters: KeyPressParameters) -> tuple[int, ...]:
         """See Scenario."""

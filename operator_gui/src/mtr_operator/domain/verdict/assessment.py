@@ -132,8 +132,8 @@ class Assessor:
                              _recorded(result, word, "static_shared_sigma_m") or 0.0, distance.common_sigma_m or 0.0,
                              math.hypot(*(term.contribution_m for term in record)))
 
-    def _unreached(self, word: str) -> tuple[float | None, float | None]:
-        return self._scenario.unreached(self._parameters, word)
+    def _unreached(self, result: LineResult, word: str) -> tuple[float | None, float | None]:
+        return self._scenario.unreached(self._parameters, result, word)
 
     def _outline(self, result: LineResult) -> tuple[float, float]:
         """Sigmas of the Car's size where the line begins on its outline."""

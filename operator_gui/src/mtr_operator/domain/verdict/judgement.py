@@ -31,11 +31,11 @@ class Circumstances:
     Attributes:
         guard_sigma_m: of a line's result and the word of a distance: 1 sigma of the errors that are not in its
             interval, for no repetition shows them.
-        unreached: of a word: between which distances the boundary lies where it was not reached.
+        unreached: of the same: between which distances the boundary lies where it was not reached.
     """
 
     guard_sigma_m: Callable[[LineResult, str], float] = lambda _result, _word: 0.0
-    unreached: Callable[[str], tuple[float | None, float | None]] = lambda _word: (None, None)
+    unreached: Callable[[LineResult, str], tuple[float | None, float | None]] = lambda _result, _word: (None, None)
 
 
 NOTHING_KNOWN = Circumstances()
@@ -163,7 +163,7 @@ def _distance(requirement: Requirement, result: LineResult, circumstances: Circu
                  None)
     if found is None or found.status is not LineStatus.NOT_REACHED or (found.low_m, found.high_m) != (None, None):
         return found
-    low_m, high_m = circumstances.unreached(requirement.what)
+    low_m, high_m = circumstances.unreached(result, requirement.what)
     return replace(found, low_m=low_m, high_m=high_m)
 
 
@@ -172,7 +172,8 @@ def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDi
     if distance is None or distance.status is LineStatus.INVALID:
         return result.reason or _UNTOLD
     if distance.low_m is None and distance.high_m is None:
-        return "The measurement does not say how sure it is."
+        return ("It was not reached, and the line does not tell on which side of the limit it lies."
+                if distance.status is LineStatus.NOT_REACHED else "The measurement does not say how sure it is.")
     if distance.low_m is None and not requirement.is_at_least and requirement.what not in alive:
         return "The key worked nowhere in this test; it may have been asleep."
     return ""

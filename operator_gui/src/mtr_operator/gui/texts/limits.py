@@ -74,6 +74,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The line was not measured."),
     QT_TRANSLATE_NOOP("Sentence", "The line does not tell this distance."),
     QT_TRANSLATE_NOOP("Sentence", "The measurement does not say how sure it is."),
+    QT_TRANSLATE_NOOP("Sentence", "It was not reached, and the line does not tell on which side of the limit it lies."),
     QT_TRANSLATE_NOOP("Sentence", "The key worked nowhere in this test; it may have been asleep."),
     QT_TRANSLATE_NOOP("Sentence", "calibration record of {}: {}"),
 )

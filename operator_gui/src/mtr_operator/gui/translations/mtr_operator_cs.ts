@@ -6914,6 +6914,11 @@
         <source>The Car&apos;s locks moved on its bus, and {} was silent; increase cause_within_s of the car profile if it counts later.</source>
         <translation>Zámky auta se podle sběrnice změnily a {} mlčel; pokud počítá později, zvyšte cause_within_s v profilu auta.</translation>
     </message>
+    <message>
+        <location filename="../texts/limits.py" line="5"/>
+        <source>It was not reached, and the line does not tell on which side of the limit it lies.</source>
+        <translation>Hranice nebyla dosažena a přímka neuvádí, na které straně limitu leží.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -71,7 +71,8 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
         """See Scenario."""
         return SHARES
 
-    def unreached(self, parameters: HandleRequestParameters, word: str) -> tuple[float | None, float | None]:
+    def unreached(self, parameters: HandleRequestParameters, result: HandleRequestResult,
+                  word: str) -> tuple[float | None, float | None]:
         """See Scenario: the results say themselves to which side they are not bounded."""
         return None, None
 

@@ -71,7 +71,8 @@ class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResist
         """See Scenario: the axis goes on with the requests that are kept."""
         return not robot.trouble() and has_kept(robot)
 
-    def unreached(self, parameters: RelayResistanceParameters, word: str) -> tuple[float | None, float | None]:
+    def unreached(self, parameters: RelayResistanceParameters, result: RelayResistanceResult,
+                  word: str) -> tuple[float | None, float | None]:
         """See Scenario: requests without an unlock bound a probability, and no distance."""
         return None, None
 

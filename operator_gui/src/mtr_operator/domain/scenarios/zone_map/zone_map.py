@@ -111,6 +111,12 @@ class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
         """See Scenario."""
         return (50,)
 
+    def unreached(self, parameters: ZoneMapParameters, result: ZoneMapResult,
+                  word: str) -> tuple[float | None, float | None]:
+        """See Scenario: the results say themselves to which side they are not bounded; one of places that nobody knows
+        well has neither end, also where the presses work as far as they were tried."""
+        return None, None
+
     def expected_line_s(self, parameters: ZoneMapParameters) -> float:
         """See Scenario: no zone takes more presses than allowed, and few take fewer."""
         return parameters.presses_limit * press_s(parameters)
