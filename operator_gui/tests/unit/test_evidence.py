@@ -249,6 +249,24 @@ def test_line_that_is_invalid_has_failed_with_its_reason(bundle):
     assert suite.find("testcase/failure").get("message") == "a <door> was open"
 
 
+def test_test_that_was_interrupted_is_not_passed(measured):
+    scenario, parameters, progress = open_progress(measured / "progress.json", SCENARIOS)
+    planned = len(progress.results)
+    progress.results = progress.results[:2]
+    record = record_of(scenario, progress, assess(scenario, parameters, progress))
+    assert list(violations(json.loads(SCHEMA.read_text()), record)) == []
+    test = openhtf_of(record, "here")
+    assert test["outcome"] == "ERROR"
+    assert [phase["outcome"] for phase in test["phases"]] == 2 * ["PASS"] + (planned - 2) * ["SKIP"]
+    suite = ElementTree.fromstring(junit_of(record, "here"))
+    assert (suite.get("tests"), suite.get("errors")) == (str(planned), str(planned - 2))
+    assert suite.find("testcase[@name='radial 3']/error").get("message") == "The line was not measured."
+    # Older records do not say what was planned.
+    del record["planned_lines"]
+    assert openhtf_of(record, "here")["outcome"] == "PASS"
+    assert ElementTree.fromstring(junit_of(record, "here")).get("errors") == "0"
+
+
 def test_course_is_in_the_bundle_as_foxglove_reads_it(bundle, measured):
     with zipfile.ZipFile(bundle) as container:
         content = container.read("recording/course_001.mcap")

@@ -29,6 +29,7 @@ def record_of(scenario: AnyScenario, progress: Progress, assessment: Assessment 
         "identity": document.get("identity"), "limits": document.get("limits"),
         "calibration": document.get("calibration"), "frame_record": document["frame_record"],
         "verdict": None if judgement is None else judgement.verdict.word,
+        "planned_lines": _planned(scenario, progress),
         "lines": [_line(scenario, result) for result in progress.results],
         "columns": [{"name": column.name, "unit": column.unit, "meaning": column.doc}
                     for column in scenario.result_type.columns()],
@@ -44,6 +45,14 @@ def versions() -> dict[str, str]:
         except importlib.metadata.PackageNotFoundError:
             found[name] = "not installed"
     return found
+
+
+def _planned(scenario: AnyScenario, progress: Progress) -> list[dict[str, Any]]:
+    """All lines that the test wants; none before the Car was mapped, for they follow from its size."""
+    if progress.car is None:
+        return []
+    lines = scenario.lines(scenario.parameters_type.from_mapping(progress.parameters), progress.car)
+    return [{"number": line.number, "kind": scenario.line_word} for line in lines]
 
 
 def _line(scenario: AnyScenario, result: LineResult) -> dict[str, Any]:

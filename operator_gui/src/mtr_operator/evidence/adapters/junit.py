@@ -5,17 +5,23 @@ from __future__ import annotations
 from typing import Any, Mapping
 from xml.etree import ElementTree
 
-from .outcome import FAIL, NOTHING, line_outcome
+from .outcome import FAIL, NOT_MEASURED, NOTHING, line_outcome, unmeasured_lines
 
 _BAD_VERDICTS = ("fail", "error", "aborted")
 
 
 def junit_of(record: Mapping[str, Any], station: str) -> bytes:
-    """Of a record as record.schema.json has it; the verdict, if there is one, is a test case of its own."""
+    """Of a record as record.schema.json has it; the verdict, if there is one, is a test case of its own.
+
+    A planned line without a result is an error: a skipped case would leave an interrupted test green."""
     suite = ElementTree.Element("testsuite", name=record["scenario"], hostname=station,
                                 timestamp=str(record["session"].get("started", "")))
     for line in record["lines"]:
         _line(suite, record["scenario"], line)
+    for line in unmeasured_lines(record):
+        case = ElementTree.SubElement(suite, "testcase", classname=record["scenario"],
+                                      name=f"{line['kind']} {line['number']}")
+        ElementTree.SubElement(case, "error", message=NOT_MEASURED)
     if record["verdict"] is not None:
         case = ElementTree.SubElement(suite, "testcase", classname=record["scenario"], name="verdict")
         if record["verdict"] in _BAD_VERDICTS:
@@ -24,6 +30,7 @@ def junit_of(record: Mapping[str, Any], station: str) -> bytes:
             ElementTree.SubElement(case, "skipped", message=record["verdict"])
     suite.set("tests", str(len(suite.findall("testcase"))))
     suite.set("failures", str(len(suite.findall("testcase/failure"))))
+    suite.set("errors", str(len(suite.findall("testcase/error"))))
     suite.set("skipped", str(len(suite.findall("testcase/skipped"))))
     ElementTree.indent(suite)
     return bytes(ElementTree.tostring(suite, encoding="utf-8", xml_declaration=True))

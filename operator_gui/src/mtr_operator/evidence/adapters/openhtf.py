@@ -5,7 +5,7 @@ from __future__ import annotations
 import datetime
 from typing import Any, Mapping
 
-from .outcome import FAIL, PASS, line_outcome
+from .outcome import FAIL, NOT_MEASURED, PASS, line_outcome, unmeasured_lines
 
 _MS_PER_S = 1000.0
 _UNIT = "m"
@@ -14,10 +14,12 @@ _PHASES = {PASS: "PASS", FAIL: "FAIL"}
 
 
 def openhtf_of(record: Mapping[str, Any], station: str) -> dict[str, Any]:
-    """Of a record as record.schema.json has it. The outcome is the verdict; without limits that of the measuring."""
+    """Of a record as record.schema.json has it. The outcome is the verdict; without limits that of the measuring, which
+    passes when each planned line is measured."""
     identity, session = record.get("identity") or {}, record["session"]
     begun_ms = _milliseconds(session.get("started"))
     phases = [_phase(line, begun_ms) for line in record["lines"]]
+    phases += [_left_out(line, begun_ms) for line in unmeasured_lines(record)]
     measured = "PASS" if phases and all(phase["outcome"] == "PASS" for phase in phases) else "ERROR"
     return {
         "dut_id": identity.get("car_vin") or identity.get("key_serial") or "unknown", "station_id": station,
@@ -42,6 +44,12 @@ def _phase(line: Mapping[str, Any], begun_ms: int) -> dict[str, Any]:
             "end_time_millis": begun_ms, "outcome": _PHASES.get(line_outcome(line), "SKIP"),
             "measurements": measurements, "attachments": {},
             "result": {"phase_result": line["reason"] or "CONTINUE"}}
+
+
+def _left_out(line: Mapping[str, Any], begun_ms: int) -> dict[str, Any]:
+    """Phase of a planned line without a result."""
+    return {"name": f"{line['kind']} {line['number']}", "start_time_millis": begun_ms, "end_time_millis": begun_ms,
+            "outcome": "SKIP", "measurements": {}, "attachments": {}, "result": {"phase_result": NOT_MEASURED}}
 
 
 def _milliseconds(started: Any) -> int:

@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Any, Mapping
+from typing import Any, Mapping, Sequence
 
 PASS, FAIL, NOTHING = "pass", "fail", "nothing"
+NOT_MEASURED = "The line was not measured."
 
 
 def line_outcome(line: Mapping[str, Any]) -> str:
@@ -14,3 +15,9 @@ def line_outcome(line: Mapping[str, Any]) -> str:
     if "invalid" in states or line["reason"]:
         return FAIL
     return PASS if states else NOTHING
+
+
+def unmeasured_lines(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
+    """Those planned that have no result; older records do not say what was planned."""
+    measured = {line["number"] for line in record["lines"]}
+    return [line for line in record.get("planned_lines", ()) if line["number"] not in measured]
