@@ -119,6 +119,11 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         """Between which distances a boundary of a line lies that was not reached; None for an end that nobody knows."""
         return None, parameters.minimum_distance_m
 
+    def measurand(self, parameters: Parameters, result: Result, word: str) -> str:
+        """What a measured distance of a line is where it is not the boundary itself, the same text for the same; only
+        distances of one measurand are compared. Empty for a boundary, the default."""
+        return ""
+
     def prospect(self, parameters: Parameters, facts: LockFacts, results: Sequence[Result]) -> Prospect | None:
         """What each line is likely to take and to tell, with what the lines so far say; None without a model of it."""
         return None

@@ -1,8 +1,8 @@
-"""In what two tests differ beside their distances: whose car and key, which parameters, which software."""
+"""In what tests differ beside their distances: whose car and key, which parameters, which software."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, Sequence
 
 from mtr_operator.domain.identity.equipment_text import equipment_text
 from mtr_operator.domain.identity.identity import NOBODY, TITLES
@@ -12,6 +12,8 @@ from .line_pairs import Side
 
 _SESSION = ("car profile", "robot", "software", ROBOT_SOFTWARE)
 _IDENTITY = tuple(name for name in TITLES if name not in ("notes", "photos"))
+# Of a set more values of one thing are counted only.
+_MAX_VALUES = 4
 
 
 class Circumstance(NamedTuple):
@@ -24,14 +26,39 @@ class Circumstance(NamedTuple):
 
 
 def circumstances(first: Side, second: Side) -> list[Circumstance]:
-    """Everything that differs; what neither test says does not."""
-    rows = [Circumstance(TITLES[name], _text(first, name), _text(second, name)) for name in _IDENTITY]
-    rows.append(Circumstance("Car measured", _size(first), _size(second)))
-    rows += [Circumstance(name, first.progress.session.get(name, ""), second.progress.session.get(name, ""))
-             for name in _SESSION]
-    mine, its = first.parameters.to_mapping(), second.parameters.to_mapping()
-    rows += [Circumstance(name, _shown(mine.get(name)), _shown(its.get(name)), True) for name in {**mine, **its}]
-    return [row for row in rows if row.first != row.second]
+    """Everything in which two tests differ; what neither says does not."""
+    return circumstances_of_sets([first], [second])
+
+
+def circumstances_of_sets(first: Sequence[Side], second: Sequence[Side]) -> list[Circumstance]:
+    """Everything in which any two tests of two sets differ, with all that the tests of each say."""
+    told = [[_told(side) for side in sides] for sides in (first, second)]
+    names = dict.fromkeys(name for each in told for test in each for name in test)
+    parameters = {name for side in (*first, *second) for name in side.parameters.to_mapping()}
+    rows = []
+    for name in names:
+        mine, its = (list(dict.fromkeys(test.get(name, "") for test in each)) for each in told)
+        if len({*mine, *its}) > 1:
+            rows.append(Circumstance(name, _joined(mine), _joined(its), name in parameters))
+    return rows
+
+
+def differing_names(sides: Sequence[Side]) -> tuple[str, ...]:
+    """Of everything in which any of the tests differ."""
+    return tuple(row.name for row in circumstances_of_sets(sides, ()))
+
+
+def _told(side: Side) -> dict[str, str]:
+    """All that a test says of itself, by its name."""
+    return {**{TITLES[name]: _text(side, name) for name in _IDENTITY}, "Car measured": _size(side),
+            **{name: side.progress.session.get(name, "") for name in _SESSION},
+            **{name: _shown(value) for name, value in side.parameters.to_mapping().items()}}
+
+
+def _joined(texts: Sequence[str]) -> str:
+    if len(texts) > _MAX_VALUES:
+        return f"{len(texts)} values"
+    return ", ".join(text or "nothing" for text in texts) if len(texts) > 1 else "".join(texts)
 
 
 def _size(side: Side) -> str:

@@ -22,6 +22,8 @@ class Known:
     """Of one test. value: None where only ends are known; low, high: between which it lies for sure, the value itself
     where there is one. ends: 95 % interval, None where the method gives none.
 
+    reason: why nothing is known although something was measured, a sentence; empty when it is.
+
     Parts of the errors, 1 sigma, each a part of the one before: coherent: what all lines of the test have alike, so
     that their mean has it as well. shared: what repeating the test does not show. alike: what each test of the same
     Car has again, for sure; alike_timing: the same of its timing."""
@@ -34,6 +36,7 @@ class Known:
     shared: float = 0.0
     alike: float = 0.0
     alike_timing: float = 0.0
+    reason: str = ""
 
 
 @dataclass(frozen=True)
@@ -61,6 +64,9 @@ def estimate(known: Sequence[Known]) -> Estimate:
     """What tests say together of one quantity."""
     if not known:
         return Estimate(None, -math.inf, math.inf, 0, reason="No test measured it.")
+    unknown = next((each.reason for each in known if each.reason), "")
+    if unknown:
+        return Estimate(None, -math.inf, math.inf, len(known), reason=unknown)
     if len(known) == 1:
         only = known[0]
         if only.ends is None:

@@ -19,6 +19,7 @@ from .bundles import progress_file_of
 # At 5 m this is as far as Cars may differ in size.
 _SAME_DIRECTION_RAD = math.radians(2.0)
 _SAME_HEIGHT_M = 0.05
+_SAME_PLACE_M = 0.01
 
 
 @dataclass(frozen=True)
@@ -58,7 +59,7 @@ def line_pairs(first: Side, second: Side) -> tuple[list[LinePair], tuple[str, ..
     for result, line in of_first:
         # The same number first: where the parameters are the same it is the one.
         other = next((other for other in sorted(of_second, key=lambda other: other[0].number != result.number)
-                      if _is_same(line, other[1])), None)
+                      if _is_same(line, other[1]) and _is_level((line, first), (other[1], second))), None)
         if other is None:
             alone.append(line_name(first.scenario, result))
         else:
@@ -77,7 +78,13 @@ def _is_same(line: Line, other: Line) -> bool:
     apart_m = math.dist((mine.origin_x, mine.origin_y), (its.origin_x, its.origin_y))
     across = mine.direction_x * its.direction_y - mine.direction_y * its.direction_x
     along = mine.direction_x * its.direction_x + mine.direction_y * its.direction_y
-    # Only zones have a height of their own.
-    heights = getattr(line, "height_m", 0.0), getattr(other, "height_m", 0.0)
+    # Only places at which a phone is read have a distance of their own, several on one ray.
+    places_m = [getattr(each, "distance_m", 0.0) for each in (line, other)]
     return (apart_m <= SAME_CAR_M and abs(math.atan2(across, along)) <= _SAME_DIRECTION_RAD
-            and abs(heights[0] - heights[1]) <= _SAME_HEIGHT_M)
+            and abs(places_m[0] - places_m[1]) <= _SAME_PLACE_M)
+
+
+def _is_level(line: tuple[Line, Side], other: tuple[Line, Side]) -> bool:
+    """The key is carried at the same height; only zones have one of their own."""
+    heights_m: list[float] = [getattr(each, "height_m", side.parameters.key_height_m) for each, side in (line, other)]
+    return abs(heights_m[0] - heights_m[1]) <= _SAME_HEIGHT_M

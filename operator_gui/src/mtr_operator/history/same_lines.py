@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import collections
 import functools
 import math
 from typing import Sequence
@@ -20,6 +21,8 @@ from .line_pairs import Side, line_pairs
 
 MAX_TESTS = 500
 _NOWHERE = (-math.inf, math.inf)
+UNLIKE = ("The tests tell different things here, such as a boundary and the place of one event; choose tests that were "
+          "measured alike.")
 
 
 class Tests:
@@ -49,6 +52,7 @@ class Tests:
         self._assessments: dict[int, Assessment] = {}
         self._distances: dict[tuple[int, int, str], Known | None] = {}
         self._lasting: dict[tuple[int, int, str], LastingSigmas] = {}
+        self._measurands: dict[tuple[int, str], str] = {}
 
     @property
     def words(self) -> tuple[str, ...]:
@@ -71,7 +75,8 @@ class Tests:
         return Verdict.NOT_SET if judgement is None else judgement.verdict
 
     def distance(self, test: int, line: int, word: str) -> Known | None:
-        """What a test says of a distance; None where that is invalid or not there, or the key may have slept."""
+        """What a test says of a distance, nothing but a reason where that is another one than in the other tests; None
+        where that is invalid or not there, or the key may have slept."""
         key = test, line, word
         # Asked for by its line, and by the area that it is a corner of.
         if key not in self._distances:
@@ -87,6 +92,8 @@ class Tests:
         # What was reached nowhere in a test may have been asleep.
         if distance.status is LineStatus.INVALID or not reader.is_alive(word):
             return None
+        if self._measurand(test, line, word) not in (None, self._common_measurand(line, word)):
+            return Known(None, *_NOWHERE, None, reason=UNLIKE)
         figure = reader.figure(result, distance)
         low_m, high_m = _ends(figure)
         unshown_m, lasting = reader.unshown_sigma_m(result, word), self.lasting_sigmas(test, line, word)
@@ -94,6 +101,21 @@ class Tests:
         return Known(figure.first_m if figure.kind is Kind.VALUE else None, low_m, high_m,
                      reader.ends(result, distance), math.hypot(unshown_m, max(lasting.all_timing_m, lasting.timing_m)),
                      shared_m, *self._alike_m(line, lasting))
+
+    def _measurand(self, test: int, line: int, word: str) -> str | None:
+        """See Scenario.measurand; None where nothing was measured: an end that was not reached bounds all of them."""
+        result, side = self.results[test].get(line), self.sides[test]
+        if result is None or result.distances[self.words.index(word)].status is not LineStatus.OK:
+            return None
+        return side.scenario.measurand(side.parameters, result, word)
+
+    def _common_measurand(self, line: int, word: str) -> str:
+        """What a distance is in the tests that are compared: the boundary where one tells it, else what most tell."""
+        key = line, word
+        if key not in self._measurands:
+            found = [each for test in range(len(self.sides)) if (each := self._measurand(test, *key)) is not None]
+            self._measurands[key] = "" if "" in found else collections.Counter(found).most_common(1)[0][0]
+        return self._measurands[key]
 
     def _alike_m(self, line: int, lasting: LastingSigmas) -> tuple[float, float]:
         """The outline of the same Car as far as it was mapped alike, and its timing while its software is the same."""

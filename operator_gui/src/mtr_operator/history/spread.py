@@ -10,7 +10,7 @@ from mtr_operator.domain.estimation.components import Spread, components
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.results.line_result import LineResult
 
-from .circumstances import circumstances
+from .circumstances import differing_names
 from .comparison import Ends
 from .estimate import Estimate, estimate
 from .line_pairs import Side
@@ -78,8 +78,7 @@ def spread_of(sides: Sequence[Side]) -> TestSpread:
     tests = Tests(sides)
     found = tuple(distance_spread(tests, result, word, {}) for result in tests.first.progress.results
                   for word in tests.words)
-    differing = dict.fromkeys(row.name for side in sides[1:] for row in circumstances(sides[0], side))
-    return TestSpread(tests, found, tuple(differing))
+    return TestSpread(tests, found, differing_names(sides))
 
 
 def distance_spread(tests: Tests, line: LineResult, word: str,

@@ -8,6 +8,7 @@ from typing import Iterator
 from mtr_operator.cli.exit_codes import EXIT_PASS
 from mtr_operator.domain.estimation.components import Spread
 from mtr_operator.domain.results.line_result import LineResult
+from mtr_operator.history.circumstances import differing_names
 from mtr_operator.history.same_lines import Tests
 from mtr_operator.history.spread import distance_spread
 from mtr_operator.report.table import line_name
@@ -34,7 +35,11 @@ def compare(options: argparse.Namespace) -> int:
         return EXIT_PASS
     for number, side in ((1, first), (2, second)):
         print(f"Side {number}: {side.text}, {len(side.rows)} tests from {side.rows[0]['started']}")
+    for each in found.differing:
+        print(f"  {each.name}: {each.first or 'nothing'} / {each.second or 'nothing'}")
     print_table(_HEADINGS, [row_texts(row) for row in found.rows])
+    for reason in found.reasons:
+        print(f"not known: {reason}")
     for name, mine, its in found.holes:
         print(f"holes on {name}: {mine or 'none'} / {its or 'none'}")
     print("verdicts: " + " / ".join(", ".join(f"{count} {word}" for word, count in each.items())
@@ -55,12 +60,16 @@ def spread(options: argparse.Namespace) -> int:
              for line, word, name in _distances(tests, options.line, options.word)]
     if options.json:
         print_json([{"line": each.line.number, "name": name, "what": each.word, "without_value": each.without,
+                     "differs": differing_names(tests.sides), "mean_reason": each.mean.reason,
                      **spread_document(each.spread),
                      **capability_document(capability(each.spread, options.at_least, options.at_most))}
                     for name, each in found])
         return EXIT_PASS
+    _say_differing(tests)
     for name, each in found:
         print(f"{name} {each.word}: {each.spread.count} tests, {each.without} without a value")
+        if each.mean.reason:
+            print(f"  {each.mean.reason}")
         if each.spread.reason:
             print(f"  {each.spread.reason}")
             continue
@@ -88,17 +97,29 @@ def show_trend(options: argparse.Namespace) -> int:
     """Print each distance over time, with control limits."""
     tests, chosen = _read(options)
     document = []
+    if not options.json:
+        _say_differing(tests)
     for line, word, name in _distances(tests, options.line, options.word):
         found = trend([tests.distance(test, line.number, word) for test in range(len(tests.sides))], options.baseline)
         document.append({"line": line.number, "name": name, "what": word, **trend_document(found)})
         if not options.json:
             limits = found.reason or f"mean {found.centre:.3f} m, limits {found.low:.3f} to {found.high:.3f} m"
             print(f"{name} {word}: {limits}")
+            if found.unlike:
+                print(f"  {found.unlike}")
             for index in found.beyond:
                 print(f"  beyond: test {chosen.rows[index]['id']} of {chosen.rows[index]['started']}")
     if options.json:
-        print_json({"tests": [row["id"] for row in chosen.rows], "distances": document})
+        print_json({"tests": [row["id"] for row in chosen.rows], "differs": differing_names(tests.sides),
+                    "distances": document})
     return EXIT_PASS
+
+
+def _say_differing(tests: Tests) -> None:
+    """What else may move the distances of a set."""
+    names = differing_names(tests.sides)
+    if names:
+        print(f"The tests differ in: {', '.join(names)}.")
 
 
 def _read(options: argparse.Namespace) -> tuple[Tests, TestSet]:

@@ -10,7 +10,6 @@ from typing import Any, Mapping, Sequence
 import jinja2
 import markupsafe
 
-from mtr_operator.history.circumstances import circumstances
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.report.table import line_name
 
@@ -102,14 +101,12 @@ def page_of_comparison(first: Sequence[Side], second: Sequence[Side], texts: tup
     comparison = compare_sets(first, second)
     pictures = [{"word": word, "overlay": overlay_picture(comparison, word),
                  "differences": difference_picture(comparison, word)} for word in comparison.tests.words]
-    # Of sets, tests differ among themselves.
-    differs = circumstances(first[0], second[0]) if len(first) == len(second) == 1 else []
     described = [f"{text} ({len(side)} tests)" if len(side) > 1 else f"test {text}"
                  for text, side in zip(texts, (first, second))]
     title = f"{comparison.tests.first.scenario.title}: {described[0]} and {described[1]}"
     return render("comparison.html", title, served, comparison=comparison, first=described[0], second=described[1],
-                  first_text=texts[0], second_text=texts[1], pictures=pictures, meaning=MEANING, differs=differs,
-                  rows=[(row_document(row), row_texts(row)) for row in comparison.rows],
+                  first_text=texts[0], second_text=texts[1], pictures=pictures, meaning=MEANING,
+                  differs=comparison.differing, rows=[(row_document(row), row_texts(row)) for row in comparison.rows],
                   alone=[(1, comparison.only_first), (2, comparison.only_second)])
 
 

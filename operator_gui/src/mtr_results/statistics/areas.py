@@ -8,6 +8,7 @@ outline is straight. Where a distance has an open end the area has one, too.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
@@ -53,7 +54,8 @@ def area(ring: Sequence[Any], known: Mapping[int, Known]) -> Known | None:
         ("coherent", max), ("shared", max), ("alike", min), ("alike_timing", min)))
     low, high = (_enclosed(rays, [max(0.0, getattr(each, end)) for each in distances]) for end in ("low", "high"))
     value = None if any(each.value is None for each in distances) else low
-    return Known(value, low, high, _ends(rays, distances, coherent), *parts)
+    reason = next((each.reason for each in distances if each.reason), "")
+    return replace(Known(value, low, high, _ends(rays, distances, coherent), *parts), reason=reason)
 
 
 def _ends(rays: Sequence[Ray], distances: Sequence[Known], coherent: float) -> tuple[float, float] | None:

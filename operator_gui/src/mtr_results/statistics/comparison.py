@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Sequence
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.history.circumstances import Circumstance, circumstances_of_sets
 from mtr_operator.history.estimate import Estimate, Known, estimate
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.history.same_lines import Tests
@@ -90,6 +91,16 @@ class Comparison:
     def counts(self) -> dict[str, int]:
         """How many distances came to what."""
         return dict(collections.Counter(row.verdict for row in self.rows if row.quantity == DISTANCE))
+
+    @property
+    def reasons(self) -> list[str]:
+        """Why nothing can be said of some quantities, each sentence once."""
+        return list(dict.fromkeys(row.change.reason for row in self.rows if row.change.reason))
+
+    @property
+    def differing(self) -> list[Circumstance]:
+        """In what the tests differ, within the sets and between them."""
+        return circumstances_of_sets(self.tests.sides[:self.split], self.tests.sides[self.split:])
 
     @property
     def summary(self) -> str:

@@ -25,6 +25,7 @@ def comparison_document(comparison: Comparison) -> Document:
     return {"scenario": comparison.tests.first.scenario.name, "summary": comparison.summary,
             "is_different": comparison.is_different, "rows": [row_document(row) for row in comparison.rows],
             "holes": [{"line": name, "first": first, "second": second} for name, first, second in comparison.holes],
+            "differs": [each._asdict() for each in comparison.differing],
             "verdicts": list(comparison.verdicts), "only_first": list(comparison.only_first),
             "only_second": list(comparison.only_second)}
 
@@ -71,8 +72,8 @@ def _component(component: Component) -> Document:
 def trend_document(trend: Trend) -> Document:
     """Points in their order, and the limits."""
     return {"centre_m": finite(trend.centre), "low_m": finite(trend.low), "high_m": finite(trend.high),
-            "reason": trend.reason, "points": [{**_known(point.known), "is_beyond": point.is_beyond}
-                                               for point in trend.points]}
+            "reason": trend.reason, "unlike": trend.unlike,
+            "points": [{**_known(point.known), "is_beyond": point.is_beyond} for point in trend.points]}
 
 
 def _known(known: Known | None) -> Document:

@@ -8,7 +8,7 @@ lines, and what all of them have alike in full (Zou and Donner's MOVER for a sum
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Sequence
 
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
@@ -90,7 +90,8 @@ def mean_of(parts: Sequence[Known]) -> Known:
     value = None if any(each.value is None for each in parts) else low
     coherent, *others = (sum(getattr(each, name) for each in parts) / count
                          for name in ("coherent", "shared", "alike", "alike_timing"))
-    return Known(value, low, high, _ends(parts, value, coherent), coherent, *others)
+    reason = next((each.reason for each in parts if each.reason), "")
+    return replace(Known(value, low, high, _ends(parts, value, coherent), coherent, *others), reason=reason)
 
 
 def _ends(parts: Sequence[Known], value: float | None, coherent: float) -> tuple[float, float] | None:

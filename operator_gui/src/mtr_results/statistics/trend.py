@@ -39,6 +39,11 @@ class Trend:
     reason: str = ""
 
     @property
+    def unlike(self) -> str:
+        """Why tests that measured the distance have no point; empty when none."""
+        return next((point.known.reason for point in self.points if point.known and point.known.reason), "")
+
+    @property
     def beyond(self) -> list[int]:
         """Places of the tests that are unlike the others."""
         return [index for index, point in enumerate(self.points) if point.is_beyond]

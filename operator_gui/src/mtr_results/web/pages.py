@@ -89,9 +89,10 @@ class Pages:
         for result, word in wanted[:_MAX_CHARTS]:
             found = trend([tests.distance(test, result.number, word) for test in range(len(names))], baseline)
             beyond = ", ".join(names[index] for index in found.beyond)
+            said = found.reason or f"Beyond the limits: {beyond or 'none'}"
             charts.append({"name": line_name(tests.first.scenario, result), "word": word,
                            "picture": trend_picture(found, names),
-                           "said": found.reason or f"Beyond the limits: {beyond or 'none'}"})
+                           "said": f"{said} {found.unlike}".rstrip()})
         return charts
 
     def _kept(self, files: list[dict[str, Any]]) -> frozenset[str]:

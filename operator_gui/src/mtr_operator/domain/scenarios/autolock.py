@@ -113,6 +113,13 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
             return super().unreached(parameters, result, word)
         return (parameters.straightened_distance_m if result.unlock_status is LineStatus.OK else None), None
 
+    def measurand(self, parameters: AutolockParameters, result: AutolockResult, word: str) -> str:
+        """See Scenario: without a static boundary it is where the Car reacted to the first pass, at its speed."""
+        if getattr(result, f"{word}_static_m") is not None:
+            return ""
+        cycle_s = USUAL_CYCLE_S if result.told_every_s is None else result.told_every_s
+        return f"event at {pass_speeds(parameters, cycle_s)[0]:.2f} m/s"
+
     def picture(self, parameters: AutolockParameters, car: CarDimensions, results: Sequence[AutolockResult]) -> Picture:
         """Axes, and the two areas that the points enclose."""
         stretches = [Stretch(result.ray.point(parameters.minimum_distance_m),

@@ -103,6 +103,10 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         """See Scenario: the results of a search say themselves to which side they are not bounded."""
         return (None, None) if result.was_searched else super().unreached(parameters, result, word)
 
+    def measurand(self, parameters: KeyPressParameters, result: KeyPressResult, word: str) -> str:
+        """See Scenario: a scan tells the farthest place at which one of so many presses worked."""
+        return "" if result.was_searched else f"place where one of {parameters.attempts} presses worked"
+
     def judged_shares(self, parameters: KeyPressParameters) -> tuple[int, ...]:
         """See Scenario."""
         return SHARES if parameters.method == ADAPTIVE else ()

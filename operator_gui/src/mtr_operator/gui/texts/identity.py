@@ -27,6 +27,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Tests of the scenarios {} cannot be looked at together; choose one."),
     QT_TRANSLATE_NOOP("Sentence", "No test measured it."),
     QT_TRANSLATE_NOOP("Sentence", "One test that does not say how sure it is."),
+    QT_TRANSLATE_NOOP("Sentence", "The tests tell different things here, such as a boundary and the place of one "
+                                  "event; choose tests that were measured alike."),
     QT_TRANSLATE_NOOP("Sentence", "{} tests have a value here; {} are the fewest."),
     QT_TRANSLATE_NOOP("Sentence", "All tests have the same value."),
     QT_TRANSLATE_NOOP("Sentence", "The test in {} cannot be read: {}: {}"),

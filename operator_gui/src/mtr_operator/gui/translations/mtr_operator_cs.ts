@@ -6919,6 +6919,11 @@
         <source>It was not reached, and the line does not tell on which side of the limit it lies.</source>
         <translation>Hranice nebyla dosažena a přímka neuvádí, na které straně limitu leží.</translation>
     </message>
+    <message>
+        <location filename="../texts/identity.py" line="19"/>
+        <source>The tests tell different things here, such as a boundary and the place of one event; choose tests that were measured alike.</source>
+        <translation>Zkoušky zde udávají různé věci, například hranici a místo jedné události; vyberte zkoušky měřené stejně.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
