@@ -110,8 +110,9 @@ def _executors() -> Tuple[Executor, Executor]:
 
 
 def _memory_file(folder: str) -> Optional[MemoryFile]:
-    # Without roslaunch nobody says which run it is.
-    run_id = rospy.get_param("/run_id", "")
+    # Without roslaunch nobody says which run it is. Its own word lasts as long as the ROS master, which may outlive the
+    # robot's start.
+    run_id = rospy.get_param(names.ROBOT_RUN, rospy.get_param("/run_id", ""))
     return MemoryFile(pathlib.Path(folder) / "car_locator.json", run_id) if folder and run_id else None
 
 

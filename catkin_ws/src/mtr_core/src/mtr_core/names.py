@@ -23,7 +23,9 @@ ROBOT_FRAMES = "/robot_frames"
 LIDAR_TURN_RATE = "/robot_lidar/turn_rate_hz"
 # Of the robot: folders into which its nodes write by themselves, logs for one
 WRITTEN_FOLDERS = "/robot_written_folders"
-# Of the robot: what the last preflight of this run of the ROS master found, see mtr_dispatcher's preflight_report
+# Of this start of robot.launch, and of no other one on the same ROS master: a word, also for a node started again
+ROBOT_RUN = "/robot_run"
+# Of the robot: what the last preflight since its start found, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
 # What the last preflight with --drive found in motion, for those without.
 PREFLIGHT_MOTION = "/preflight_motion"

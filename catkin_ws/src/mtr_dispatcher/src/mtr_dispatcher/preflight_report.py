@@ -1,7 +1,7 @@
 """What the last preflight found, as the ROS master keeps it between the preflight and the dispatcher. No ROS inside.
 
-A topic would end with the preflight, which lasts some seconds; a parameter lasts as long as the master, so what it
-holds was found in this run of the robot.
+A topic would end with the preflight, which lasts some seconds; a parameter lasts until the robot is started
+anew: robot.launch removes it, for the master may be the one of before.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math

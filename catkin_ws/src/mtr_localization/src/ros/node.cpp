@@ -8,6 +8,7 @@
 #include <sensor_msgs/Imu.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "localizer.hpp"
@@ -42,6 +43,10 @@ std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& transforms) {
     return std::nullopt;
   }
 }
+
+/// The run whose memory counts; empty without roslaunch. Its own word lasts as long as the ROS master, which may
+/// outlive the robot's start.
+std::string this_run() { return ros::param::param(names::kRobotRun, ros::param::param("/run_id", std::string())); }
 
 }  // namespace
 
@@ -90,7 +95,7 @@ std::unique_ptr<PoseSource> Node::own_source(const Parameters& parameters) {
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     : frames_(mtr_description::described_robot(), mtr_description::lidars_by_frame(parameters.rear_lidar)),
       listener_(transforms_),
-      memory_(parameters.memory_folder, ros::param::param("/run_id", std::string())),
+      memory_(parameters.memory_folder, this_run()),
       outputs_(node, parameters.publish_odom_tf, memory_),
       source_(pose_source_of(parameters)),
       front_(node, Lidar::kFront, frames_, parameters.scans, [this](Sweep sweep) { receive_sweep(std::move(sweep)); }),

@@ -1,4 +1,4 @@
-"""A file with which a process that is started again in the same run of roslaunch goes on."""
+"""A file with which a process that is started again in the same start of the robot goes on."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os
