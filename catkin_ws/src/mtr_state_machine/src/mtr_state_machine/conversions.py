@@ -13,7 +13,7 @@ from mtr_msgs.msg import Problem as ProblemMessage
 
 from . import problems
 from .core import Decision
-from .observation import Car, CheckReport, Drive, Observation, Part
+from .observation import NO_EMERGENCY, Car, CheckReport, Drive, Emergency, Observation, Part
 
 OWNER = "state_machine"
 # Word of DriveStatus.
@@ -21,8 +21,10 @@ MANUAL = "manual"
 
 
 def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], ages_s: Dict[Part, float],
-                now_s: float) -> Observation:
-    """What the newest message of each part, with its age, and the self-check's tell at a time of the steady clock."""
+                now_s: float, emergency: Emergency = NO_EMERGENCY) -> Observation:
+    """What the newest message of each part, with its age, the self-check's and emergency stops tell at a time of the
+    steady clock.
+    """
     arrived = {part: message for part, message in messages.items() if message is not None}
     age_s = {part: ages_s[part] for part in arrived}
     complaint = {part: complaint_of(arrived[part]) for part, complaint_of in COMPLAINTS.items() if part in arrived}
@@ -34,7 +36,7 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
         motion=goal_report_from(arrived.get(Part.MOTION_PLANNER)),
         age_s=age_s, complaint=complaint,
         is_position_lost=_is_position_lost(arrived.get(Part.LOCALIZATION, LocalizedPose())),
-        drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())),
+        drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())), emergency=emergency,
         firmware_resets=arrived[Part.PERIPHERALS].firmware_resets if Part.PERIPHERALS in arrived else 0, now_s=now_s)
 
 

@@ -1,4 +1,4 @@
-"""Holds: after a fault, an obstacle, manual driving, a restart of its board or a pause the robot stands until told."""
+"""Holds: after a fault, an emergency stop, an obstacle, manual driving or a pause the robot stands until told."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -28,7 +28,7 @@ class Hold:
         self._updated_s = math.nan
         self._newest_id = self.id = 0
         self.reason = NO_PROBLEM
-        self._seen_drives = self._seen_blockages = self._seen_resets = -1
+        self._seen_drives = self._seen_blockages = self._seen_resets = self._seen_stops = -1
 
     def update(self, seen: Observation, goal: Goal) -> None:
         """Begin with what an observation shows, and end by the Operator's word."""
@@ -40,8 +40,12 @@ class Hold:
         was_driven = 0 <= self._seen_drives < drive.manual_drives
         was_reset = 0 <= self._seen_resets < seen.firmware_resets
         self._seen_blockages, self._seen_drives = drive.blockages, drive.manual_drives
-        self._seen_resets = seen.firmware_resets
-        if was_driven or (drive.is_manual and self.reason != problems.HELD_MANUAL()):
+        was_stopped = 0 <= self._seen_stops < seen.emergency.stops
+        self._seen_resets, self._seen_stops = seen.firmware_resets, seen.emergency.stops
+        # Whoever releases an emergency stop stands beside the robot.
+        if was_stopped or (seen.emergency.is_engaged and self.reason != problems.HELD_EMERGENCY()):
+            self.begin(problems.HELD_EMERGENCY(), seen)
+        elif was_driven or (drive.is_manual and self.reason != problems.HELD_MANUAL()):
             self.begin(problems.HELD_MANUAL(), seen)
         elif seen.motion.is_about(goal) and seen.motion.result is Result.BLOCKED:
             self.begin(problems.HELD_BLOCKED_BECAUSE(cause=seen.motion.message), seen)

@@ -23,8 +23,12 @@ from mtr_msgs.msg import (
 
 from .conversions import lock_message, mode_message, observation
 from .core import Decision, StateMachine
+from .emergency import EmergencyWatch
 from .observation import Part
 from .parameters import Parameters
+
+# Of motion locks; each owner speaks ten times a second.
+LOCKS_QUEUED = 50
 
 
 class StateMachineNode:
@@ -42,6 +46,9 @@ class StateMachineNode:
             Part.PERIPHERALS: TickInput(names.PERIPHERALS_STATE, PeripheralsState, schedule.PERIPHERALS),
         }
         self._check = TickInput(names.CAR_CHECK, CarCheck, schedule.CAR_LOCATOR)
+        self._emergency = EmergencyWatch()
+        self._locks = rospy.Subscriber(names.MOTION_LOCK, MotionLock, self._take_lock, queue_size=LOCKS_QUEUED,
+                                       tcp_nodelay=True)
         self._mode = publisher(names.ROBOT_MODE, RobotMode)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
         self._ticker = Ticker(schedule.STATE_MACHINE, lambda text: rospy.logerr("%s", text))
@@ -55,11 +62,15 @@ class StateMachineNode:
         messages = {part: topic.at(tick) for part, topic in self._inputs.items()}
         ages_s = {part: topic.age_s(tick) for part, topic in self._inputs.items()}
         decision = self._core.step(observation(messages, self._check.at(tick), ages_s,
-                                               clock.steady_at(tick) * NS))
+                                               clock.steady_at(tick) * NS, self._emergency.now()))
         stamp = clock.stamp_of(tick)
         self._lock.publish(lock_message(decision, stamp))
         self._mode.publish(mode_message(decision, stamp))
         self._log(decision)
+
+    def _take_lock(self, message: MotionLock) -> None:
+        if message.emergency:
+            self._emergency.take(message.owner, message.engaged)
 
     def _log(self, decision: Decision) -> None:
         now = (decision.state, decision.lock_reason.kind, decision.goal.id)

@@ -53,6 +53,17 @@ class Drive:
 
 
 @dataclass(frozen=True)
+class Emergency:
+    """The robot's emergency stops: whether one is engaged, and how often one was since the state machine's start."""
+
+    is_engaged: bool = False
+    stops: int = 0
+
+
+NO_EMERGENCY = Emergency()
+
+
+@dataclass(frozen=True)
 class Observation:
     """Everything known at one tick.
 
@@ -74,6 +85,7 @@ class Observation:
     complaint: Dict[Part, Problem] = field(default_factory=dict)
     is_position_lost: bool = False
     drive: Drive = Drive()
+    emergency: Emergency = NO_EMERGENCY
     firmware_resets: int = 0
     now_s: float = 0.0
 

@@ -14,8 +14,8 @@ class Parameters(ParameterSet):
     Attributes:
         silent_after_s: age of a part's newest message at which the part has failed at the latest; one tick earlier it
             may.
-        resume_by_operator: after a fault, an obstacle or manual driving the robot stands until the Operator has it go
-            on.
+        resume_by_operator: after a fault, an emergency stop, an obstacle or manual driving the robot stands until the
+            Operator has it go on.
     """
 
     silent_after_s: float = number(0.5, 0.4, 5.0, "s")

@@ -26,6 +26,8 @@ HELD_BLOCKED_BECAUSE = Sentence("state_machine.held_blocked_because",
                                 "The robot stands after an obstacle until the Operator has it go on. {cause}")
 HELD_MANUAL = Sentence("state_machine.held_manual",
                        "The robot was driven by hand; it stands until the Operator has it go on.")
+HELD_EMERGENCY = Sentence("state_machine.held_emergency",
+                          "The robot stands after an emergency stop until the Operator has it go on.")
 HELD_BOARD = Sentence("state_machine.held_board",
                       "The board of lift and servos started again; the robot stands until the Operator has it go on.")
 HELD_START = Sentence("state_machine.held_start",

@@ -1,4 +1,4 @@
-"""After a fault, an obstacle or manual driving the robot goes on by the Operator's word only. A8, A9b"""
+"""After a fault, an emergency stop, an obstacle or manual driving the robot goes on by the Operator's word. A8, A9b"""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -9,7 +9,7 @@ from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, DesiredState, GoalReport, Waypoint
 from mtr_core.states import CarState, Result, State
 from mtr_state_machine.core import StateMachine
-from mtr_state_machine.observation import Car, Drive, Observation, Part
+from mtr_state_machine.observation import Car, Drive, Emergency, Observation, Part
 from mtr_state_machine.parameters import Parameters
 
 SILENT = {**ALL_WELL, Part.LOCALIZATION: 0.6}
@@ -93,10 +93,23 @@ def board_restarted(robot):
     robot.step(firmware_resets=robot.seen.firmware_resets + 1)
 
 
+def emergency_stop(robot):
+    stops = robot.seen.emergency.stops + 1
+    for _ in range(15):
+        robot.step(emergency=Emergency(is_engaged=True, stops=stops))
+    robot.step(emergency=Emergency(is_engaged=False, stops=stops))
+
+
+def emergency_stop_for_a_moment(robot):
+    robot.step(emergency=Emergency(is_engaged=False, stops=robot.seen.emergency.stops + 1))
+
+
 CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "state_machine.held_manual"),
           "manual-between-ticks": (manual_for_a_moment, "state_machine.held_manual"),
           "blocked": (Robot.block, "state_machine.held_blocked_because"),
           "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked"),
+          "emergency": (emergency_stop, "state_machine.held_emergency"),
+          "emergency-between-ticks": (emergency_stop_for_a_moment, "state_machine.held_emergency"),
           "board": (board_restarted, "state_machine.held_board")}
 every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=list(CAUSES))
 
@@ -158,6 +171,21 @@ def test_hold_does_not_end_while_the_robot_is_driven_by_hand(robot):
     hold_id = robot.step(drive=Drive(is_manual=True, manual_drives=1)).hold_id
     assert robot.step(desired=replace(WANTS, resume_hold_id=hold_id)).hold_id > hold_id
     assert robot.decision.goal == NO_GOAL
+
+
+def test_hold_does_not_end_while_the_emergency_stop_is_engaged(robot):
+    hold_id = robot.step(emergency=Emergency(is_engaged=True, stops=1)).hold_id
+    assert hold_id and robot.step().hold_id == hold_id
+    assert robot.step(desired=replace(WANTS, resume_hold_id=hold_id)).hold_id > hold_id
+    assert robot.decision.goal == NO_GOAL
+
+
+def test_emergency_stop_that_is_released_before_an_order_holds_nobody():
+    robot = Robot()
+    robot.step()
+    emergency_stop(robot)
+    assert not robot.decision.hold_id
+    robot.follow()
 
 
 def test_manual_driving_without_an_order_is_free():

@@ -1,0 +1,23 @@
+"""Which words of emergency stops the state machine counts. A9"""
+# SPDX-License-Identifier: Apache-2.0
+from mtr_state_machine.emergency import EmergencyWatch
+from mtr_state_machine.observation import Emergency
+
+
+def told(*words):
+    watch = EmergencyWatch()
+    for owner, engaged in words:
+        watch.take(owner, engaged)
+    return watch.now()
+
+
+def test_each_stop_counts_once_however_often_it_is_said():
+    assert told() == told(("base", False)) == Emergency()
+    assert told(("base", True), ("base", True)) == Emergency(True, 1)
+    assert told(("base", True), ("base", False)) == Emergency(False, 1)
+    assert told(("base", True), ("base", False), ("base", True)) == Emergency(True, 2)
+
+
+def test_one_of_two_owners_is_enough():
+    assert told(("base", True), ("controller_input", True), ("base", False)) == Emergency(True, 2)
+    assert told(("base", False), ("controller_input", True), ("base", False)) == Emergency(True, 1)
