@@ -113,8 +113,11 @@ alone() {
   flock --nonblock 9 || fail "Another installation is running."
 }
 
+# The base has programs of a release, too, where mtr-base.service brings it.
 restart() {
-  [[ $staging ]] || systemctl restart mtr-robot
+  [[ ! $staging ]] || return 0
+  systemctl try-restart mtr-base
+  systemctl restart mtr-robot
 }
 
 install_packages() {
@@ -126,7 +129,7 @@ install_packages() {
   rosdep update --rosdistro noetic >/dev/null
   # Not what only tests need, which are not built.
   rosdep install --from-paths "${packages[@]/#/$top/}" --ignore-src --rosdistro noetic -y \
-    --dependency-types "buildtool buildtool_export build build_export exec"
+    -t buildtool -t buildtool_export -t build -t build_export -t exec
 }
 
 build() {
@@ -208,8 +211,8 @@ base_by_us() {
   [[ $staging ]] && return
   if systemctl cat ros >/dev/null 2>&1; then systemctl disable --quiet --now ros; fi
   systemctl daemon-reload
-  systemctl enable --quiet --now mtr-base
-  restart
+  systemctl enable --quiet mtr-base
+  systemctl restart mtr-base mtr-robot
 }
 
 # NetworkManager's file of the access point, in which alone the password stands: a command's arguments are seen by everyone. A name is

@@ -258,3 +258,29 @@ def test_jackal_is_started_with_its_base_and_keeps_the_persons_other_settings(ro
     assert (robot.disk / "etc/systemd/system/mtr.slice").is_file()
     again = settings.read_text(encoding="utf-8")
     assert robot.run("jackal").returncode == 0 and settings.read_text(encoding="utf-8") == again
+
+
+def called_by(function, folder):
+    """What a function of the script runs on a robot, where it is no try below a folder: words of each call."""
+    calls = folder / "calls"
+    for name in ("apt-get", "rosdep", "systemctl"):
+        program = folder / name
+        program.write_text(f'#!/bin/sh\necho "{name}" "$@" >>"{calls}"\n', encoding="ascii")
+        program.chmod(0o755)
+    text = re.search(rf"^{function}\(\) {{$.*?^}}$", SCRIPT.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
+    program = f"set -euo pipefail; staging= top=/top packages=(a b)\n{text[0]}\n{function}"
+    subprocess.run(["bash", "-c", program], check=True, env={"PATH": f"{folder}:/usr/bin:/bin"})
+    return [line.split() for line in calls.read_text(encoding="ascii").splitlines()]
+
+
+def test_rosdep_is_asked_for_each_kind_of_dependency_by_an_option_of_its_own(tmp_path):
+    # It takes one word of these with each option, and refuses another.
+    words = next(words for words in called_by("install_packages", tmp_path) if words[:2] == ["rosdep", "install"])
+    assert "--dependency-types" not in words and "test" not in words
+    told = [kind for option, kind in zip(words, words[1:]) if option == "-t"]
+    assert sorted(told) == ["build", "build_export", "buildtool", "buildtool_export", "exec"]
+
+
+def test_base_that_runs_is_started_anew_with_the_release_before_the_robot(tmp_path):
+    assert called_by("restart", tmp_path) == [["systemctl", "try-restart", "mtr-base"],
+                                              ["systemctl", "restart", "mtr-robot"]]
