@@ -68,6 +68,15 @@ def test_nodes_know_every_parameter_that_a_named_lidar_gives_them(kind):
     assert set(own(parameters, "/localization")) <= known
 
 
+@pytest.mark.parametrize("driver, asked", [("lms1xx", True), ("urg_node", None), ("sick_tim", None)])
+def test_driver_that_says_inf_on_request_only_is_asked(driver, asked):
+    arguments = [f"driver:={driver}", "side:=front", "host:=10.0.0.2", "frame:=front_lidar"]
+    path = str(TOP / "launch" / "launch" / "lidar_driver.launch")
+    params = roslaunch.config.load_config_default([(path, arguments)], None, verbose=False).params
+    found = params.get("/front_lidar_driver/publish_min_range_as_inf")
+    assert (found.value if found else None) is asked
+
+
 def record(lidar, share=1.0, lost=()):
     """Five seconds of a LiDAR that makes this share of its turns; sweeps with these numbers get lost."""
     period_s = 1.0 / (share * lidar.rate_hz)

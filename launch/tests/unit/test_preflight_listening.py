@@ -1,6 +1,7 @@
 """What is read from messages, parameters and the master."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import pathlib
 from types import SimpleNamespace
 
 import numpy as np
@@ -9,7 +10,7 @@ from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
 
-from mtr_bringup.preflight import listening
+from mtr_bringup.preflight import listening, topics
 from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.listening import Listener, content_of, sample_of, setup_of_robot
 from mtr_bringup.preflight.obedience import obedience_findings
@@ -37,9 +38,29 @@ def robot(monkeypatch):
 def test_scan_is_counted_beam_by_beam():
     scan = LaserScan(range_min=0.1, range_max=30.0, ranges=[1.0, math.inf, -math.inf, math.nan, 0.05, 31.0, 2.0, 0.0],
                      angle_increment=math.pi / 6.0, time_increment=0.01)
-    assert content_of(scan) == ScanContent(8, 2, 2, pytest.approx(0.07))
+    assert content_of(scan, math.pi) == ScanContent(8, 2, 2, pytest.approx(0.07), pytest.approx(math.pi / 6.0))
     assert sample_of(scan).points_m == pytest.approx(np.array([[1.0, 0.0], [-2.0, 0.0]]))
-    assert content_of(LaserScan()) == ScanContent(0, 0, 0, 0.0)
+    assert content_of(LaserScan(), math.pi) == ScanContent(0, 0, 0, 0.0)
+
+
+@pytest.mark.parametrize("first, last, own_view_deg, unseen_deg", [
+    # Beams by the degree, from -135 to 135.
+    (125, 144, 115.0, 20.0), (0, 29, 115.0, 10.0), (0, 29, 180.0, 30.0), (240, 270, 180.0, 31.0)])
+@pytest.mark.parametrize("nothing", [0.0, math.nan])
+def test_widest_piece_without_a_measurement_is_that_of_the_own_view(first, last, own_view_deg, unseen_deg, nothing):
+    ranges = [nothing if first <= beam <= last else 5.0 for beam in range(271)]
+    ranges[60] = nothing
+    scan = LaserScan(range_min=0.1, range_max=30.0, ranges=ranges, angle_min=-0.75 * math.pi,
+                     angle_increment=math.radians(1.0))
+    found = content_of(scan, math.radians(own_view_deg) + 1e-9)
+    assert math.degrees(found.unseen_rad) == pytest.approx(unseen_deg)
+
+
+def test_what_counts_as_covered_is_drive_control_s():
+    collision = pathlib.Path(__file__).resolve().parents[3] / "catkin_ws/src/mtr_drive_control/src/collision"
+    text = "".join(path.read_text(encoding="utf-8") for path in collision.glob("*.cpp"))
+    assert f"kWidestUnseenRad = {topics.MAX_UNSEEN_RAD};" in text
+    assert f"kSharedViewRad = {listening.SHARED_VIEW_RAD};" in text
 
 
 def test_setup_is_what_the_parameters_say(robot):

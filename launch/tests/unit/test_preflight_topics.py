@@ -134,6 +134,17 @@ def test_scans_that_see_nothing_or_no_numbers_are_bad(content, is_bad):
     assert [finding.check for finding in bad_findings(record)] == (["scan.content"] if is_bad else [])
 
 
+@pytest.mark.parametrize("scans, unseen_rad, is_bad", [(125, 0.349, True), (125, 0.17, False), (10, 0.349, False),
+                                                       (15, 0.349, True)])
+def test_piece_for_which_drive_control_stands_is_bad(scans, unseen_rad, is_bad):
+    record = robot()
+    record.topics[names.FRONT_SCAN].scans = ([FULL_SCAN._replace(not_numbers=53, unseen_rad=unseen_rad)] * scans
+                                             + [FULL_SCAN] * (125 - scans))
+    found = bad_findings(record)
+    assert [finding.check for finding in found] == (["scan.content"] if is_bad else [])
+    assert all("Up to 20 deg" in finding.text and "allowed is 10 deg" in finding.text for finding in found)
+
+
 def test_beams_that_the_nodes_have_times_for_are_good():
     setup = replace(SETUP, time_increment_s=6.173e-5)
     record = robot(setup)

@@ -1,5 +1,6 @@
 """Listens to the running robot: what is on its topics, who publishes them, and its parameters."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 import time
 from typing import Any, Callable, Dict, Set, Tuple, Type
 
@@ -22,6 +23,8 @@ TYPES: Dict[str, Type[Any]] = {
     names.FRONT_SCAN: numpy_msg(LaserScan), names.REAR_SCAN: numpy_msg(LaserScan), names.WHEEL_ODOMETRY: Odometry,
     names.IMU_DATA: Imu, names.BATTERY: BatteryState, names.FIRMWARE_STATE: FirmwareState, names.JOY: Joy}
 
+# With two LiDARs, each watches so much to each side alone: drive control's kSharedViewRad.
+SHARED_VIEW_RAD = 2.0
 # A battery speaks once a second, and on a busy computer a connection takes its time: two messages within it.
 PATIENCE_S, LOOK_EVERY_S = 4.0, 0.1
 
@@ -76,6 +79,7 @@ class Listener:
     def __init__(self) -> None:
         self.recording = Recording()
         self.names = topics_of_robot()
+        self._own_view_rad = SHARED_VIEW_RAD if rospy.get_param("/drive_control/rear_lidar", True) else math.pi
         self.drive_control: Dict[str, str] = {}
         self._topics: Dict[str, TopicRecord] = {}
         self._transforms: Dict[Tuple[str, str], Set[str]] = {}
@@ -140,11 +144,11 @@ class Listener:
             self._said[(*pair, node)] = said_transform(each.transform)
 
     def _keep_front(self, message: Any) -> None:
-        self._topics[names.FRONT_SCAN].scans.append(content_of(message))
+        self._topics[names.FRONT_SCAN].scans.append(content_of(message, self._own_view_rad))
         self.recording.front.append(sample_of(message))
 
     def _keep_rear(self, message: Any) -> None:
-        self._topics[names.REAR_SCAN].scans.append(content_of(message))
+        self._topics[names.REAR_SCAN].scans.append(content_of(message, self._own_view_rad))
         self.recording.rear.append(sample_of(message))
 
     def _keep_wheels(self, message: Any) -> None:
@@ -163,14 +167,26 @@ def said_transform(transform: Any) -> SaidTransform:
     return SaidTransform((at.x, at.y, at.z), (turn.x, turn.y, turn.z, turn.w))
 
 
-def content_of(message: Any) -> ScanContent:
-    """Beams of a scan message, hits and what is no number, or zero, as drivers say it that know no REP 117."""
+def content_of(message: Any, own_view_rad: float) -> ScanContent:
+    """Beams of a scan message, hits and what is no number, or zero, as drivers say it that know no REP 117.
+
+    own_view_rad: to each side of where the LiDAR points; what no other LiDAR watches.
+    """
     ranges = np.asarray(message.ranges)
     with np.errstate(invalid="ignore"):
         hits = np.isfinite(ranges) & (ranges >= message.range_min) & (ranges <= message.range_max)
     sweep_s = message.time_increment * max(len(ranges) - 1, 0)
     missing = np.isnan(ranges) | (ranges == 0.0)
-    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(missing)), sweep_s)
+    angles_rad = message.angle_min + message.angle_increment * np.arange(len(ranges))
+    is_own = np.abs(np.remainder(angles_rad + math.pi, 2.0 * math.pi) - math.pi) <= own_view_rad
+    unseen_rad = longest_run(missing & is_own) * abs(message.angle_increment)
+    return ScanContent(len(ranges), int(np.count_nonzero(hits)), int(np.count_nonzero(missing)), sweep_s, unseen_rad)
+
+
+def longest_run(flags: "np.ndarray[Any, Any]") -> int:
+    """How many true ones follow each other at most."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(np.int8), [0]))))
+    return int(np.max(ends[1::2] - ends[::2], initial=0))
 
 
 def sample_of(message: Any) -> ScanSample:

@@ -7,12 +7,15 @@ from typing import Counter as Count
 
 
 class ScanContent(NamedTuple):
-    """Beams of one scan, how many of them hit something or are no measurement, and the time from first to last beam."""
+    """Beams of one scan, how many of them hit something or are no measurement, the time from first to last beam, and
+    the widest piece without a measurement in the LiDAR's own view.
+    """
 
     beams: int
     hits: int
     not_numbers: int
     sweep_s: float
+    unseen_rad: float = 0.0
 
 
 class SaidTransform(NamedTuple):
