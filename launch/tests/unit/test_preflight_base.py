@@ -4,7 +4,7 @@ import copy
 
 import pytest
 
-from mtr_bringup.preflight.base import base_findings, start_findings
+from mtr_bringup.preflight.base import base_findings, parameter_findings, start_findings
 from mtr_bringup.preflight.clocks import clock_finding, masters_finding, network_findings
 from mtr_bringup.preflight.expected import Setup
 from mtr_bringup.preflight.records import RobotRecord
@@ -66,6 +66,21 @@ def test_node_that_did_not_start_is_told_with_its_own_sentence():
     found = start_findings(RobotRecord(start_failures={"drive_control": "Parameter x is 3; allowed is 1 to 2."}))
     assert found[0].line() == "BAD drive_control: It cannot start. Parameter x is 3; allowed is 1 to 2."
     assert start_findings(RobotRecord()) == []
+
+
+def test_parameters_of_a_node_that_does_not_run_are_bad():
+    named = {"drive_contrl": {}, "drive_control": {}, "base": {}, "localization": {}}
+    record = RobotRecord(nodes=frozenset({"drive_control", "base/controller"}), node_parameters=named,
+                         start_failures={"localization": "Because."})
+    assert [finding.subject for finding in parameter_findings(record) if finding.is_bad] == ["drive_contrl"]
+
+
+@pytest.mark.parametrize("topics, text", [
+    (("/e_stop", "/b"), "Drive control listens to the emergency stops /e_stop, /b."),
+    ((), "Drive control listens to no emergency stop on a topic of its own.")])
+def test_emergency_stops_on_topics_are_said(topics, text):
+    found = parameter_findings(RobotRecord(e_stop_topics=topics))
+    assert [finding.line() for finding in found] == [f"ok  e_stop_topics: {text}"]
 
 
 @pytest.mark.parametrize("offset, leap, is_bad", [

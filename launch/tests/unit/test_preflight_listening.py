@@ -78,6 +78,7 @@ def test_setup_is_what_the_parameters_say(robot):
 
 
 def test_record_has_messages_publishers_types_parameters_and_failures(robot):
+    robot[names.NODE_PARAMETERS], robot["/drive_control/e_stop_topics"] = {"drive_contrl": {"x": 1}}, ["/e_stop"]
     robot["/base"], robot["/start_failures"] = {"cmd_vel_timeout": 0.25}, {"drive_control": "Because."}
     listener, message = Listener(), Imu()
     message.header.stamp, message.header.frame_id = listening.rospy.Time(99, 990_000_000), "/imu"
@@ -87,6 +88,8 @@ def test_record_has_messages_publishers_types_parameters_and_failures(robot):
     heard = record.topic(names.IMU_DATA)
     assert heard.publishers == ("/a", "/b") and heard.type == "sensor_msgs/Imu"
     assert heard.ages_s == [pytest.approx(0.01)] and dict(heard.frames) == {"imu": 1} and len(heard.arrivals_s) == 1
+    assert record.nodes == {"a", "b", "localization"}
+    assert record.node_parameters == {"drive_contrl": {"x": 1}} and record.e_stop_topics == ("/e_stop",)
     assert record.base == {"cmd_vel_timeout": 0.25} and record.start_failures == {"drive_control": "Because."}
     assert listener.recording.imu[0] == (99.99, (0.0, 0.0, 0.3), (0.0, 0.0, 9.81))
     assert listener.record("/none").base is None

@@ -23,7 +23,10 @@ def robot(tmp_path):
     (release / "roslaunch").chmod(0o755)
     (release / "setup.bash").write_text(f'export PATH="{release}:$PATH"\n', encoding="ascii")
     (tmp_path / "current").symlink_to("a")
-    shutil.copy(START, tmp_path / "start")
+    (release / "share" / "mtr_bringup").mkdir(parents=True)
+    (release / "share" / "mtr_bringup" / "launch").symlink_to(START.parents[2] / "launch" / "launch")
+    for name in ("start", "jackal_base.launch"):
+        shutil.copy(START.with_name(name), tmp_path)
     return tmp_path
 
 
@@ -88,6 +91,36 @@ def test_base_and_robot_have_the_description_of_the_persons_own(robot, words, la
     assert started(robot, *words)[0] == f"--skip-log-check {launch} robot_file:={own}"
     chosen = {"MTR_ARGUMENTS": "robot_file:=/a.urdf", "MTR_BASE_ARGUMENTS": "robot_file:=/a.urdf"}
     assert started(robot, *words, **chosen)[0] == f"--skip-log-check {launch} robot_file:=/a.urdf"
+
+
+@pytest.mark.parametrize("words, environment, told", [
+    ((), {"MTR_ARGUMENTS": "bind_address:=10.0.0.1 rear_lidr:=false"}, "robot.launch has no argument rear_lidr;"),
+    ((), {"MTR_ARGUMENTS": "joy.device:=/dev/js1"}, "robot.launch has no argument joy.device;"),
+    ((), {"MTR_ARGUMENTS": "lidr:=sick_lms111", "MTR_LAUNCH": "jackal.launch"}, "jackal.launch has no argument lidr;"),
+    # Of the LiDAR's driver alone, to which jackal.launch says it.
+    ((), {"MTR_ARGUMENTS": "host:=10.0.0.2", "MTR_LAUNCH": "jackal.launch"}, "jackal.launch has no argument host;"),
+    (("base",), {"MTR_BASE_ARGUMENTS": "efk:=false"}, "jackal_base.launch has no argument efk;")])
+def test_argument_that_the_launch_file_does_not_know_is_refused(robot, words, environment, told):
+    refused = run(robot, *words, **environment)
+    assert refused.returncode == 1 and refused.stderr.startswith(told) and not refused.stdout
+
+
+def test_launch_file_that_is_not_there_is_named(robot):
+    refused = run(robot, MTR_LAUNCH="robt.launch", MTR_ARGUMENTS="bind_address:=10.0.0.1")
+    assert refused.returncode == 1
+    assert refused.stderr == "The launch file robt.launch cannot be read; correct its name in /etc/mtr/robot.env.\n"
+
+
+def test_jackal_takes_the_arguments_of_robot_launch_that_it_passes_on(robot):
+    environment = {"MTR_LAUNCH": "jackal.launch", "MTR_ARGUMENTS": "localization:=external front_host:=10.0.0.2"}
+    assert started(robot, **environment)[0].endswith("jackal.launch localization:=external front_host:=10.0.0.2")
+
+
+def test_base_of_another_launch_file_is_asked_for_its_arguments(robot):
+    own = robot / "own.launch"
+    own.write_text("<launch><arg default='x'\n name='port'/></launch>", encoding="ascii")
+    assert started(robot, "base", MTR_BASE_LAUNCH=str(own), MTR_BASE_ARGUMENTS="port:=/dev/x")
+    assert run(robot, "base", MTR_BASE_LAUNCH=str(own), MTR_BASE_ARGUMENTS="prt:=/dev/x").returncode == 1
 
 
 def test_without_a_release_it_says_what_to_run(robot):

@@ -47,6 +47,15 @@ def test_start_has_the_parameters_of_its_own_arguments_only(master, tmp_path):
     assert "/peripherals/emergency_owners" not in master.parameters
 
 
+def test_preflight_is_told_what_node_parameters_says(master, tmp_path):
+    own = tmp_path / "nodes.yaml"
+    own.write_text("drive_contrl: {e_stop_topics: [/e_stop]}\n", encoding="utf-8")
+    master.start(f"node_parameters:={own}")
+    assert master.parameters["/robot_node_parameters/drive_contrl/e_stop_topics"] == ["/e_stop"]
+    master.start()
+    assert not [name for name in master.parameters if name.startswith("/robot_node_parameters")]
+
+
 def test_what_was_found_out_of_the_robot_ends_with_its_start(master):
     master.start()
     master.parameters.update(FOUND_OUT)

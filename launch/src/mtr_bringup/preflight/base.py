@@ -12,13 +12,25 @@ from .expected import Setup
 from .finding import Finding, bad, good
 from .records import RobotRecord
 
-LIMITS, START = "base.limits", "node.start"
+LIMITS, START, PARAMETERS, E_STOPS = "base.limits", "node.start", "node.parameters", "base.e_stops"
 HINT = "load mtr_description/config/jackal_base.yaml before the base's controller starts, see docs/robot.md"
 
 
 def start_findings(record: RobotRecord) -> List[Finding]:
     """Nodes that could not start, with their own sentence."""
     return [bad(START, node, f"It cannot start. {why}") for node, why in sorted(record.start_failures.items())]
+
+
+def parameter_findings(record: RobotRecord) -> List[Finding]:
+    """What node_parameters says of no node, and the emergency stops that the robot has by its parameters."""
+    # One in a namespace has its parameters there.
+    known = {node.split("/")[0] for node in (*record.nodes, *record.start_failures)}
+    found = [bad(PARAMETERS, node, "The file of node_parameters names it, but no node of this name runs, so that what "
+                 "it says there counts for nothing: correct the name, or remove it.")
+             for node in sorted(record.node_parameters) if node not in known]
+    stops = f"the emergency stops {', '.join(record.e_stop_topics)}" if record.e_stop_topics else (
+        "no emergency stop on a topic of its own")
+    return [*found, good(E_STOPS, "e_stop_topics", f"Drive control listens to {stops}.")]
 
 
 def base_findings(record: RobotRecord, setup: Setup, shipped: BaseController) -> List[Finding]:

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 import time
-from typing import Any, Callable, Dict, Set, Tuple, Type
+from typing import Any, Callable, Dict, FrozenSet, Set, Tuple, Type
 
 import numpy as np
 import rospy
@@ -67,6 +67,12 @@ def publishers() -> Dict[str, Tuple[str, ...]]:
     return {topic: tuple(sorted(nodes)) for topic, nodes in state[0]}
 
 
+def nodes() -> FrozenSet[str]:
+    """Nodes that run, by the master; each of them publishes or offers something."""
+    _, _, state = rospy.get_master().getSystemState()
+    return frozenset(node.lstrip("/") for table in state for _, owners in table for node in owners)
+
+
 class Listener:
     """Subscribes at once; what comes is kept until it is asked for.
 
@@ -118,7 +124,9 @@ class Listener:
         transforms = {pair: set(nodes) for pair, nodes in list(self._transforms.items())}
         return RobotRecord(dict(self._topics), transforms, dict(self._said), self._clock() - self._begun_s,
                            base if isinstance(base, dict) else None,
-                           {str(node): str(why) for node, why in failures.items()})
+                           {str(node): str(why) for node, why in failures.items()}, nodes(),
+                           rospy.get_param(names.NODE_PARAMETERS, {}),
+                           tuple(rospy.get_param("/drive_control/e_stop_topics", ())))
 
     def _take(self, message: Any, topic: str) -> None:
         heard = self._topics[topic]

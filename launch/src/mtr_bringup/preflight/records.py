@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from collections import Counter
 from dataclasses import dataclass, field
-from typing import Any, Dict, List, NamedTuple, Optional, Set, Tuple
+from typing import Any, Dict, FrozenSet, List, NamedTuple, Optional, Set, Tuple
 from typing import Counter as Count
 
 
@@ -57,6 +57,9 @@ class RobotRecord:
         listened_s: for so long.
         base: parameters of the base's controller; None: there are none.
         start_failures: node -> why it cannot start.
+        nodes: that run, by the master, without the first slash.
+        node_parameters: node -> parameters that it has beside the defaults.
+        e_stop_topics: on which drive control listens to emergency stops.
     """
 
     topics: Dict[str, TopicRecord] = field(default_factory=dict)
@@ -65,6 +68,9 @@ class RobotRecord:
     listened_s: float = 0.0
     base: Optional[Dict[str, Any]] = None
     start_failures: Dict[str, str] = field(default_factory=dict)
+    nodes: FrozenSet[str] = frozenset()
+    node_parameters: Dict[str, Any] = field(default_factory=dict)
+    e_stop_topics: Tuple[str, ...] = ()
 
     def topic(self, name: str) -> TopicRecord:
         """What came on a topic; an empty record when nothing did."""

@@ -7,7 +7,7 @@ from typing import List, Optional
 from mtr_description.base_controller import BaseController
 from mtr_description.robot_geometry import RobotGeometry
 
-from .base import base_findings, start_findings
+from .base import base_findings, parameter_findings, start_findings
 from .expected import Setup
 from .finding import Finding, exit_code
 from .frames import frame_findings
@@ -24,8 +24,8 @@ def standing_findings(record: RobotRecord, setup: Setup, geometry: Optional[Robo
                       ) -> List[Finding]:
     """All checks of what was heard of the robot. Without geometry no frames are checked."""
     frames = [*frame_findings(record, setup, geometry), *mount_findings(record, setup, geometry)] if geometry else []
-    return [*start_findings(record), *topic_findings(record, setup), *frames, *transform_findings(record.transforms),
-            *base_findings(record, setup, shipped)]
+    return [*start_findings(record), *parameter_findings(record), *topic_findings(record, setup), *frames,
+            *transform_findings(record.transforms), *base_findings(record, setup, shipped)]
 
 
 def write(findings: List[Finding], path: pathlib.Path) -> None:

@@ -21,6 +21,8 @@ ROBOT_TOPICS = "/robot_topics"
 ROBOT_FRAMES = "/robot_frames"
 # Of the robot: how many turns a second its LiDARs make by the data sheet of their kind, where it is named
 LIDAR_TURN_RATE = "/robot_lidar/turn_rate_hz"
+# Of the robot: what node_parameters of robot.launch gives to which nodes
+NODE_PARAMETERS = "/robot_node_parameters"
 # Of the robot: folders into which its nodes write by themselves, logs for one
 WRITTEN_FOLDERS = "/robot_written_folders"
 # Of this start of robot.launch, and of no other one on the same ROS master: a word, also for a node started again
