@@ -4,9 +4,11 @@ import datetime
 import itertools
 import math
 import random
+from dataclasses import replace
 
 import pytest
 
+from mtr_bringup.calibration import command_line
 from mtr_bringup.calibration.console import Console
 from mtr_bringup.calibration.guides import GUIDES
 from mtr_bringup.calibration.lever import lever_of, spread_of
@@ -15,7 +17,7 @@ from mtr_bringup.calibration.mast import Reading, lean_of
 from mtr_bringup.calibration.odometer import GyroTurn, mean_pose, way_between
 from mtr_bringup.calibration.press import Press, need_of
 from mtr_bringup.calibration.readings import Estimate, ReadingsUnusable, mean_of
-from mtr_bringup.calibration.record import Check, Origin, overdue, updated
+from mtr_bringup.calibration.record import DESIGN_TERMS, Check, Origin, overdue, updated
 from mtr_bringup.calibration.record_file import load, save
 from mtr_bringup.calibration.scales import scale_of
 from mtr_core.se2 import Pose2
@@ -235,6 +237,31 @@ def test_what_was_never_measured_is_told():
     record = updated(None, ORIGIN, check("wheel_scale"), TODAY)
     named = [sentence.split()[0] for sentence in overdue(record, TODAY)]
     assert named == ["mast_lean_deg", "key_lever_m", "lidar_yaw_deg"]
+
+
+def test_record_of_another_robot_is_refused_and_before_the_work(tmp_path):
+    record = updated(None, ORIGIN, check("mast_lean_deg"), TODAY)
+    with pytest.raises(ReadingsUnusable, match="of the robot MTR-1, not of MTR-2"):
+        updated(record, replace(ORIGIN, robot="MTR-2"), check("key_lever_m"), TODAY)
+    path = tmp_path / "robot.yaml"
+    save(path, record)
+    options = command_line.parsed(["lidars", "--bag", "none.bag", "--robot", "MTR-2"])
+    with pytest.raises(ReadingsUnusable, match="--record"):
+        command_line.calibrated(options, path)
+
+
+def test_lever_ends_with_the_description_that_it_was_measured_against(tmp_path, capsys):
+    record = updated(updated(None, ORIGIN, check("key_lever_m", 0.03), TODAY), ORIGIN, check("wheel_scale"), TODAY)
+    moved = replace(ORIGIN, key_ahead_m=0.28)
+    other = updated(record, moved, check("mast_lean_deg"), TODAY)
+    assert other["terms"]["key_lever_m"] == DESIGN_TERMS["key_lever_m"] and other["key_ahead_m"] == 0.28
+    assert [each["name"] for each in other["checks"]] == ["wheel_scale", "mast_lean_deg"]
+    again = updated(record, moved, check("key_lever_m", 0.001), TODAY)
+    assert again["terms"]["key_lever_m"]["value"] == 0.001
+    options, path = command_line.parsed(["mast", "--by", "J"]), tmp_path / "robot.yaml"
+    for found, is_said in ((check("mast_lean_deg"), True), (check("key_lever_m"), False)):
+        command_line.recorded(options, path, record, [found], 0.28)
+        assert ("key_lever_m counts as never measured" in capsys.readouterr().out) is is_said
 
 
 def test_error_that_is_to_be_mended_is_not_recorded():

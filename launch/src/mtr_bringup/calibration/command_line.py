@@ -22,7 +22,7 @@ from ..preflight.command_line import master_answers
 from .console import Console
 from .guides import GUIDES
 from .lidars import measured
-from .record import Check, Origin, overdue, updated
+from .record import LEVER, Check, Origin, continued, overdue, refuse_another, updated
 from .record_file import load, save
 from .robot import Robot
 
@@ -81,8 +81,10 @@ def status(path: pathlib.Path) -> int:
 
 def calibrated(options: argparse.Namespace, path: pathlib.Path) -> int:
     """Ask, measure and write the record."""
-    # A record that cannot be read is told before the work, not after it.
+    # A record that cannot be read, or is another robot's, is told before the work, not after it.
     document = load(path)
+    if document is not None and options.robot:
+        refuse_another(document, options.robot)
     if options.what == LIDARS:
         said, found = measured(options.bag)
         print("\n".join(said))
@@ -102,6 +104,10 @@ def recorded(options: argparse.Namespace, path: pathlib.Path, document: Optional
     name = options.robot or (document or {}).get("robot") or input("Which robot is it? ").strip()
     by = options.by or input("Who measures? ").strip()
     origin = Origin(name or "unnamed", by or "unnamed", key_ahead_m)
+    if document is not None:
+        document, doubt = continued(document, key_ahead_m)
+        if doubt and all(check.name != LEVER for check in found):
+            print(doubt)
     for check in found:
         document = updated(document, origin, check, datetime.date.today())
     if document is not None:

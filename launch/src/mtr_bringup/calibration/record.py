@@ -7,7 +7,7 @@ Format: operator_gui/README.md, Calibration record of the robot. What is not mea
 import datetime
 import math
 from dataclasses import dataclass
-from typing import Any, Dict, List, Mapping, Optional
+from typing import Any, Dict, List, Mapping, Optional, Tuple
 
 from .readings import Estimate, ReadingsUnusable
 
@@ -15,6 +15,8 @@ VALID_DAYS = 365
 LEVER, MAST, LIDAR_YAW = "key_lever_m", "mast_lean_deg", "lidar_yaw_deg"
 # Beyond it the record is refused: something is to be mended, and not to be recorded.
 LARGEST = {LEVER: 0.1, MAST: 10.0, LIDAR_YAW: 10.0}
+# Keys of two descriptions are in one place; both are written to the micrometre.
+SAME_M = 1e-6
 # Terms of the design, as in operator_gui's calibration/default.yaml.
 DESIGN_TERMS: Dict[str, Dict[str, Any]] = {
     MAST: {"value": 0.0, "uncertainty": 0.5, "distribution": "rectangular", "source": "spirit level of 0.5 degrees"},
@@ -54,6 +56,28 @@ class Check:
                 "uncertainty": round(self.estimate.sigma, 6), "source": self.how}
 
 
+def refuse_another(document: Mapping[str, Any], robot: str) -> None:
+    """Raise ReadingsUnusable when the record is not that robot's."""
+    if document["robot"] != robot:
+        raise ReadingsUnusable(f"The record is of the robot {document['robot']}, not of {robot}; name a file for "
+                               f"{robot} with --record.")
+
+
+def continued(document: Mapping[str, Any], key_ahead_m: float) -> Tuple[Dict[str, Any], str]:
+    """The record as far as it holds with a key so far before base_link, and a sentence about what does not; empty: all.
+
+    The lever is measured against the description, so that it ends with the description that it was measured against.
+    """
+    before_m, now_m = float(document["key_ahead_m"]), round(key_ahead_m, 6)
+    if math.isclose(before_m, now_m, abs_tol=SAME_M):
+        return dict(document), ""
+    terms = {**document["terms"], LEVER: DESIGN_TERMS[LEVER]}
+    checks = [each for each in document.get("checks", []) if each["name"] != LEVER]
+    return ({**document, "key_ahead_m": now_m, "terms": terms, "checks": checks},
+            f"The description has the key {now_m:g} m ahead, where the record had {before_m:g} m: {LEVER} counts as "
+            "never measured. Measure it (calibrate lever).")
+
+
 def updated(document: Optional[Mapping[str, Any]], origin: Origin, check: Check,
             today: datetime.date) -> Dict[str, Any]:
     """The record with what was measured today.
@@ -62,9 +86,12 @@ def updated(document: Optional[Mapping[str, Any]], origin: Origin, check: Check,
         document: as before; None for a robot that has none.
 
     Raises:
-        ReadingsUnusable: the error is too large to be recorded.
+        ReadingsUnusable: the error is too large to be recorded, or the record another robot's.
     """
-    before = dict(document or {})
+    before: Dict[str, Any] = {}
+    if document is not None:
+        refuse_another(document, origin.robot)
+        before, _ = continued(document, origin.key_ahead_m)
     checks: List[Dict[str, Any]] = [each for each in before.get("checks", []) if each["name"] != check.name]
     checks.append(check.entry(today, origin.by))
     terms = {**DESIGN_TERMS, **before.get("terms", {})}
