@@ -9,7 +9,7 @@ import roslaunch
 from mtr_car_locator import node
 
 LAUNCH = pathlib.Path(__file__).resolve().parents[2] / "launch"
-OF_THE_ROBOT = ("robot", "jackal", "lidar_driver")
+WITH_ITS_NODES = ("robot", "jackal", "lidar_driver", "sim", "replay")
 ONE_LIDAR = ["lidar:=hokuyo_utm30lx", "rear_lidar:=false"]
 FOUND_OUT = {"/preflight_report/bad": 0, "/preflight_motion/bad": 0, "/start_failures/localization": "Because."}
 
@@ -81,7 +81,7 @@ def test_car_locator_remembers_within_one_start_of_the_robot(monkeypatch, tmp_pa
     assert (memory(second).read() is not None) is is_remembered
 
 
-@pytest.mark.parametrize("name", OF_THE_ROBOT)
+@pytest.mark.parametrize("name", WITH_ITS_NODES)
 def test_each_node_of_the_robot_begins_without_the_parameters_of_before(name):
     tags = list(ElementTree.parse(LAUNCH / f"{name}.launch").getroot().iter("node"))
     assert tags and all(tag.get("clear_params") == "true" for tag in tags)
