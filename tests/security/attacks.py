@@ -11,97 +11,29 @@ import secrets
 import socket
 import struct
 import time
-from dataclasses import dataclass
-from typing import Callable, Counter, Dict, Iterator, List, Optional, Tuple
+from typing import Callable, Counter, List, Optional
 
 import zmq
+from hostile_peer import PAUSE_S, Keys, Over, Peer, Target, give_orders
 
-from mtr_proto import robot_link_pb2 as link
 from mtr_proto.pairing import ANSWER_BYTES, HELLO_BYTES, PROOF_BYTES, LaptopSide, PairingError
 
-# One thing after the other, never as fast as a loop would where the number is not the attack: s.
-PAUSE_S = 0.02
 CONNECTION_S = 2.0
+# Who is let in has heard the robot subscribe by then, on a busy machine as well, and then orders for so long: s.
+LET_IN_S, ORDERS_S = 0.25, 3.0
 # The greeting of ZMTP 3.0 (rfc.zeromq.org/spec/23), and the lie that a frame of 2^62 bytes follows.
 GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"CURVE".ljust(20, b"\0") + bytes(32)
 PLAIN_GREETING = GREETING.replace(b"CURVE", b"NULL\0")
 HUGE_FRAME = b"\x06" + struct.pack("!Q", 2 ** 62)
 HALF_OPEN, PARTS, SUBSCRIPTIONS_AT_ONCE = 200, 200, 2000
 LARGE_BYTES = 2 ** 20
-Keys = Optional[Tuple[bytes, bytes]]
-Over = Callable[[], bool]
-
-
-@dataclass(frozen=True)
-class Target:
-    """The robot as somebody in its network sees it.
-
-    Attributes:
-        address, status_port, command_port, pairing_port: where it listens; a pairing port of 0: no pairing.
-        robot_key: its public key, which is no secret.
-        keys: pairs that are not a controller's, by name.
-        recording: what a laptop has sent to the port of Commands, as bytes on the wire.
-    """
-
-    address: str
-    status_port: int
-    command_port: int
-    pairing_port: int
-    robot_key: bytes
-    keys: Dict[str, Tuple[bytes, bytes]]
-    recording: bytes
-
-
-class Peer:
-    """Sockets of an application that is none."""
-
-    def __init__(self, target: Target, keys: Keys, robot_key: bytes):
-        self.context = zmq.Context()
-        self.statuses, self.commands = self.context.socket(zmq.SUB), self.context.socket(zmq.PUB)
-        self.statuses.setsockopt(zmq.SUBSCRIBE, b"")
-        for each, port in ((self.statuses, target.status_port), (self.commands, target.command_port)):
-            each.setsockopt(zmq.LINGER, 0)
-            each.setsockopt(zmq.RECONNECT_IVL, 10)
-            if keys is not None:
-                each.curve_publickey, each.curve_secretkey = keys
-                each.curve_serverkey = robot_key
-            each.connect(f"tcp://{target.address}:{port}")
-        self.seen = link.Status()
-
-    def close(self) -> None:
-        """Disconnect."""
-        self.context.destroy(0)
-
-    def look(self) -> None:
-        """Take the newest Status, where one comes."""
-        while self.statuses.poll(0):
-            self.seen = link.Status.FromString(self.statuses.recv())
-
-
-def orders(seen: link.Status) -> Iterator[link.Command]:
-    """Commands that would move wheels, lift and buttons, in every session that there may be, for every Status."""
-    own = secrets.randbits(62) | 1
-    for number in itertools.count(1):
-        answered = seen.id or number % 1000
-        yield link.Command(
-            session_id=(own, seen.session_id or 1, secrets.randbits(62) | 1)[number % 3], id=2 ** 40 + number,
-            seen_status_id=answered, seen_robot_time_s=seen.sent_time_s or time.time(), stop=False, map_car_id=number,
-            max_speed_mps=1.0, device_height_m=1.0 + number % 2 * 0.3, resume_hold_id=seen.hold_id,
-            waypoint=link.Waypoint(id=number, x=3.0, y=-2.0, heading=0.0),
-            press=link.ButtonPress(id=number, buttons=[1], strength=1.0, duration_s=0.5))
 
 
 def command_as(keys: Keys, robot_key: Optional[bytes] = None, pause_s: float = PAUSE_S) -> Callable[..., None]:
     """An attack: orders of an application with these keys, for a robot with that key."""
     def attack(target: Target, tries: Counter[str], over: Over) -> None:
         peer = Peer(target, keys, robot_key or target.robot_key)
-        wanted = orders(peer.seen)
-        while not over():
-            peer.look()
-            tries["read" if peer.seen.id else "blind"] += 1
-            wanted = orders(peer.seen) if peer.seen.id else wanted
-            peer.commands.send(next(wanted).SerializeToString())
-            time.sleep(pause_s)
+        give_orders(peer, tries, over, pause_s)
         peer.close()
     return attack
 
@@ -120,10 +52,11 @@ def unknown_keys(target: Target, tries: Counter[str], over: Over) -> None:
     """A key after the other that nobody has paired."""
     while not over():
         peer = Peer(target, zmq.curve_keypair(), target.robot_key)
-        peer.commands.send(next(orders(peer.seen)).SerializeToString())
-        time.sleep(PAUSE_S)
-        peer.close()
         tries["keys"] += 1
+        if peer.is_let_in(LET_IN_S):
+            tries["let in"] += 1
+            give_orders(peer, tries, over, limit_s=ORDERS_S)
+        peer.close()
 
 
 def replay(target: Target, tries: Counter[str], over: Over) -> None:
@@ -226,6 +159,11 @@ def revoked_commands(target: Target, tries: Counter[str], over: Over) -> None:
     command_as(target.keys["revoked"])(target, tries, over)
 
 
+def controller_commands(target: Target, tries: Counter[str], over: Over) -> None:
+    """No attack: the same orders of somebody who may. The others' prove something only where these move the robot."""
+    command_as(target.keys["controller"])(target, tries, over)
+
+
 def viewer_flood(target: Target, tries: Counter[str], over: Over) -> None:
     """Commands of a viewer, some thousand a second."""
     command_as(target.keys["viewer"], pause_s=0.0002)(target, tries, over)
@@ -282,4 +220,4 @@ def exactly(connection: socket.socket, length: int) -> bytes:
 
 STRANGERS = (no_encryption, wrong_robot_key, unknown_keys, replay, connection_flood, half_open, garbage)
 INSIDERS = (viewer_commands, revoked_commands, viewer_flood, viewer_subscriptions, viewer_messages)
-ALL = {attack.__name__: attack for attack in (*STRANGERS, *INSIDERS, pairing_guesses, ros_graph)}
+ALL = {attack.__name__: attack for attack in (*STRANGERS, *INSIDERS, pairing_guesses, ros_graph, controller_commands)}

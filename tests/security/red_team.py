@@ -16,7 +16,8 @@ import threading
 from typing import Counter, Dict
 
 import zmq
-from attacks import ALL, STRANGERS, Target
+from attacks import ALL, STRANGERS
+from hostile_peer import Target
 
 LEAST_URGENT = 19
 

@@ -9,7 +9,7 @@ does falls on both.
 import argparse
 import pathlib
 import sys
-from typing import Any, Dict, List
+from typing import Any, Counter, Dict, List
 
 from attacks import ALL, INSIDERS, STRANGERS
 from robot_under_attack import Outcome, RobotUnderAttack
@@ -20,6 +20,9 @@ from mtr_benchmarks.harness.tails import Turn, percentile, ratio_of
 
 MOTIONS = Requirement("words to wheels and buttons that are not zero", "(count)", must=0.0)
 TWICE = Requirement("attacks of which a Status tells twice", "(count)", must=0.0)
+# Without it the zero above proves nothing.
+MOVED = Requirement("words to wheels or to buttons, the fewer, when a controller gives the same orders", "(count)",
+                    must=1.0, at_least=True)
 IDLE_ATTACKS = Requirement("attacks that have tried nothing", "(count)", must=0.0)
 MAX_RATIO = 2.0
 GROUPS = {"all strangers": STRANGERS, "all insiders": INSIDERS}
@@ -42,12 +45,13 @@ def main() -> int:
     found: Dict[str, Attack] = {}
     with RobotUnderAttack(folder) as robot:
         remarks = [] if robot.hurry() else [NOT_HURRIED]
+        moved = robot.words_to_controller()
         for name in options.attacks or wanted:
             found[name] = Attack([each.__name__ for each in wanted[name]])
             for turn in range(options.turns):
                 found[name].take_turn(robot, 0.0 if turn else options.idle, options.commands)
             print(f"{name}: {found[name].tries}", flush=True)
-    return finish(report(found, remarks), options.out / "red_team.json")
+    return finish(report(found, moved, remarks), options.out / "red_team.json")
 
 
 class Attack:
@@ -70,10 +74,11 @@ class Attack:
         return {name: sum(sum(each.tries[name].values()) for each in self.outcomes) for name in self._attacks}
 
 
-def report(found: Dict[str, Attack], remarks: List[str]) -> BenchmarkReport:
-    """Figures and table."""
+def report(found: Dict[str, Attack], moved: Counter[str], remarks: List[str]) -> BenchmarkReport:
+    """Figures and table. moved: words to wheels and buttons of a controller's orders."""
     outcomes = [outcome for attack in found.values() for outcome in attack.outcomes]
     rows = [Row(MOTIONS, sum(each.words["moves"] + each.words["press"] for each in outcomes)),
+            Row(MOVED, min(moved["moves"], moved["press"])),
             Row(TWICE, sum(each.notices > 1 for each in outcomes)),
             Row(IDLE_ATTACKS, sum(not tries for attack in found.values() for tries in attack.tries.values()))]
     figures: Dict[str, Any] = {}

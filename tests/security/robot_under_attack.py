@@ -115,7 +115,7 @@ class Outcome:
 
 
 class RobotUnderAttack:
-    """Use as a context manager. On the machine's clock, as a robot; paired: `Jana`, the viewer `Eva`."""
+    """Use as a context manager. On the machine's clock, as a robot; paired: `Jana`, `Karel`, the viewer `Eva`."""
 
     def __init__(self, folder: pathlib.Path):
         # Nodes work in another folder.
@@ -131,7 +131,7 @@ class RobotUnderAttack:
             self.jana = self.paired("Jana", Role.CONTROLLER)
             viewer, revoked = self.paired("Eva", Role.VIEWER), self.paired("Petr", Role.CONTROLLER)
             self.keys.change(lambda known: known.without("Petr"))
-            known = {"viewer": viewer, "revoked": revoked}
+            known = {"viewer": viewer, "revoked": revoked, "controller": self.paired("Karel", Role.CONTROLLER)}
             (self.folder / "known.json").write_text(json.dumps(
                 {name: [each.decode("ascii") for each in pair] for name, pair in known.items()}), encoding="ascii")
             opened.enter_context(self.stack)
@@ -210,6 +210,18 @@ class RobotUnderAttack:
         return Outcome(tries, self.witness.counts - before, delays_s,
                        max((max(each.values(), default=0) for each in codes), default=0),
                        sorted(set().union(*codes)), len(lines))
+
+    def words_to_controller(self) -> Counter[str]:
+        """Words to wheels and buttons when the attacks' orders have a controller's key: what the witness must see."""
+        before = Counter(self.witness.counts)
+        end_s = time.monotonic() + LIMIT_S
+        with self.attackers(["controller_commands"], 0, "127.0.0.1"):
+            while not {"moves", "press"} <= set(self.witness.counts - before) and time.monotonic() < end_s:
+                time.sleep(0.1)
+        words = self.witness.counts - before
+        self.operator.until(self.stands, "standstill", stop=True)
+        self._end_session()
+        return words
 
     @contextlib.contextmanager
     def attackers(self, attacks: Sequence[str], pairing_port: int, address: str) -> Any:
