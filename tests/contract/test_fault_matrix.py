@@ -8,6 +8,7 @@ import pytest
 import yaml
 
 from mtr_benchmarks.faults.matrix import (
+    ANY_REASON,
     BEGIN,
     END,
     GOES_ON,
@@ -41,6 +42,8 @@ def test_cell_can_be_run_and_names_what_there_is(cell):
     assert cell.robot in ROBOTS and all(code in str(SENTENCES) for code in must.told.split(OR))
     assert 0.0 < must.told_s <= 1.0 and (must.stands_s is None or must.stands_s <= 0.5)
     assert must.lift_s is None or must.lift_s <= 1.3
+    assert must.may_tell == ANY_REASON or all(code in str(SENTENCES) for code in must.may_tell.split(OR))
+    assert not (must.told and must.may_tell) and (must.stands_s is None or not must.may_stand)
 
 
 def test_every_fault_of_the_catalogue_is_tried_in_every_state_or_left_out_for_a_reason():

@@ -8,14 +8,14 @@ import argparse
 import pathlib
 import sys
 from dataclasses import asdict
-from typing import Dict, List, Optional
+from typing import Callable, Dict, List, Optional
 
 from ..harness.own_process import end_in_order, in_own_process
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .campaign import Found, one_robot
-from .judge import first_told_s
-from .matrix import Cell, read_matrix, table
+from .judge import Outcome, first_told_s
+from .matrix import DRIVING, MAPPING, Cell, Expected, read_matrix, table
 from .record import Run, present_commit, right_of
 from .robots import ROBOTS
 
@@ -65,15 +65,23 @@ def run(courses: List[List[Cell]], of_run: Run) -> List[Found]:
 def report(found: List[Found]) -> BenchmarkReport:
     """Figures and table."""
     failed = [each for each in found if each.wrong]
-    seen = [(each.outcome, each.cell.expected) for each in found if each.outcome]
-    stood = [outcome.stood_s - must.limit_s for outcome, must in seen
-             if outcome.stood_s is not None and must.stands_s is not None]
-    told = [told_s - must.limit_s for told_s, must in ((first_told_s(must, outcome), must) for outcome, must in seen)
-            if told_s is not None]
-    rows = [Row(FAILED, len(failed), remark=f"{len(found)} cells"),
-            Row(STANDSTILL, max(stood, default=0.0)), Row(NOTICE, max(told, default=0.0))]
+    stop = [each for each in found if each.cell.state in (MAPPING, DRIVING) and each.cell.expected.stands_s is not None]
+    tell = [each for each in found if each.cell.expected.told]
+    # No cell proves nothing; where none of those that were chosen has to stand, or to tell, there is no such time.
+    rows = [Row(FAILED, len(failed), bool(found), remark=f"{len(found)} cells"),
+            *([_longest(STANDSTILL, stop, lambda must, seen: seen.stood_s)] if stop else []),
+            *([_longest(NOTICE, tell, first_told_s)] if tell else [])]
     return BenchmarkReport(rows, {"cells": [_figures(each) for each in found]},
                            [f"{each.cell.name}: {'; '.join(each.wrong)}" for each in failed])
+
+
+def _longest(requirement: Requirement, cells: List[Found],
+             time_s: Callable[[Expected, Outcome], Optional[float]]) -> Row:
+    """From the limits on; of cells that came to no time, which have failed, there is none."""
+    times = [(time_s(each.cell.expected, each.outcome) if each.outcome else None, each.cell.expected.limit_s)
+             for each in cells]
+    known = [found_s - limit_s for found_s, limit_s in times if found_s is not None]
+    return Row(requirement, max(known, default=None), len(known) == len(cells), remark=f"{len(cells)} cells")
 
 
 def _figures(found: Found) -> Dict[str, object]:

@@ -4,17 +4,27 @@ from typing import Callable, Dict
 
 from mtr_proto import robot_link_pb2 as link
 
-from .judge import LIFT_STANDS_MPS, Outcome, invalid_because, modes_during, standstill_s, told_since
-from .matrix import GOES_ON, HELD, LOST, Cell
+from .judge import (
+    LIFT_STANDS_MPS,
+    Outcome,
+    end_speed_mps,
+    invalid_because,
+    modes_during,
+    standstill_s,
+    told_since,
+)
+from .matrix import DRIVING, GOES_ON, HELD, LOST, MAPPING, Cell
 from .robot import MOVES_MPS, FaultyRobot, PutBackError
 
 # After a fault what follows is seen for that long, s of the robot's time.
 SEEN_AFTER_S = 3.0
+# So much of a way is left when a fault begins on it that it does not end during the fault: 2 s at up to 1 m/s.
+ENOUGH_WAY_M = 3.0
 # Who waits has stood for so long, s.
 REST_S = 1.5
 # Speed at which the lift is under way, m/s; it reaches 0.15.
 LIFTS_MPS = 0.12
-READY, MAPPING, DRIVING, WAITING, LIFTING = "ready", "mapping", "driving", "waiting", "lifting"
+READY, WAITING, LIFTING = "ready", "waiting", "lifting"
 # Maps in a row in which the Car was not found, after which an Operator does what the robot asks.
 ENOUGH_TRIES = 3
 OUT_OF_ORDER = (link.MODE_FAULT, link.MODE_STARTING, link.MODE_UNSPECIFIED)
@@ -51,7 +61,8 @@ class Course:
         seen = [each for each in robot.seen if each.time_s > begun_s - 1.0]
         return Outcome(speed_mps, standstill_s(robot.speeds, begun_s, end_s), told_since(seen, begun_s),
                        modes_during(seen, begun_s, end_s), self._then(), invalid_because(seen, begun_s),
-                       standstill_s(robot.lifts, begun_s, end_s, LIFT_STANDS_MPS))
+                       standstill_s(robot.lifts, begun_s, end_s, LIFT_STANDS_MPS),
+                       end_speed_mps(robot.speeds, begun_s, end_s))
 
     def _then(self) -> str:
         status = self._robot.status
@@ -102,11 +113,12 @@ class Course:
 
         def go_on() -> None:
             robot.release_hold()
-            if robot.has_arrived:
+            if not has_way():
                 robot.drive()
-        if not robot.is_under_way:
-            robot.drive()
-        robot.wait_until(lambda: robot.speed_mps > MOVES_MPS, "a drive", go_on)
+
+        def has_way() -> bool:
+            return robot.is_under_way and robot.way_left_m > ENOUGH_WAY_M
+        robot.wait_until(lambda: has_way() and robot.speed_mps > MOVES_MPS, "a drive", go_on)
 
     def _to_waiting(self) -> None:
         robot = self._robot

@@ -2,20 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 from dataclasses import dataclass
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Set, Tuple
 
 from mtr_operator.domain.actions.line_watch import INTERVENTIONS
 from mtr_operator.domain.actions.trouble import LINK_GAP_S, trouble_between
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import RobotStatus
 
-from .matrix import ANY_REASON, OR, UNHEARD, Cell, Expected
+from .matrix import ANY_REASON, DRIVING, FAULT, HELD, MAPPING, OR, STATES, UNHEARD, Cell, Expected
 
 STANDS_MPS = 0.02
 # Of the lift: its height is told to a tenth of a millimetre each 40 ms.
 LIFT_STANDS_MPS = 0.01
-# How long after a fault the state still counts as that of the fault.
-STATE_AFTER_S = 0.5
+# Who drives on stands for less, where it turns or waits for its next way: s.
+MIN_STOP_S = 0.5
 
 
 class CarSeen(NamedTuple):
@@ -45,8 +45,10 @@ class Outcome:
         speed_mps: true speed when the fault began.
         stood_s: from the fault to standstill that lasts as long as it, s; None: it did not stand.
         lift_stood_s: the same of the lift.
+        end_mps: speed of the robot's fastest point when the fault ended; None: nobody saw.
         told_s: codes that were new to the Operator, with the time from the fault to the Status, s.
-        modes: states while the fault lasted, without the one before; `unheard` where no Status came.
+        modes: states while the fault lasted, in their order, the last one that of its end; `unheard` where no Status
+            came.
         then: how it went on.
         record: why a line at hand is invalid; empty: it counts.
     """
@@ -58,6 +60,7 @@ class Outcome:
     then: str
     record: str
     lift_stood_s: Optional[float] = None
+    end_mps: Optional[float] = None
 
 
 def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float,
@@ -68,6 +71,11 @@ def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: f
     if not seen or (moving and moving[-1] == seen[-1]):
         return None
     return max(moving[-1] - begin_s, 0.0) if moving else 0.0
+
+
+def end_speed_mps(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float) -> Optional[float]:
+    """The last speed that was seen during a fault; None: there was none."""
+    return next((abs(mps) for time_s, mps in reversed(speeds) if begin_s <= time_s <= end_s), None)
 
 
 def has_stood(speeds: Sequence[Tuple[float, float]], for_s: float) -> bool:
@@ -95,12 +103,14 @@ def told_since(seen: Sequence[Seen], begin_s: float) -> Dict[str, float]:
 
 
 def modes_during(seen: Sequence[Seen], begin_s: float, end_s: float) -> List[str]:
-    """States that the Operator reads from a fault until shortly after its end, each once."""
-    during = [each for each in seen if begin_s < each.time_s <= end_s + STATE_AFTER_S]
-    found = [each.status.mode.name.lower() for each in during]
-    times = [begin_s, *(each.time_s for each in seen if begin_s < each.time_s < end_s), end_s]
-    silent = any(after - before > LINK_GAP_S for before, after in zip(times, times[1:]))
-    return list(dict.fromkeys(found + [UNHEARD] * silent))
+    """States that the Operator reads during a fault, in their order."""
+    found: List[str] = []
+    before_s = begin_s
+    for each in [each for each in seen if begin_s < each.time_s <= end_s]:
+        found += [UNHEARD] * (each.time_s - before_s > LINK_GAP_S) + [each.status.mode.name.lower()]
+        before_s = each.time_s
+    found += [UNHEARD] * (end_s - before_s > LINK_GAP_S)
+    return [mode for mode, _ in itertools.groupby(found)]
 
 
 def invalid_because(seen: Sequence[Seen], begin_s: float) -> str:
@@ -127,21 +137,51 @@ def first_told_s(must: Expected, seen: Outcome) -> Optional[float]:
 
 def wrong(cell: Cell, seen: Outcome) -> List[str]:
     """What is not as the matrix says, a sentence each."""
-    must, found = cell.expected, []
+    return [*_wrong_motion(cell, seen), *_wrong_words(cell, seen), *_wrong_states(cell, seen)]
+
+
+def _wrong_motion(cell: Cell, seen: Outcome) -> Iterator[str]:
+    must = cell.expected
     if must.stands_s is not None and (seen.stood_s is None or seen.stood_s > must.limit_s + must.stands_s):
-        found.append(f"stands after {seen.stood_s} s, must {must.limit_s + must.stands_s:g}")
+        yield f"stands after {seen.stood_s} s, must {must.limit_s + must.stands_s:g}"
     if must.lift_s is not None and (seen.lift_stood_s is None or seen.lift_stood_s > must.limit_s + must.lift_s):
-        found.append(f"lift stands after {seen.lift_stood_s} s, must {must.limit_s + must.lift_s:g}")
-    if must.stands_s is None and seen.stood_s == 0.0 and seen.speed_mps > STANDS_MPS:
-        found.append("stands, must drive on")
+        yield f"lift stands after {seen.lift_stood_s} s, must {must.limit_s + must.lift_s:g}"
+    if must.stands_s is None and not must.may_stand and _has_stopped(cell, seen):
+        yield f"stands after {seen.stood_s} s, must drive on"
+
+
+def _has_stopped(cell: Cell, seen: Outcome) -> bool:
+    """True when a robot that drove and was not to stop did not drive on until the end of the fault."""
+    if seen.speed_mps <= STANDS_MPS or (cell.state == MAPPING and STATES[DRIVING] in seen.modes):
+        # It stood before, or has mapped the Car meanwhile.
+        return False
+    if seen.end_mps is None:
+        return True
+    return seen.end_mps <= STANDS_MPS and seen.stood_s is not None and cell.for_s - seen.stood_s >= MIN_STOP_S
+
+
+def _wrong_words(cell: Cell, seen: Outcome) -> Iterator[str]:
+    must = cell.expected
     told_s = first_told_s(must, seen)
     if must.told and (told_s is None or told_s > must.limit_s + must.told_s):
-        found.append(f"{must.told} told after {told_s} s, must {must.limit_s + must.told_s:g}")
-    if not set(must.mode.split(OR)) & set(seen.modes):
-        found.append(f"is in {seen.modes}, must be {must.mode}")
-    if seen.then not in must.then.split(OR):
-        found.append(f"afterwards {seen.then}, must be {must.then}")
+        yield f"{must.told} told after {told_s} s, must {must.limit_s + must.told_s:g}"
+    unwanted = seen.told_s.keys() - set(must.may_tell.split(OR))
+    if not must.told and must.may_tell != ANY_REASON and unwanted:
+        yield f"tells {sorted(unwanted)}, must tell {must.may_tell or 'nothing'}"
+    stops = seen.then == HELD or FAULT in seen.modes or (must.stands_s is None and _has_stopped(cell, seen))
+    if stops and not must.told and not seen.told_s:
+        yield "stands, has a fault or is held, and does not say why"
     words = "" if must.record == ANY_REASON else must.record
     if words is not None and (words not in seen.record or bool(must.record) != bool(seen.record)):
-        found.append(f"a line is invalid because {seen.record!r}, must {must.record!r}")
-    return found
+        yield f"a line is invalid because {seen.record!r}, must {must.record!r}"
+
+
+def _wrong_states(cell: Cell, seen: Outcome) -> Iterator[str]:
+    must, modes = cell.expected, set(cell.expected.mode.split(OR))
+    # The state before may last for a while; who has mapped the Car goes on.
+    before = {STATES[cell.state], STATES[DRIVING]} if cell.state == MAPPING else {STATES[cell.state]}
+    at_end = modes | before if modes & before else modes
+    if not seen.modes or seen.modes[-1] not in at_end or not set(seen.modes) <= modes | before:
+        yield f"is in {seen.modes}, must be {must.mode}"
+    if seen.then not in must.then.split(OR):
+        yield f"afterwards {seen.then}, must be {must.then}"

@@ -16,10 +16,12 @@ from mtr_fault_injection.parts import PARTS, USUAL_AMOUNTS, Kind, Place
 
 FOLDER = pathlib.Path(__file__).with_name("cells")
 FILES = ("sensors", "hardware", "nodes", "link", "guards", "computer")
+MAPPING, DRIVING = "mapping", "driving"
 # In the order in which a robot can come into them, with the mode that the Operator reads in each.
-STATES = {"ready": "ready_to_map_car", "mapping": "mapping_car", "driving": "following_waypoint",
+STATES = {"ready": "ready_to_map_car", MAPPING: "mapping_car", DRIVING: "following_waypoint",
           "waiting": "following_waypoint", "lifting": "following_waypoint"}
 OWN_MODE, OR = "own", " or "
+FAULT = "fault"
 ANY_REASON = "any"
 GOES_ON, HELD, LOST = "goes on", "held", "lost"
 UNHEARD = "unheard"
@@ -39,10 +41,10 @@ class Expected:
     """What a cell must do.
 
     Attributes:
-        stands_s: longest time from the fault to standstill of the true robot, s; None: it may drive on.
-        told: code of the problem that the Operator reads, of several one; empty: none.
+        stands_s: longest time from the fault to standstill of the true robot, s; None: it drives on.
+        told: code of the problem that the Operator reads, of several one; empty: no code that is new.
         told_s: longest time until then, s.
-        mode: the robot's state from then on, while the fault lasts; `unheard` while no Status comes. In a file `own` is
+        mode: the robot's state from then on, until the fault ends; `unheard` while no Status comes. In a file `own` is
             that of the state. Of several, with `or` between them, one.
         then: `goes on` by itself, `held` until the Operator has it go on, or `lost`: it needs to be put back; of
             several one.
@@ -52,6 +54,8 @@ class Expected:
             empty: the line counts; None: there is no line.
         limit_s: how long the fault can last before it is one, s: so long a silence, or the same content; both times
             count from there.
+        may_tell: where nothing is told, codes that may be new nevertheless; `any`: whatever the robot stands for.
+        may_stand: where it drives on, it may as well stand and say why.
     """
 
     stands_s: Optional[float]
@@ -63,6 +67,8 @@ class Expected:
     limit_s: float = 0.0
     lift_s: Optional[float] = None
     back_s: float = 3.0
+    may_tell: str = ""
+    may_stand: bool = False
 
 
 @dataclass(frozen=True)
@@ -149,11 +155,15 @@ def table(matrix: Matrix) -> List[str]:
 def _row(cell: Cell) -> str:
     must = cell.expected
     limit = f"{must.limit_s:g} + " if must.limit_s else ""
-    stands = "-" if must.stands_s is None else f"{limit}{must.stands_s:g} s"
+    stands = ("may" if must.may_stand else "-") if must.stands_s is None else f"{limit}{must.stands_s:g} s"
     lift = "-" if must.lift_s is None else f"{limit}{must.lift_s:g} s"
-    codes = OR.join(f"`{code}`" for code in must.told.split(OR))
-    told = (codes, f"{limit}{must.told_s:g} s") if must.told else ("-", "-")
+    quiet = "any" if must.may_tell == ANY_REASON else f"at most {_codes(must.may_tell)}" if must.may_tell else "-"
+    told = (_codes(must.told), f"{limit}{must.told_s:g} s") if must.told else (quiet, "-")
     reason = "" if must.record == ANY_REASON else f": {must.record}"
     record = "-" if must.record is None else f"invalid{reason}" if must.record else "counts"
     return (f"| {cell.fault}, {cell.for_s:g} s | {cell.state} | {stands} | {lift} | {told[0]} | {told[1]} | "
             f"{must.mode} | {must.then} | {record} |")
+
+
+def _codes(words: str) -> str:
+    return OR.join(f"`{code}`" for code in words.split(OR))

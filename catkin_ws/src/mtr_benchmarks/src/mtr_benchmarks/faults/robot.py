@@ -22,6 +22,7 @@ from mtr_proto import robot_link_pb2 as link
 
 from ..harness.operator_link import OperatorLink
 from ..harness.ros_shutdown import shut_down
+from ..harness.speed import fastest_point_mps
 from .judge import WELL, CarSeen, Seen, has_stood
 from .receiver import Receiver
 from .robots import RobotKind, small_disk
@@ -52,10 +53,15 @@ class PutBackError(FaultyRobotError):
 
 
 class Speed(NamedTuple):
-    """True speed of the robot, or of its lift upwards, at a time of the robot's steady clock, s, m/s."""
+    """True speed of the robot's fastest point, or of its lift upwards, at a time of the robot's clock, s, m/s."""
 
     time_s: float
     mps: float
+
+
+def fastest_of(twist: Any) -> float:
+    """Speed of the robot's fastest point, m/s, by its Twist."""
+    return fastest_point_mps(twist.linear.x, twist.angular.z, twist.linear.y)
 
 
 class FaultyRobot:
@@ -142,8 +148,8 @@ class FaultyRobot:
 
     @property
     def speed_mps(self) -> float:
-        """Newest true speed."""
-        return abs(self.speeds[-1].mps) if self.speeds else 0.0
+        """Newest true speed along its way, forwards or backwards."""
+        return abs(float(self.truth.twist.twist.linear.x))
 
     def has_stood(self, for_s: float) -> bool:
         """True when it has not moved for that long."""
@@ -205,6 +211,12 @@ class FaultyRobot:
         return "waypoint" in self._wanted.content and not self.has_arrived
 
     @property
+    def way_left_m(self) -> float:
+        """From where it says to be to the end of the leg that was ordered last, as the crow flies."""
+        x, y, _ = LEGS[(self._legs - 1) % len(LEGS)]
+        return math.hypot(self.status.state.x - x, self.status.state.y - y)
+
+    @property
     def has_arrived(self) -> bool:
         """True when the leg that was ordered last is over."""
         return bool(self.status.waypoint_id == self._legs and self.status.waypoint_result in (
@@ -260,7 +272,7 @@ class FaultyRobot:
 
     def _take_truth(self, odometry: Any) -> None:
         self.truth = odometry
-        self.speeds.append(Speed(self._time_s(odometry.header.stamp.to_sec()), odometry.twist.twist.linear.x))
+        self.speeds.append(Speed(self._time_s(odometry.header.stamp.to_sec()), fastest_of(odometry.twist.twist)))
 
     def _take_lift(self, state: Any) -> None:
         if not self.speeds:

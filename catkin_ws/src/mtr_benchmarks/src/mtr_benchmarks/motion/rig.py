@@ -1,6 +1,5 @@
 """The simulated robot with drive control's core alone: a wanted velocity in, physics and sensors behind it."""
 # SPDX-License-Identifier: Apache-2.0
-import math
 from typing import Any, Optional, Tuple
 
 import mtr_drive_control_core as core
@@ -15,6 +14,8 @@ from mtr_simulation.sensors.scan_errors import ScanErrors
 from mtr_simulation.sim import Sim, SimParameters
 from mtr_simulation.site.scenario import Scenario
 
+from ..harness.speed import fastest_point_mps
+
 ROBOT = shipped_robot()
 Velocity = Tuple[float, float]
 # States of the zone in DriveStatus.
@@ -25,7 +26,6 @@ TICK_S = 0.02
 # The robot stands for so long until nothing sways, and then looks around, before its first tick.
 SETTLING_S, LOOKING_S = 1.5, 0.2
 START_S = SETTLING_S + LOOKING_S
-RADIUS_M = math.hypot(FRONT_M, FOOTPRINT.half_width_m)
 PERSON = {"person", "left_leg", "right_leg"}
 
 
@@ -65,7 +65,7 @@ class Rig:
     def corner_speed_mps(self) -> float:
         """No point of the robot moves faster."""
         truth = self.sim.truth()
-        return math.hypot(truth.linear_mps, truth.lateral_mps) + abs(truth.angular_radps) * RADIUS_M
+        return fastest_point_mps(truth.linear_mps, truth.angular_radps, truth.lateral_mps)
 
     def step(self, velocity: Velocity, locked: bool = False) -> Any:
         """One tick with this velocity of the planner, or with a motion lock; drive control's decision."""

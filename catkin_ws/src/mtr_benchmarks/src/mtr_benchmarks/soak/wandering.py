@@ -6,8 +6,8 @@ import random
 import threading
 from typing import Dict, List, Tuple
 
-from ..faults.course import DRIVING, LIFTING, MAPPING, WAITING, Course
-from ..faults.matrix import LOCKSTEP, Cell, read_matrix
+from ..faults.course import LIFTING, WAITING, Course
+from ..faults.matrix import DRIVING, LOCKSTEP, MAPPING, Cell, read_matrix
 from ..faults.robot import FaultyRobot, FaultyRobotError
 from .figures import Place
 from .processes import Usage, below, usage_of, waiting_bytes
