@@ -8,12 +8,15 @@ from dataclasses import replace
 from types import SimpleNamespace
 
 import pytest
+from nav_msgs.msg import Odometry
 
 from mtr_benchmarks.kills import __main__ as kills_main
 from mtr_benchmarks.kills import kept as kept_module
 from mtr_benchmarks.kills.deaths import first_zero_s, kill_of, silence
 from mtr_benchmarks.kills.kept import CHANGED, DOUBLED, LOST, UNKEPT, UNREADABLE, Kept, wrong_distances
 from mtr_benchmarks.kills.killed import Found
+from mtr_benchmarks.kills.robot import KilledRobot
+from mtr_msgs.msg import DriveStatus
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.progress_file import load_progress
 
@@ -141,6 +144,33 @@ def test_too_few_kills_are_not_what_it_must_be():
     found = Found("autolock", [kill_of("dispatcher", speeds(5.4), speeds(5.5), 5.0, 8.0)])
     assert all(row.is_met for row in kills_main.report([found], 1).rows)
     assert not any(row.is_met for row in kills_main.report([found], 2).rows if row.requirement.must is not None)
+
+
+def test_kills_of_robots_that_stood_prove_no_stop():
+    stood = Found("autolock", [kill_of("dispatcher", speeds(3.0), speeds(3.1), 5.0, 8.0)] * 20)
+    unmet = [row.requirement for row in kills_main.report([stood], 20).rows if not row.is_met]
+    assert unmet == [kills_main.STOPPED, kills_main.STOOD]
+
+
+def test_few_kills_of_a_robot_that_drove_are_too_few():
+    kills = [kill_of("dispatcher", speeds(stop_s), speeds(stop_s + 0.1), 5.0, 8.0) for stop_s in (5.4, *[3.0] * 19)]
+    unmet = [row.requirement for row in kills_main.report([Found("autolock", kills)], 20).rows if not row.is_met]
+    assert unmet == [kills_main.STOPPED, kills_main.STOOD]
+
+
+@pytest.mark.parametrize("wheels_stop_s, is_met", [(5.6, True), (5.8, False), (99.0, False)])
+def test_wheels_stand_soon_after_the_zero(wheels_stop_s, is_met):
+    found = Found("autolock", [kill_of("dispatcher", speeds(5.4), speeds(wheels_stop_s), 5.0, 8.0)])
+    assert {row.requirement: row.is_met for row in kills_main.report([found], 1).rows}[kills_main.STOOD] == is_met
+
+
+def test_robot_that_turns_has_not_stopped():
+    robot = SimpleNamespace(_sent=[], _wheels=[])
+    KilledRobot._take_sent(robot, DriveStatus(angular_radps=0.8))
+    turning = Odometry()
+    turning.twist.twist.angular.z = 0.8
+    KilledRobot._take_wheels(robot, turning)
+    assert robot._sent[0].mps > 0.2 and robot._wheels[0].mps > 0.2
 
 
 def test_lost_line_is_not_what_it_must_be():

@@ -21,9 +21,12 @@ from .killed import PARAMETERS, Found, killed_test
 KILLS_OF_TEST = 10
 STOPPED = Requirement("longest time from a node's last word, or the limit of its silence, to zero sent to the wheels",
                       "s", must=STANDS_S)
-# Its servos and tyres take their time after the zero.
-STOOD = Requirement("the same to standstill of the simulated wheels (0.02 m/s)", "s", goal=STANDS_S)
-
+# Its servos and tyres take their time after the zero, 0.18 s at most where it was measured (docs/faults.md).
+AFTER_ZERO_S = 0.2
+STOOD = Requirement("the same to standstill of the simulated wheels (0.02 m/s)", "s", goal=STANDS_S,
+                    must=STANDS_S + AFTER_ZERO_S)
+# Of the kills that are wanted so many find a robot that drives, at least; more than half did where it was measured.
+MIN_JUDGED_SHARE = 0.25
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
@@ -65,7 +68,8 @@ def report(tests: List[Found], wanted: int) -> BenchmarkReport:
     is_whole, judged = len(kills) >= wanted, [kill for kill in kills if kill.is_judged]
     rows = [Row(Requirement(name, "(count)", must=0.0), float(found[name]), is_whole,
                 remark=f"{len(kills)} kills, {len(tests)} tests") for name in MUST]
-    rows += [Row(requirement, _longest(judged, name), is_whole, remark=f"{len(judged)} kills of a robot that drove")
+    is_judged = is_whole and len(judged) >= MIN_JUDGED_SHARE * wanted
+    rows += [Row(requirement, _longest(judged, name), is_judged, remark=f"{len(judged)} kills of a robot that drove")
              for requirement, name in ((STOPPED, "stopped_s"), (STOOD, "stood_s"))]
     of_node = collections.Counter(kill.node for kill in kills)
     figures = {"kills": {node: of_node[node] for node in LIMITS_S},
@@ -74,10 +78,12 @@ def report(tests: List[Found], wanted: int) -> BenchmarkReport:
     return BenchmarkReport(rows, figures, [])
 
 
-def _longest(kills: List[Kill], name: str) -> float:
-    """From the limits on, of those that came to it; kills that did not stop at all have a row of their own."""
-    return max((getattr(kill, name) - LIMITS_S[kill.node] for kill in kills if getattr(kill, name) is not None),
-               default=0.0)
+def _longest(kills: List[Kill], name: str) -> Optional[float]:
+    """From the limits on; None where one did not come to it, or there is none."""
+    times_s = [(getattr(kill, name), LIMITS_S[kill.node]) for kill in kills]
+    if any(time_s is None for time_s, _ in times_s):
+        return None
+    return max((time_s - limit_s for time_s, limit_s in times_s), default=None)
 
 
 if __name__ == "__main__":

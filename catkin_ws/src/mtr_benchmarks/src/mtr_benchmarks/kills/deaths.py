@@ -14,7 +14,7 @@ ROUNDING_S = 1e-6
 
 
 class Kill(NamedTuple):
-    """One death of a node, times in s of the robot's clock, from its last word.
+    """One death of a node, times in s of the robot's clock, from its last word; speeds of the fastest point.
 
     Attributes:
         speed_mps: that the wheels were sent then.

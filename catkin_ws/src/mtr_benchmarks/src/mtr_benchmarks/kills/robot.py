@@ -17,8 +17,9 @@ from mtr_fault_injection.parts import FaultError
 from mtr_fault_injection.processes import process_of
 from mtr_msgs.msg import DesiredState, DriveStatus, MotionStatus, PeripheralsState, RobotMode
 
-from ..faults.robot import PATIENCE, Speed
+from ..faults.robot import PATIENCE, Speed, fastest_of
 from ..harness.ros_shutdown import shut_down
+from ..harness.speed import fastest_point_mps
 from .deaths import LIMITS_S, Kill, kill_of, silence
 
 # Wall time. roslaunch waits 2 s before it starts a node again, which then takes some seconds on a busy machine.
@@ -99,7 +100,8 @@ class KilledRobot:
         words_s.append(message.header.stamp.to_sec())
 
     def _take_sent(self, status: DriveStatus) -> None:
-        self._sent.append(Speed(status.header.stamp.to_sec(), status.linear_mps))
+        self._sent.append(Speed(status.header.stamp.to_sec(),
+                                fastest_point_mps(status.linear_mps, status.angular_radps)))
 
     def _take_wheels(self, odometry: Odometry) -> None:
-        self._wheels.append(Speed(odometry.header.stamp.to_sec(), odometry.twist.twist.linear.x))
+        self._wheels.append(Speed(odometry.header.stamp.to_sec(), fastest_of(odometry.twist.twist)))
