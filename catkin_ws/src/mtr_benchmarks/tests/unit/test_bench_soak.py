@@ -6,10 +6,12 @@ import random
 import socket
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import pytest
 
-from mtr_benchmarks.soak.figures import Place, by_halves, trends_of
+from mtr_benchmarks.soak import __main__ as soak_main
+from mtr_benchmarks.soak.figures import PROCESSES, QUANTITIES, Place, by_halves, trends_of, unseen
 from mtr_benchmarks.soak.processes import Usage, below, usage_of, waiting_bytes
 from mtr_benchmarks.soak.samples_file import SamplesFile
 from mtr_benchmarks.soak.trend import Trend, difference, growing, trend_of
@@ -51,6 +53,35 @@ def test_growth_while_it_warms_up_does_not_count():
     usages = [(float(second), Usage(min(second, 600) / 10.0, 5, 1, 0)) for second in range(0, 3600, 10)]
     assert trends_of({"node": usages}, "memory, MiB")["node"].is_flat
     assert trends_of({"gone": usages[:2]}, "memory, MiB") == {}
+
+
+def usages(name, hours=1.0):
+    return [(float(second), Usage(40.0, 30, 20, 0)) for second in range(0, int(3600 * hours) + 1, 10)]
+
+
+WHOLE = {name: usages(name) for name in PROCESSES}
+
+
+@pytest.mark.parametrize("samples, missing", [
+    (WHOLE, []), ({}, sorted(PROCESSES)),
+    ({name: each for name, each in WHOLE.items() if name != "localization"}, ["localization"]),
+    # The watcher ended before; a process was not there from the beginning, or was away for a while.
+    ({name: each[:100] for name, each in WHOLE.items()}, sorted(PROCESSES)),
+    ({**WHOLE, "dispatcher": usages("")[100:]}, ["dispatcher"]),
+    ({**WHOLE, "dispatcher": [*usages("")[:100], *usages("")[200:]]}, ["dispatcher"]),
+    # One that nobody expected and that grew in two looks.
+    ({**WHOLE, "other": [(10.0, Usage(40, 30, 20, 0)), (20.0, Usage(900, 3000, 200, 0))]}, ["other"])])
+def test_process_that_was_not_seen_all_the_time_is_missing(samples, missing):
+    assert unseen(samples, 3600.0) == missing
+
+
+def test_soak_whose_watcher_saw_nothing_is_not_what_it_must_be():
+    chance = random.Random(1)
+    wanderer = SimpleNamespace(places=[Place(10.0 * each, chance.gauss(0.01, 0.001), each // 4) for each in range(400)],
+                               faults={"imu off": 9}, failures=[])
+    assert all(row.is_met for row in soak_main.report(WHOLE, wanderer, 1.0, True).rows)
+    unmet = [row.requirement.name for row in soak_main.report({}, wanderer, 1.0, True).rows if not row.is_met]
+    assert unmet[0] == soak_main.UNSEEN.name and len(unmet) == 1 + len(QUANTITIES)
 
 
 def test_difference_has_an_interval():

@@ -17,11 +17,12 @@ from ..faults.robots import ROBOTS
 from ..harness.own_process import end_in_order
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
-from .figures import QUANTITIES, Samples, by_halves, mean, trends_of
+from .figures import QUANTITIES, Samples, by_halves, mean, trends_of, unseen
 from .trend import HOUR_S, difference, growing
 from .wandering import Processes, Wanderer
 
 GROWING = "processes whose {} grow (95 % for all together)"
+UNSEEN = Requirement("processes that were not seen from the beginning to the end", "(count)", must=0.0)
 FAILED = Requirement("times that the robot did not come back from a fault", "(count)", must=0.0)
 WORSE = Requirement("position error at the end beyond that at the beginning and its 95 % interval", "m", must=0.0)
 
@@ -54,9 +55,13 @@ def report(samples: Samples, wanderer: Wanderer, hours: float, is_whole: bool) -
     trends = {quantity: trends_of(samples, quantity) for quantity in QUANTITIES}
     before, after = by_halves(wanderer.places)
     worse_m, half_width_m = difference(before, after)
+    missing = unseen(samples, hours * HOUR_S)
     rows = [Row(FAILED, len(wanderer.failures), is_whole,
-                remark=f"{hours:.2f} h, {sum(wanderer.faults.values())} faults")]
-    rows += [Row(Requirement(GROWING.format(quantity), "(count)", must=0.0), growing(list(found.values())), is_whole,
+                remark=f"{hours:.2f} h, {sum(wanderer.faults.values())} faults"),
+            Row(UNSEEN, len(missing), is_whole, remark=", ".join(missing))]
+    # What nobody looked at has not grown either.
+    is_seen = is_whole and not missing
+    rows += [Row(Requirement(GROWING.format(quantity), "(count)", must=0.0), growing(list(found.values())), is_seen,
                  remark=f"sum {sum(each.per_hour for each in found.values()):+.3g} an hour")
              for quantity, found in trends.items()]
     rows.append(Row(WORSE, max(worse_m - half_width_m, 0.0), is_whole and len(before) > 1,

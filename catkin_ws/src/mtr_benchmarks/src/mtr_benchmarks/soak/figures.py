@@ -1,7 +1,7 @@
 """Figures of what was seen while the robot wandered. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
-from typing import Callable, Dict, List, NamedTuple, Sequence, Tuple
+from typing import Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple
 
 import numpy as np
 
@@ -13,6 +13,12 @@ QUANTITIES: Dict[str, Callable[[Usage], float]] = {
     "threads": lambda usage: usage.threads, "bytes waiting in sockets": lambda usage: usage.queued_bytes}
 # Of the time: pools, caches and the first map fill until then.
 WARM_UP_SHARE = 0.2
+# Of a soak on the robot in lock-step: its nodes and what ROS needs beside them.
+PROCESSES = ("simulator", "drive_control", "localization", "motion_planner", "car_locator", "state_machine",
+             "peripherals", "dispatcher", "fault_injection", "robot_state_publisher", "rosmaster", "rosout")
+# From the robot's start to the first look, and from the last one to the end: looks are 10 s apart, and one of a busy
+# machine comes late, s of the robot's time.
+MAX_UNSEEN_S = 60.0
 Samples = Dict[str, List[Tuple[float, Usage]]]
 
 
@@ -35,6 +41,18 @@ def trends_of(samples: Samples, quantity: str) -> Dict[str, Trend]:
         except ValueError:
             continue
     return found
+
+
+def unseen(samples: Samples, end_s: float) -> List[str]:
+    """Processes that are missing, or were not seen from the robot's start until an end, s, or too seldom."""
+    trends = trends_of(samples, next(iter(QUANTITIES)))
+    return [name for name in sorted({*PROCESSES, *samples}) if name not in trends or any(
+        after - before > MAX_UNSEEN_S for before, after in _pauses(samples[name], end_s))]
+
+
+def _pauses(samples: Sequence[Tuple[float, Usage]], end_s: float) -> Iterator[Tuple[float, float]]:
+    times_s = [0.0, *(time_s for time_s, _ in samples), end_s]
+    return zip(times_s, times_s[1:])
 
 
 def by_halves(places: Sequence[Place]) -> Tuple[List[float], List[float]]:
