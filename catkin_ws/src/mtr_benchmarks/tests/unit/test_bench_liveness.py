@@ -2,9 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 import subprocess
 import sys
+import time
+from types import SimpleNamespace
 
 import pytest
 
+from mtr_benchmarks.liveness import clock_steps
 from mtr_benchmarks.liveness.judge import (
     Growth,
     Motion,
@@ -82,6 +85,35 @@ def test_clock_is_set_for_a_process_that_runs_and_the_steady_one_is_not(tmp_path
     later_wall_s, later_steady_s = told()
     process.communicate("\n")
     assert (later_wall_s - wall_s) - (later_steady_s - steady_s) == pytest.approx(step_s, abs=0.01)
+
+
+class Driving:
+    """A robot that drives on; what it counts is its clock's."""
+
+    def __init__(self, counts_steps):
+        self.wheels = [Motion(0.0, 0.5, 0.0)]
+        self.status_times_s = []
+        self.status = link.Status()
+        self._counts_steps = counts_steps
+
+    def wait_for_motion(self, _):
+        pass
+
+    def watch(self, _):
+        now_s = time.monotonic()
+        self.wheels.append(Motion(now_s, 0.5, 0.0))
+        self.status_times_s.append(now_s)
+
+    def set_by(self, _):
+        self.status.interventions.clock_steps += self._counts_steps
+
+
+@pytest.mark.parametrize("counts_steps, is_met", [(0, False), (1, True), (2, False)])
+def test_clock_that_nobody_sets_is_not_what_it_must_be(monkeypatch, counts_steps, is_met):
+    monkeypatch.setattr(clock_steps, "AlarmWatch", lambda: SimpleNamespace(take=tuple))
+    robot = Driving(counts_steps)
+    found = clock_steps.rows(clock_steps.clock_steps(robot, robot, (0.4, -3600.0)))
+    assert {row.requirement: row.is_met for row in found}[clock_steps.NOT_COUNTED] == is_met
 
 
 def test_a_place_counts_once_and_only_when_it_is_reached():

@@ -33,6 +33,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         parser.error("The simulated clock cannot be set; add --steps without steps.")
     durations_s = SHORT_STALLS_S if options.short else stalls.DURATIONS_S
     steps_s = options.steps if options.steps is not None else SHORT_STEPS_S if options.short else clock_steps.STEPS_S
+    if not options.nodes and not steps_s:
+        parser.error("There is nothing to measure; give a node to stop or a step of the clock.")
     folder = options.out / "liveness"
     clock = SettableClock(folder)
     with LiveRobot(folder, clock.variables, SIMULATED_CLOCK if options.simulated_clock else MACHINE_CLOCK) as robot:
@@ -54,7 +56,7 @@ def _stall_line(found: stalls.Stall) -> str:
 def _step_line(found: clock_steps.ClockStep) -> str:
     said = "; ".join(found.alarms) or "no alarm"
     return (f"clock set by {found.step_s:+g} s at {found.speed_mps:.2f} m/s: {said}; {found.status_pause_s:.2f} s "
-            "without a Status")
+            f"without a Status; counted {found.counted} times")
 
 
 if __name__ == "__main__":

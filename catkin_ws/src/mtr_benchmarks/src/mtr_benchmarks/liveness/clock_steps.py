@@ -21,6 +21,8 @@ MAX_SENSOR_PAUSE_S = 0.1
 TRIES = 5
 # Statuses come ten times a second; a tick is left out where the clock goes over it.
 MAX_STATUS_PAUSE_S = 0.5
+# A clock that nobody has set makes no alarms either.
+NOT_COUNTED = Requirement("steps of the clock that the robot has not counted as one", "(count)", must=0.0)
 ALARMS = Requirement("alarms of nodes because the robot's clock was set", "(count)", must=0.0)
 PAUSE = Requirement("longest time without a Status while it was set", "s", must=MAX_STATUS_PAUSE_S)
 
@@ -34,6 +36,7 @@ class ClockStep:
         status_pause_s: longest time without a Status.
         speed_mps: of the wheels when it was set.
         sensor_pause_s: longest time without odometry, which no clock has to do with.
+        counted: how often the robot says that its clock was set meanwhile.
     """
 
     step_s: float
@@ -41,19 +44,24 @@ class ClockStep:
     status_pause_s: float
     speed_mps: float
     sensor_pause_s: float
+    counted: int
 
 
 def clock_step(robot: LiveRobot, clock: SettableClock, watch: AlarmWatch, step_s: float) -> ClockStep:
     """Set the clock of a robot that drives."""
     robot.wait_for_motion(MOVES_AGAIN_S)
     watch.take()
-    begin_s, speed_mps = time.monotonic(), robot.wheels[-1].linear_mps
+    begin_s, speed_mps, before = time.monotonic(), robot.wheels[-1].linear_mps, _counted(robot)
     clock.set_by(step_s)
     robot.watch(SEEN_AFTER_S)
     end_s = time.monotonic()
     pause_s = longest_pause_s(list(robot.status_times_s), begin_s, end_s)
     sensor_pause_s = longest_pause_s([each.time_s for each in list(robot.wheels)], begin_s, end_s)
-    return ClockStep(step_s, watch.take(), pause_s, speed_mps, sensor_pause_s)
+    return ClockStep(step_s, watch.take(), pause_s, speed_mps, sensor_pause_s, _counted(robot) - before)
+
+
+def _counted(robot: LiveRobot) -> int:
+    return int(robot.status.interventions.clock_steps)
 
 
 def clock_steps(robot: LiveRobot, clock: SettableClock, steps_s: Sequence[float]) -> List[ClockStep]:
@@ -71,4 +79,5 @@ def clock_steps(robot: LiveRobot, clock: SettableClock, steps_s: Sequence[float]
 def rows(found: Sequence[ClockStep]) -> List[Row]:
     """The sum and the worst of all."""
     return [Row(ALARMS, sum(len(each.alarms) for each in found), remark=f"{len(found)} steps"),
-            Row(PAUSE, max(each.status_pause_s for each in found))]
+            Row(PAUSE, max(each.status_pause_s for each in found)),
+            Row(NOT_COUNTED, sum(each.counted != 1 for each in found))]
