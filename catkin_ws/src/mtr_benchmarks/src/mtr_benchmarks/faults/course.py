@@ -52,6 +52,8 @@ class Course:
         robot = self._robot
         self.to(cell.state)
         speed_mps, begun_s = robot.speed_mps, robot.begin(cell.part, cell.kind, cell.for_s, cell.amount)
+        if cell.expected.presses:
+            robot.press()
         end_s = begun_s + cell.for_s
         robot.wait_until(lambda: robot.now_s > end_s + SEEN_AFTER_S, "the time after the fault")
         back_s = end_s + cell.expected.back_s
@@ -62,7 +64,7 @@ class Course:
         return Outcome(speed_mps, standstill_s(robot.speeds, begun_s, end_s), told_since(seen, begun_s),
                        modes_during(seen, begun_s, end_s), self._then(), invalid_because(seen, begun_s),
                        standstill_s(robot.lifts, begun_s, end_s, LIFT_STANDS_MPS),
-                       end_speed_mps(robot.speeds, begun_s, end_s))
+                       end_speed_mps(robot.speeds, begun_s, end_s), cell.expected.presses and robot.has_pressed)
 
     def _then(self) -> str:
         status = self._robot.status

@@ -46,6 +46,7 @@ class Outcome:
         stood_s: from the fault to standstill that lasts as long as it, s; None: it did not stand.
         lift_stood_s: the same of the lift.
         end_mps: speed of the robot's fastest point when the fault ended; None: nobody saw.
+        pressed: a press that was ordered meanwhile was reported as done.
         told_s: codes that were new to the Operator, with the time from the fault to the Status, s.
         modes: states while the fault lasted, in their order, the last one that of its end; `unheard` where no Status
             came.
@@ -61,6 +62,7 @@ class Outcome:
     record: str
     lift_stood_s: Optional[float] = None
     end_mps: Optional[float] = None
+    pressed: bool = False
 
 
 def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float,
@@ -171,6 +173,8 @@ def _wrong_words(cell: Cell, seen: Outcome) -> Iterator[str]:
     stops = seen.then == HELD or FAULT in seen.modes or (must.stands_s is None and _has_stopped(cell, seen))
     if stops and not must.told and not seen.told_s:
         yield "stands, has a fault or is held, and does not say why"
+    if must.presses and not seen.pressed:
+        yield "the press is not reported as done"
     words = "" if must.record == ANY_REASON else must.record
     if words is not None and (words not in seen.record or bool(must.record) != bool(seen.record)):
         yield f"a line is invalid because {seen.record!r}, must {must.record!r}"

@@ -56,6 +56,7 @@ class Expected:
             count from there.
         may_tell: where nothing is told, codes that may be new nevertheless; `any`: whatever the robot stands for.
         may_stand: where it drives on, it may as well stand and say why.
+        presses: a press is ordered when the fault begins, and reported as done.
     """
 
     stands_s: Optional[float]
@@ -69,6 +70,7 @@ class Expected:
     back_s: float = 3.0
     may_tell: str = ""
     may_stand: bool = False
+    presses: bool = False
 
 
 @dataclass(frozen=True)
@@ -161,7 +163,8 @@ def _row(cell: Cell) -> str:
     told = (_codes(must.told), f"{limit}{must.told_s:g} s") if must.told else (quiet, "-")
     reason = "" if must.record == ANY_REASON else f": {must.record}"
     record = "-" if must.record is None else f"invalid{reason}" if must.record else "counts"
-    return (f"| {cell.fault}, {cell.for_s:g} s | {cell.state} | {stands} | {lift} | {told[0]} | {told[1]} | "
+    press = ", and a press" if must.presses else ""
+    return (f"| {cell.fault}, {cell.for_s:g} s{press} | {cell.state} | {stands} | {lift} | {told[0]} | {told[1]} | "
             f"{must.mode} | {must.then} | {record} |")
 
 

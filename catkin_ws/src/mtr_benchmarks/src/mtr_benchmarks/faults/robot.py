@@ -39,6 +39,8 @@ NOT_FOUND = "car_locator.not_found"
 PATIENCE = "/lockstep_patience_s: 0.7\n"
 # Heights of the key between which the lift is sent, m above ground, and where one is nearer than the other.
 LOW_M, HIGH_M, MIDDLE_M = 0.4, 1.5, 0.95
+# How long a button is held, s.
+PRESS_S = 0.3
 # The firmware's clock in a message, s.
 FIRMWARE_WRAP_S = 2 ** 32 * 1e-6
 ARGUMENTS = {"fault_injection": "true", "resume_by_operator": "true", "scenario": "lot"}
@@ -101,7 +103,7 @@ class FaultyRobot:
                                          variables=variables))
         self._begun_s = self._height_m = math.nan
         self.ended_s = math.inf
-        self._legs = self._maps = 0
+        self._legs = self._maps = self._presses = 0
         self._wanted = SimpleNamespace(content={})
 
     def __enter__(self) -> "FaultyRobot":
@@ -204,6 +206,17 @@ class FaultyRobot:
         """Order the key to the height that is farther from where it is, and else what was ordered."""
         wanted = {name: value for name, value in self._wanted.content.items() if name != "device_height_m"}
         self.order(**wanted, device_height_m=LOW_M if self.status.state.device_height > MIDDLE_M else HIGH_M)
+
+    def press(self) -> None:
+        """Order a press beside what was ordered."""
+        self._presses += 1
+        self.order(**{**self._wanted.content, "press": link.ButtonPress(
+            id=self._presses, buttons=[link.KEY_BUTTON_LOCK], strength=1.0, duration_s=PRESS_S)})
+
+    @property
+    def has_pressed(self) -> bool:
+        """True when the press that was ordered last is reported as done."""
+        return any(each.id == self._presses and not each.error for each in self.status.presses)
 
     @property
     def is_under_way(self) -> bool:
