@@ -228,7 +228,8 @@ class RobotUnderAttack:
         """A process that attacks until its input ends."""
         command = [sys.executable, str(HERE / "red_team.py"), address, *attacks,
                    "--status-port", str(self.stack.status_port), "--command-port", str(self.stack.command_port),
-                   "--pairing-port", str(pairing_port), "--robot-key", self.keys.own_keys().public.decode("ascii"),
+                   # A key may begin with a hyphen, as an option does.
+                   "--pairing-port", str(pairing_port), "--robot-key=" + self.keys.own_keys().public.decode("ascii"),
                    "--keys", str(self.folder / "known.json"), "--recording", str(self.folder / "recording")]
         process = subprocess.Popen(command, text=True, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         try:
