@@ -8,7 +8,7 @@ import pytest
 
 from mtr_operator.domain.errors import InUse, OutputError, ProgressFileError
 from mtr_operator.domain.results.document import read_record
-from mtr_operator.domain.results.journal import DECISION, LINE, LINE_BEGUN, POINT
+from mtr_operator.domain.results.journal import DECISION, LINE, LINE_BEGUN, POINT, SUPERSEDED
 from mtr_operator.domain.results.notebook import Notebook
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
@@ -245,6 +245,36 @@ def test_new_test_may_replace_a_journal_in_which_nothing_was_measured(path):
     with Store(path, progress) as store:
         measure(Notebook(progress, KeyPressResult, store), 1)
     assert loaded(path).measured() == [1]
+
+
+@pytest.mark.parametrize("run", [1, 2])
+def test_superseded_point_stays_in_the_journal_when_nothing_else_was_measured(path, run):
+    progress = new_progress()
+    with Store(path, progress) as store:
+        notebook = Notebook(progress, KeyPressResult, store)
+        notebook.add(LINE_BEGUN, {"line": 1})
+        notebook.add(POINT, {"word": "press", "status": "ok", "distance": {"distance_m": 5.0}, "frame": None})
+        if run == 1:
+            notebook.add(SUPERSEDED, {"line": 1})
+            store.discard_if_empty()
+    if run == 2:
+        progress = loaded(journal_path(path))
+        with Store(path, progress) as store:
+            notebook = Notebook(progress, KeyPressResult, store)
+            notebook.add(SUPERSEDED, {"line": 1})
+            notebook.add(LINE_BEGUN, {"line": 1})
+            store.discard_if_empty()
+    assert not progress.has_findings
+    assert POINT in [entry.kind for entry in read_journal(journal_path(path)).entries]
+
+
+def test_test_that_has_never_measured_anything_leaves_no_file(path):
+    progress = new_progress()
+    with Store(path, progress) as store:
+        Notebook(progress, KeyPressResult, store).add(LINE_BEGUN, {"line": 1})
+        store.save()
+        store.discard_if_empty()
+    assert list(path.parent.iterdir()) == []
 
 
 def test_number_that_is_none_is_a_sentence(path):

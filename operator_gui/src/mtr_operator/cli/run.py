@@ -144,7 +144,7 @@ class CommandLineRun:
     def _keep(self, display: Display, store: Store) -> None:
         """After a test that did not come to its end: keep what it has measured."""
         store.discard_if_empty()
-        if not self._progress.has_findings:
+        if not store.has_findings:
             self._recording.discard()
             self._identity.discard_photos(self._path)
             return

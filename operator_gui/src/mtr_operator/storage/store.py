@@ -80,9 +80,14 @@ class Store(Journal):
         """True when something was kept since it was opened."""
         return self._opened.is_open
 
+    @property
+    def has_findings(self) -> bool:
+        """True when something was measured, in this run or before; also when it does not count any more."""
+        return self._progress.has_findings or self._opened.holds_findings
+
     def discard_if_empty(self) -> None:
-        """Leave no file of a test that has measured nothing."""
-        if not self._progress.has_findings:
+        """Leave no file of a test that has never measured anything."""
+        if not self.has_findings:
             self._opened.close()
             for path in (self.path, journal_path(self.path)):
                 with contextlib.suppress(OSError):

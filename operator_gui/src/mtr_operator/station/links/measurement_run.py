@@ -89,9 +89,9 @@ class MeasurementRun:
 
     def _keep(self, store: Store) -> None:
         store.discard_if_empty()
-        if not self._test.progress.has_findings:
+        if not store.has_findings:
             self._test.discard_photos()
-        if store.has_changed and self._test.progress.has_findings:
+        elif store.has_changed:
             store.save()
 
     def _measure(self, store: Store, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> None:
@@ -114,7 +114,7 @@ class MeasurementRun:
                     Runner(test.scenario, test.parameters, loop, test.progress, lambda _: self._save(journal),
                            journal=journal, again=test.again).run()
             finally:
-                self._end(recording)
+                self._end(recording, store)
             test.again = ()
 
     def _save(self, journal: JournalBeside) -> None:
@@ -124,8 +124,8 @@ class MeasurementRun:
         else:
             journal.save()
 
-    def _end(self, recording: Recording) -> None:
+    def _end(self, recording: Recording, store: Store) -> None:
         for problem in filter(None, recording.end()):
             logging.warning(problem)
-        if not self._test.progress.has_findings:
+        if not store.has_findings:
             recording.discard()

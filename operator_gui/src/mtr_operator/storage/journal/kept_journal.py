@@ -11,6 +11,7 @@ from mtr_operator.domain.results.journal import (
     DECISION,
     EVENT,
     IDENTITY,
+    LINE,
     LINE_BEGUN,
     POINT,
     SESSION,
@@ -24,6 +25,7 @@ from .second_place import open_second_place
 
 # Kinds that measure nothing: until something else comes they are not worth a file.
 _REMARKS = (SESSION, EVENT, DECISION, IDENTITY)
+_MEASURED = (POINT, LINE)
 _Finding = tuple[str, Mapping[str, Any]]
 
 
@@ -34,6 +36,7 @@ class KeptJournal(Journal):
 
     Attributes:
         place: the file. is_open: something was kept in it.
+        holds_findings: something was measured in it, also where it was superseded since.
     """
 
     def __init__(self, path: pathlib.Path, progress: Progress, mark: JournalMark, recovered: Recovered):
@@ -46,6 +49,7 @@ class KeptJournal(Journal):
         self._file = JournalFile(self.place)
         self._remarks: list[_Finding] = []
         self.is_open = False
+        self.holds_findings = recovered.holds_findings
         # Why nothing can be written anywhere at present; each finding tries again.
         self._failure = ""
 
@@ -90,7 +94,7 @@ class KeptJournal(Journal):
         except OutputError as error:
             self._keep_elsewhere(lines, str(error))
         finally:
-            self._note(lines, len(findings))
+            self._note(lines, findings)
 
     def _lines_of(self, findings: list[_Finding]) -> bytes:
         first = self._mark.entries + 1
@@ -99,9 +103,10 @@ class KeptJournal(Journal):
         except ValueError:
             raise OutputError("A finding cannot be kept, for a value in it is no finite number.") from None
 
-    def _note(self, lines: bytes, count: int) -> None:
+    def _note(self, lines: bytes, findings: list[_Finding]) -> None:
         self._content += lines
-        self._mark = self._progress.kept = JournalMark(self._mark.id, self._mark.entries + count)
+        self._mark = self._progress.kept = JournalMark(self._mark.id, self._mark.entries + len(findings))
+        self.holds_findings |= any(kind in _MEASURED for kind, _ in findings)
         self.is_open = True
         self._remarks = []
 
