@@ -15,7 +15,8 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
-from mtr_operator.storage.progress_file import load_progress
+from mtr_operator.storage.journal.journal_file import read_journal
+from mtr_operator.storage.progress_file import load_progress, open_progress
 from mtr_operator.storage.store import Store
 
 PARAMETERS = KeyPressParameters().to_mapping()
@@ -36,6 +37,22 @@ def second(tmp_path, monkeypatch):
 @pytest.fixture
 def progress():
     return Progress("key_press", dict(PARAMETERS), {}, CarDimensions(4.5, 1.8, 0.02, 0.01))
+
+
+def loaded(path):
+    return load_progress(path, SCENARIOS["key_press"], PARAMETERS)
+
+
+def measure(store, progress, *numbers):
+    """Lines; what is said of those that are kept elsewhere."""
+    notebook, said = Notebook(progress, KeyPressResult, store), []
+    for number in numbers:
+        for entry in ((LINE_BEGUN, {"line": number}), (LINE, {"result": {**RESULT, "radial": number}, "frame": None})):
+            try:
+                notebook.add(*entry)
+            except OutputError as error:
+                said.append(str(error))
+    return said
 
 
 def full_disk(monkeypatch, folder):
@@ -72,7 +89,7 @@ def test_line_is_kept_in_the_second_place_and_the_test_goes_on_from_there(tmp_pa
     kept, = second.iterdir()
     assert str(kept) in str(caught.value)
     assert progress.measured() == [1]
-    assert load_progress(kept, SCENARIOS["key_press"], PARAMETERS).measured() == [1]
+    assert loaded(kept).measured() == [1]
     if trouble == "full disk":
         assert (path.parent / "progress.journal").read_bytes() == before
 
@@ -83,6 +100,74 @@ def test_no_second_place_either_is_said(tmp_path, progress, monkeypatch):
         full_disk(monkeypatch, tmp_path)
         with pytest.raises(OutputError, match="No second place could be written either"):
             store.add(LINE, {"result": RESULT, "frame": None})
+
+
+def test_what_was_kept_stays_when_the_second_place_fails_too(tmp_path, second, progress, monkeypatch):
+    path = tmp_path / "out" / "progress.json"
+    path.parent.mkdir()
+    with Store(path, progress) as store:
+        measure(store, progress, 1, 2, 3)
+        shutil.rmtree(path.parent)
+        assert "is kept in" in measure(store, progress, 4)[0]
+        kept, = second.iterdir()
+        with monkeypatch.context() as full:
+            full_disk(full, second)
+            assert "No second place could be written either" in measure(store, progress, 5)[0]
+            assert list(second.iterdir()) == [kept] and loaded(kept).measured() == [1, 2, 3, 4]
+        # There is room again: all goes into a file of its own, and whoever names the former one gets all, too.
+        assert "is kept in" in measure(store, progress, 6)[0]
+    assert len(list(second.iterdir())) == 2
+    assert read_journal(kept).entries[-1].values["result"]["radial"] == 4
+    assert loaded(kept).measured() == [1, 2, 3, 4, 5, 6]
+
+
+@pytest.mark.parametrize("named", ["progress.json", "progress.journal", "in the second place"])
+def test_test_that_goes_on_takes_what_was_kept_and_has_its_journal_whole_again(tmp_path, second, progress, monkeypatch,
+                                                                               named):
+    path = tmp_path / "out" / "progress.json"
+    path.parent.mkdir()
+    with Store(path, progress) as store:
+        measure(store, progress, 1, 2)
+        store.save()
+        with monkeypatch.context() as full:
+            full_disk(full, path.parent)
+            measure(store, progress, 3, 4)
+    kept, = second.iterdir()
+    before = kept.read_bytes()
+    progress = loaded(kept if named == "in the second place" else path.with_name(named))
+    assert progress.measured() == [1, 2, 3, 4]
+    assert (f"is taken from {kept}" in progress.notice) == (named != "in the second place")
+    # Who only looks at it sees what is there.
+    assert open_progress(path, SCENARIOS)[2].measured() == [1, 2]
+    with Store(path, progress) as store:
+        measure(store, progress, 5)
+        with monkeypatch.context() as full:
+            full_disk(full, path.parent)
+            measure(store, progress, 6)
+    assert kept.read_bytes() == before
+    entries = read_journal(path.with_suffix(".journal")).entries
+    assert [entry.values["result"]["radial"] for entry in entries if entry.kind == LINE] == [1, 2, 3, 4, 5]
+    assert [entry.sequence for entry in entries] == list(range(1, len(entries) + 1))
+    assert loaded(path).measured() == [1, 2, 3, 4, 5, 6]
+
+
+def test_part_that_was_measured_apart_is_not_joined_and_is_named(tmp_path, second, progress, monkeypatch):
+    path = tmp_path / "out" / "progress.json"
+    path.parent.mkdir()
+    with Store(path, progress) as store:
+        measure(store, progress, 1)
+        with monkeypatch.context() as full:
+            full_disk(full, path.parent)
+            measure(store, progress, 2, 3)
+    kept, = second.iterdir()
+    aside = kept.rename(tmp_path / kept.name)
+    progress = loaded(path)
+    with Store(path, progress) as store:
+        measure(store, progress, 4)
+    aside.rename(kept)
+    progress = loaded(path)
+    assert progress.measured() == [1, 4]
+    assert progress.notice.endswith(f"Another part of this test, measured apart from this one, is kept in {kept}.")
 
 
 @pytest.fixture

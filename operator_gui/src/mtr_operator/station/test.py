@@ -177,7 +177,7 @@ def profile_name(can: CanChoice | None) -> str:
 
 def open_test(path: pathlib.Path) -> Test:
     """The test in a progress file, to go on with; ProgressFileError says what is wrong with the file."""
-    scenario, parameters, progress = open_progress(path, SCENARIOS)
+    scenario, parameters, progress = open_progress(path, SCENARIOS, to_go_on=True)
     return Test(scenario, parameters, progress, progress_path(path))
 
 

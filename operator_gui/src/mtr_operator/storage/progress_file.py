@@ -34,16 +34,19 @@ def save_progress(path: pathlib.Path, progress: Progress) -> None:
 def load_progress(path: pathlib.Path, scenario: AnyScenario, parameters: dict[str, Any]) -> Progress:
     """Progress in a file and its journal, to go on with; ProgressFileError says what is wrong with the files."""
     try:
-        return Recovery(path).progress(scenario, parameters)
+        return Recovery(path, to_go_on=True).progress(scenario, parameters)
     except ProgressFileError as error:
         raise _refused(path, error) from None
 
 
-def open_progress(path: pathlib.Path,
-                  scenarios: Mapping[str, AnyScenario]) -> tuple[AnyScenario, ScenarioParameters, Progress]:
-    """Scenario, parameters and progress in a file and its journal; ProgressFileError says what is wrong with them."""
+def open_progress(path: pathlib.Path, scenarios: Mapping[str, AnyScenario], *,
+                  to_go_on: bool = False) -> tuple[AnyScenario, ScenarioParameters, Progress]:
+    """Scenario, parameters and progress in a file and its journal; ProgressFileError says what is wrong with them.
+
+    to_go_on: see Recovery.
+    """
     try:
-        recovery = Recovery(path)
+        recovery = Recovery(path, to_go_on)
         name, stored = recovery.document.get("scenario"), recovery.document.get("parameters")
         if not isinstance(name, str) or name not in scenarios or not isinstance(stored, dict):
             raise ProgressFileError("It is not a progress file of this application, or of a scenario that it does not "

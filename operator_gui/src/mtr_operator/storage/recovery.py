@@ -16,30 +16,37 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 
 from .journal.journal_file import SUFFIX, Recovered, journal_of
+from .journal.second_place import kept_journals
 from .progress_document import DAMAGED, mark_in, progress_from_document, read_document
 
 
 class Recovery:
     """Both files of a test; ProgressFileError when there is nothing to go on with.
 
-    path: of the progress file, or of the journal when that alone shall count.
+    path: of the progress file, or of the journal when that alone shall count. to_go_on: what was kept in a second place
+    counts, too, where it continues the test; a copy that is only looked at is what it is.
 
     Attributes:
         document: of the progress file, or the one with which the journal began.
     """
 
-    def __init__(self, path: pathlib.Path):
-        self._stored, self._journal, self._notice = _read(path)
+    def __init__(self, path: pathlib.Path, to_go_on: bool = False):
+        self._stored, self._journal, notice = _read(path)
+        self._notices = [notice]
+        self._to_go_on = to_go_on
+        if to_go_on:
+            self._take_kept()
         begun = self._journal.entries[0].values.get("progress") if self._journal.entries else None
         self.document: dict[str, Any] = _table(begun if self._stored is None else self._stored)
 
     def progress(self, scenario: AnyScenario, parameters: dict[str, Any]) -> Progress:
         """The test as far as it is known; ProgressFileError says what does not fit."""
-        notices = [self._notice]
+        notices = [*self._notices]
         progress = None if self._stored is None else progress_from_document(self._stored, scenario, parameters)
         if self._journal_counts():
             try:
                 progress = _replayed(self._journal, scenario, parameters)
+                progress.journal = self._journal.content if self._to_go_on else b""
             except ProgressFileError:
                 if progress is None or progress.kept is None:
                     raise
@@ -48,6 +55,20 @@ class Recovery:
             raise ProgressFileError(DAMAGED)
         progress.notice = " ".join(filter(None, notices))
         return progress
+
+    def _take_kept(self) -> None:
+        """Go on with the journal in a second place that reaches farthest, if it continues what is here."""
+        marks = [mark for mark in (self._journal.mark, mark_in(self._stored)) if mark is not None]
+        if not marks:
+            return
+        mine, reach = self._journal.content, max(mark.entries for mark in marks)
+        farther = [(place, kept) for place, kept in kept_journals(marks[0]) if kept.entries[-1].sequence > reach]
+        continuing = [(place, kept) for place, kept in farther if kept.content.startswith(mine)]
+        if continuing:
+            place, self._journal = max(continuing, key=lambda each: each[1].entries[-1].sequence)
+            self._notices.append(f"What was measured last is taken from {place}, where it was kept.")
+        self._notices += [f"Another part of this test, measured apart from this one, is kept in {place}."
+                          for place, kept in farther if not self._journal.content.startswith(kept.content)]
 
     def _journal_counts(self) -> bool:
         """True when the journal reaches at least as far as the progress file."""

@@ -56,6 +56,8 @@ class Progress:
             nobody said anything.
         skipped: numbers of the invalid lines that the Operator left; they are measured again only on request.
         notice: what a person has to know of how it was recovered; empty when nothing was lost.
+        journal: the lines from which it was recovered to go on with, empty since then; a journal elsewhere begins with
+            them.
     """
 
     scenario: str
@@ -73,6 +75,7 @@ class Progress:
     identity: Identity | None = None
     skipped: list[int] = field(default_factory=list)
     notice: str = field(default="", compare=False)
+    journal: bytes = field(default=b"", compare=False, repr=False)
 
     def to_document(self) -> dict[str, Any]:
         """Plain values for a file."""

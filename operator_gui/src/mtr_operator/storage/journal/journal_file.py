@@ -144,8 +144,15 @@ class JournalFile:
 
     def open(self, size: int) -> None:
         """Open or make the file, and cut off what lies behind its good part; OutputError when that fails."""
+        self._open(size, os.O_CREAT)
+
+    def make(self) -> None:
+        """Make the file; OutputError when that fails, or when there is one already, which is left as it is."""
+        self._open(0, os.O_CREAT | os.O_EXCL)
+
+    def _open(self, size: int, how: int) -> None:
         try:
-            self._descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o644)
+            self._descriptor = os.open(self._path, os.O_RDWR | how | getattr(os, "O_BINARY", 0), 0o644)
             if os.fstat(self._descriptor).st_size != size:
                 os.ftruncate(self._descriptor, size)
             sync_folder(self._path.parent)

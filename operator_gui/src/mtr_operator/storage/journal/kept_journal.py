@@ -44,12 +44,16 @@ class KeptJournal(Journal):
         self._progress = progress
         self._mark = mark
         self._content = recovered.content
-        self._is_whole = bool(recovered.entries) and recovered.entries[-1].sequence == mark.entries
+        # What the progress was recovered from and the file lacks: it was kept in a second place, or in another folder.
+        begins = progress.journal.startswith(recovered.content)
+        self._missing = progress.journal[len(recovered.content):] if begins else b""
+        is_up_to_date = bool(recovered.entries) and recovered.entries[-1].sequence == mark.entries
+        self._is_whole = is_up_to_date or bool(self._missing)
         self.place = journal_path(path)
         self._file = JournalFile(self.place)
         self._remarks: list[_Finding] = []
         self.is_open = False
-        self.holds_findings = recovered.holds_findings
+        self.holds_findings = recovered.holds_findings or bool(self._missing)
         # Why nothing can be written anywhere at present; each finding tries again.
         self._failure = ""
 
@@ -84,7 +88,7 @@ class KeptJournal(Journal):
         yield from self._remarks
 
     def _append(self, findings: list[_Finding]) -> None:
-        lines = self._lines_of(findings)
+        lines = self._missing + self._lines_of(findings)
         try:
             if self._failure:
                 raise OutputError(self._failure)
@@ -108,11 +112,11 @@ class KeptJournal(Journal):
         self._mark = self._progress.kept = JournalMark(self._mark.id, self._mark.entries + len(findings))
         self.holds_findings |= any(kind in _MEASURED for kind, _ in findings)
         self.is_open = True
-        self._remarks = []
+        self._remarks, self._missing, self._progress.journal = [], b"", b""
 
     def _keep_elsewhere(self, lines: bytes, failure: str) -> None:
         self._file.close()
-        kept = open_second_place(f"{self._path.stem}_{self._mark.id}.journal", self._content + lines)
+        kept = open_second_place(self._path.stem, self._mark, self._content + lines)
         if kept is None:
             self._failure = failure
             raise OutputError(f"{failure} No second place could be written either; what was measured last is in this "
