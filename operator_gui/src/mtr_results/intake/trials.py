@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any, Iterator, Sequence
 
-from mtr_operator.domain.results.journal import LINE, LINE_BEGUN, POINT, REVISED
-from mtr_operator.domain.results.line_result import LineResult, LineStatus
+from mtr_operator.domain.results.journal import BEGUN, FURTHER, LINE, LINE_BEGUN, LINE_RESUMED, POINT, REVISED
+from mtr_operator.domain.results.line_result import LineResult, LineStatus, result_from_document
 from mtr_operator.domain.scenarios.autolock_result import AutolockResult
 from mtr_operator.domain.scenarios.line_search.result import SearchedResult
 from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
@@ -22,7 +22,7 @@ _FIELDS = {"distance_m": "distance_m", "uncertainty_m": "sigma_m", "key_height_m
 
 def trials_of(entries: Sequence[Entry], results: Sequence[LineResult]) -> list[Row]:
     """Trials of all lines, numbered line by line; of a line of which the journal has no point, those in its result."""
-    found = _journalled(entries)
+    found = _journalled(entries, results)
     for result in results:
         if result.number not in found:
             found[result.number] = [{**NOTHING, **row} for row in recorded(result)]
@@ -31,21 +31,42 @@ def trials_of(entries: Sequence[Entry], results: Sequence[LineResult]) -> list[R
 
 
 def revisions_of(entries: Sequence[Entry]) -> Iterator[Any]:
-    """Documents of all results that lines had, in their order."""
-    yield from (entry.values["result"] for entry in entries if entry.kind in (LINE, REVISED))
+    """Documents of all results that lines had, in their order; also those with which the journal, or a part of it,
+    began."""
+    told: list[Any] = []
+    for entry in entries:
+        if entry.kind in (LINE, REVISED):
+            told.append(entry.values["result"])
+            yield told[-1]
+        elif entry.kind == BEGUN:
+            before = [document for document in entry.values["progress"]["results"] if document not in told]
+            told += before
+            yield from before
 
 
-def _journalled(entries: Sequence[Entry]) -> dict[int, list[Row]]:
+def _journalled(entries: Sequence[Entry], results: Sequence[LineResult]) -> dict[int, list[Row]]:
     found: dict[int, list[Row]] = {}
     begun: dict[int, int] = {}
     line = None
     for entry in entries:
-        if entry.kind == LINE_BEGUN:
+        if entry.kind == BEGUN:
+            for result in _begun_with(entry, results):
+                # What was measured before the journal is one attempt, as far as its result tells of it.
+                if result.number not in found:
+                    found[result.number] = [{**NOTHING, **row} for row in recorded(result)]
+                    begun[result.number] = 1
+        elif entry.kind in (LINE_BEGUN, LINE_RESUMED, FURTHER):
             line = int(entry.values["line"])
-            begun[line] = begun.get(line, 0) + 1
+            # Whatever goes on with a line belongs to the attempt that it goes on with.
+            begun[line] = begun.get(line, 0) + 1 if entry.kind == LINE_BEGUN else begun.get(line, 1)
         elif entry.kind == POINT and line is not None:
             found.setdefault(line, []).append({**_point(entry), "attempt": begun[line]})
     return found
+
+
+def _begun_with(entry: Entry, results: Sequence[LineResult]) -> Iterator[LineResult]:
+    documents = entry.values["progress"]["results"]
+    yield from (result_from_document(type(results[0]), document) for document in documents if results)
 
 
 def _point(entry: Entry) -> Row:

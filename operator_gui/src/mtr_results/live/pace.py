@@ -7,7 +7,7 @@ import statistics
 from dataclasses import dataclass
 from typing import Sequence
 
-from mtr_operator.domain.results.journal import DECISION, LINE, LINE_BEGUN
+from mtr_operator.domain.results.journal import DECISION, FURTHER, LINE, LINE_BEGUN, LINE_RESUMED
 from mtr_operator.storage.journal.journal_file import Entry
 
 
@@ -41,7 +41,7 @@ def course_of(entries: Sequence[Entry]) -> CourseOfTest:
     took_s: list[float] = []
     has_ended = False
     for entry in entries:
-        if entry.kind == LINE_BEGUN:
+        if entry.kind in (LINE_BEGUN, LINE_RESUMED, FURTHER):
             line = int(entry.values["line"])
         elif entry.kind == LINE:
             line, has_ended = None, True

@@ -3,7 +3,7 @@
 import pytest
 from followed_tests import Measuring
 
-from mtr_operator.domain.results.journal import DECISION, LINE
+from mtr_operator.domain.results.journal import DECISION, FURTHER, LINE, LINE_BEGUN, LINE_RESUMED
 from mtr_operator.storage.journal.journal_file import Entry
 from mtr_operator.storage.recorded.course_file import newest_moment
 from mtr_results.live.pace import course_of
@@ -23,6 +23,11 @@ def test_time_left_is_the_median_pace_of_the_lines():
     assert course.left_s(0, 640.0) is None and course_of(decided((DECISION, 10.0))).left_s(3, 20.0) is None
     # The robot has started anew, and its clock with it.
     assert course_of(decided((DECISION, 500.0), (LINE, 0.0), (DECISION, 3.0))).left_s(2, 4.0) is None
+
+
+def test_line_at_hand_is_also_the_one_that_goes_on():
+    for kind in (LINE_BEGUN, LINE_RESUMED, FURTHER):
+        assert course_of([Entry(1, LINE, {}), Entry(2, kind, {"line": 3})]).line == 3
 
 
 def test_newest_status_of_a_course_is_the_last_whole_one(tmp_path):
