@@ -23,7 +23,7 @@ _WHOLE = "test"
 
 
 class Spool:
-    """A folder with a folder for each test that waits, named by its test and how far it came."""
+    """A folder with a folder for each test that waits, named by its test, how far it came and what it measured."""
 
     def __init__(self, folder: pathlib.Path):
         self.folder = folder
@@ -33,7 +33,9 @@ class Spool:
 
         path: of its progress file. campaign: into which it is to go.
         """
-        name = hashlib.sha256(f"{record.test['test_key']} {record.reach}".encode()).hexdigest()[:24]
+        # With its points: two copies that went on apart are two, though they came equally far.
+        measured = f"{record.test['test_key']} {record.reach} {record.test['digest']} {record.trials}"
+        name = hashlib.sha256(measured.encode()).hexdigest()[:24]
         target = self.folder / name
         if target.exists():
             return target

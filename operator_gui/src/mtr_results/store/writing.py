@@ -9,6 +9,7 @@ import math
 from typing import Any, Sequence
 
 from sqlalchemy import Connection, delete, insert, select, text, update
+from sqlalchemy import Row as Known
 from sqlalchemy.dialects import postgresql, sqlite
 from sqlalchemy.exc import IntegrityError
 
@@ -19,6 +20,7 @@ from ..model.base import Base
 from ..model.subjects import Campaign, Car, Equipment, Key, TestEquipment
 from ..model.tables import OF_A_TEST
 from ..model.tests import File, Line, Measurement, Test, Trial, Verdict
+from .continuing import Findings, stored_findings
 from .database import Database
 from .kept_files import KeptFiles
 
@@ -59,16 +61,32 @@ def _add(connection: Connection, record: TestRecord, files: Sequence[Row], campa
                                     [{**_columns(connection, record), **place}]).scalar_one()
         _enter(connection, number, record, files)
         return Outcome.ADDED
-    reach = (known.entries, known.has_journal)
-    if record.test["entries"] == known.entries and record.test["digest"] != known.digest:
-        raise OtherContents(f"The test {record.test['test_key']} is in the store with other contents; one of the "
-                            "two was changed. The store is as it was.")
-    if record.reach > reach:
+    if _is_more(connection, known, record):
         _replace(connection, known.id, record, files, place)
         return Outcome.EXTENDED
     if place:
         connection.execute(update(Test).where(Test.id == known.id).values(**place))
     return Outcome.KNOWN
+
+
+def _is_more(connection: Connection, known: Known[Any], record: TestRecord) -> bool:
+    """True when the copy replaces the one in the store; OtherContents when it is none of the same test, or the nearer
+    one of the two has what the other lacks."""
+    reach, name = (known.entries, known.has_journal), f"The test {record.test['test_key']}"
+    if record.test["entries"] == known.entries and record.test["digest"] != known.digest:
+        raise OtherContents(f"{name} is in the store with other contents; one of the two was changed. The store is as "
+                            "it was.")
+    there, here = stored_findings(connection, known.id), Findings(record.measurements, record.trials)
+    if record.reach < reach:
+        if not there.hold(here):
+            raise OtherContents(f"{name} is in the store farther than in this copy, which has measurements that the "
+                                "store lacks: the two went on apart, or one was changed. The store is as it was.")
+        return False
+    if not here.hold(there):
+        raise OtherContents(f"{name} is in the store with measurements that this copy lacks: the two went on apart, "
+                            "one was changed, or the journal of this one is missing. The store is as it was.")
+    # A former version of this program may have filed the same points otherwise.
+    return record.reach > reach or here.trials != there.trials
 
 
 def _replace(connection: Connection, number: int, record: TestRecord, files: Sequence[Row], place: Row) -> None:
