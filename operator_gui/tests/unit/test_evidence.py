@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import io
 import json
+import shutil
 import zipfile
 from xml.etree import ElementTree
 
@@ -21,6 +22,7 @@ from mtr_operator.evidence.record import SCHEMA, record_of
 from mtr_operator.evidence.station_key import Station, StationKeyError
 from mtr_operator.evidence.verification import chain_problems, verify_bundle
 from mtr_operator.report.assessed import assess
+from mtr_operator.report.files import FILE_NAMES
 from mtr_operator.storage.progress_file import open_progress
 from mtr_operator.storage.recorded.course_file import Moment, read_course
 
@@ -61,6 +63,28 @@ def test_bundle_holds_all_that_a_laboratory_keeps_and_is_intact(bundle, station)
             "progress.json", "progress.journal", "parameters.json", "calibration.json", "plan.json", "versions.json",
             "recording/course_001.jsonl", "recording/course_001.mcap", "adapters/openhtf.json", "adapters/junit.xml",
             "adapters/ods.json", "car/mtr_demo_car.yaml", "car/mtr_demo_car.dbc"} <= set(found.manifest.files)
+
+
+def test_report_in_a_bundle_is_that_of_the_progress_which_is_signed_whatever_lies_on_disk(measured, station, tmp_path):
+    folder = shutil.copytree(measured, tmp_path / "test")
+    report = {name: (folder / name).read_bytes() for name in FILE_NAMES}
+    table = bytearray(report["results.csv"])
+    table[-20] ^= 1
+    (folder / "results.csv").write_bytes(bytes(table))
+    (folder / "protocol.pdf").unlink()
+    bundled(folder, station, tmp_path / "a.mtr.zip")
+    with zipfile.ZipFile(tmp_path / "a.mtr.zip") as container:
+        assert {name: container.read(name) for name in FILE_NAMES} == report
+
+
+def test_part_of_the_report_that_cannot_be_made_is_left_out_and_named(measured, station, tmp_path, monkeypatch):
+    def fail(*_):
+        raise OutputError("No picture.")
+    monkeypatch.setattr("mtr_operator.report.protocol_page.protocol_png", fail)
+    bundled(measured, station, tmp_path / "a.mtr.zip")
+    with zipfile.ZipFile(tmp_path / "a.mtr.zip") as container:
+        assert json.loads(container.read("left_out.json")) == {"protocol.png": "No picture."}
+        assert "protocol.png" not in container.namelist() and "protocol.pdf" in container.namelist()
 
 
 def test_changed_byte_of_each_file_is_found_and_the_file_is_named(bundle, tmp_path):

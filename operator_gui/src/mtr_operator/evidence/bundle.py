@@ -36,14 +36,13 @@ class BundleWatch:
 
 def write_bundle(target: pathlib.Path, path: pathlib.Path, scenario: AnyScenario, progress: Progress,
                  assessment: Assessment | None, *, profile: str = "", station: Station | None = None,
-                 watch: BundleWatch | None = None, report: pathlib.Path | None = None) -> Manifest:
-    """Bundle of the test with this progress file; profile: name or path of the Car's. report: folder of the report,
-    None where it is beside the progress file.
+                 watch: BundleWatch | None = None) -> Manifest:
+    """Bundle of the test with this progress file; profile: name or path of the Car's. Its report is made anew.
 
     OutputError when it cannot be written: then nothing of it is left, and the chain is as it was.
     """
     station, watch = station or Station(), watch or BundleWatch()
-    contents = contents_of(Tested(path, scenario, progress, assessment, profile, report or path.parent), station.name)
+    contents = contents_of(Tested(path, scenario, progress, assessment, profile), station.name)
     for name, reason in contents.left_out.items():
         watch.left_out(name, reason)
     newest = station.newest

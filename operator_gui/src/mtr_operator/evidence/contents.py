@@ -11,7 +11,8 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import SUBSTITUTE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
-from mtr_operator.report.files import FILE_NAMES
+from mtr_operator.report.assessed import assess
+from mtr_operator.report.files import report_files
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.recorded.kept_car import FOLDER as CAR_FOLDER
@@ -34,15 +35,13 @@ LEFT_OUT = "left_out.json"
 
 
 class Tested(NamedTuple):
-    """A test with its progress file. profile: of the Car, by name or path, as the record has it. report: folder of its
-    report."""
+    """A test with its progress file. profile: of the Car, by name or path, as the record has it."""
 
     path: pathlib.Path
     scenario: AnyScenario
     progress: Progress
     assessment: Assessment | None
     profile: str
-    report: pathlib.Path
 
 
 class Contents:
@@ -62,10 +61,11 @@ class Contents:
 
 def contents_of(test: Tested, station: str) -> Contents:
     """All of a test that a bundle holds; station: who signs it."""
-    path, scenario, progress, assessment, profile, report = test
+    path, scenario, progress, assessment, profile = test
     found, record = Contents(), record_of(scenario, progress, assessment)
     found.sources.update(_of_record(scenario, progress, record))
-    _add_files(found, path, report)
+    _add_report(found, test)
+    _add_files(found, path)
     _add_profile(found, profile)
     runs = recorded_runs(recording_folder(path))
     for run in runs:
@@ -91,10 +91,18 @@ def _of_record(scenario: AnyScenario, progress: Progress, record: Mapping[str, A
             **{f"{name}.json": as_json(part) for name, part in parts.items()}}
 
 
-def _add_files(found: Contents, path: pathlib.Path, report: pathlib.Path) -> None:
-    """Report, findings, recording and photos, as they are on disk."""
-    files = (path, journal_path(path), *(report / name for name in FILE_NAMES))
-    found.sources.update({file.name: file for file in files if file.is_file()})
+def _add_report(found: Contents, test: Tested) -> None:
+    """Made from the progress that is signed: a report on disk may be an older one, or say anything."""
+    scenario, progress = test.scenario, test.progress
+    parameters = scenario.parameters_type.from_mapping(progress.parameters)
+    assessment = test.assessment or assess(scenario, parameters, progress)
+    for name, make in report_files(scenario, parameters, progress, assessment).items():
+        found.add(name, make)
+
+
+def _add_files(found: Contents, path: pathlib.Path) -> None:
+    """Findings, recording and photos, as they are on disk."""
+    found.sources.update({file.name: file for file in (path, journal_path(path)) if file.is_file()})
     for folder, kept in ((recording_folder(path), "recording"), (photo_folder(path), "photos")):
         found.sources.update({f"{kept}/{file.name}": file for file in sorted(folder.glob("*")) if file.is_file()})
 

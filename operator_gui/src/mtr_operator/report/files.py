@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pathlib
+from typing import Callable
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
@@ -19,12 +20,19 @@ FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, PICTURE_NAME, PAGE_N
 def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters,
                  progress: Progress) -> Assessment:
     """Write results.csv, budget.json and the protocol; OutputError when it fails. What the report says of the test."""
+    assessment = assess(scenario, parameters, progress)
+    for name, make in report_files(scenario, parameters, progress, assessment).items():
+        write_bytes(folder / name, make())
+    return assessment
+
+
+def report_files(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
+                 assessment: Assessment) -> dict[str, Callable[[], bytes]]:
+    """What makes the content of each file, by its name."""
     # Matplotlib takes as long to import as all else together, and this file's names are needed at the start.
     from .protocol_page import protocol_pdf, protocol_png
 
-    assessment = assess(scenario, parameters, progress)
-    write_bytes(folder / results_csv.FILE_NAME, results_csv.results_csv(scenario, progress, assessment).encode("utf-8"))
-    write_bytes(folder / budget_json.FILE_NAME, budget_json.budget_json(progress, assessment).encode("utf-8"))
-    write_bytes(folder / PICTURE_NAME, protocol_png(scenario, parameters, progress, assessment))
-    write_bytes(folder / PAGE_NAME, protocol_pdf(scenario, parameters, progress, assessment))
-    return assessment
+    return {results_csv.FILE_NAME: lambda: results_csv.results_csv(scenario, progress, assessment).encode("utf-8"),
+            budget_json.FILE_NAME: lambda: budget_json.budget_json(progress, assessment).encode("utf-8"),
+            PICTURE_NAME: lambda: protocol_png(scenario, parameters, progress, assessment),
+            PAGE_NAME: lambda: protocol_pdf(scenario, parameters, progress, assessment)}

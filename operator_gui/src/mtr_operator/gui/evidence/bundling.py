@@ -42,5 +42,5 @@ def bundle(protocol: Protocol, test: Test, folder: pathlib.Path,
     target, watch = folder / bundle_path(test.path).name, _Watch(done)
     progress = protocol.progress
     manifest = write_bundle(target, test.path, protocol.scenario, progress, protocol.assessment,
-                            profile=progress.session.get(CAR_PROFILE, ""), watch=watch, report=folder)
+                            profile=progress.session.get(CAR_PROFILE, ""), watch=watch)
     return target, Bundled(manifest.number, manifest.station, watch.missing)
