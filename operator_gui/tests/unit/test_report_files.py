@@ -1,12 +1,14 @@
 """results.csv, protocol.png and protocol.pdf."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
+import io
 import struct
 from dataclasses import replace
 
 import pytest
 from matplotlib.figure import Figure
 
+from mtr_operator.domain.identity.identity_document import identity_from
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.picture import Picture, Stretch
 from mtr_operator.domain.results.progress import Progress
@@ -202,6 +204,31 @@ def test_file_is_read_back_by_a_csv_reader(tmp_path):
     with (tmp_path / "results.csv").open(newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
     assert [float(row["unlock_distance_m"]) for row in rows] == [1.2346, 1.2346]
+
+
+@pytest.mark.parametrize("written, shown", [
+    ('key 2,"winter', "key 2,'\"winter"), ("tyres: 235,=HYPERLINK(1)", "tyres: 235,'=HYPERLINK(1)"),
+    ("a; =1", "a;' =1"), ("a,+1,-1,@SUM(1)", "a,'+1,'-1,'@SUM(1)"),
+    ('a "b", c, -1 = d; e', 'a "b", c, -1 = d; e'), ("=1", "=1")])
+def test_what_a_person_wrote_is_neither_a_formula_nor_takes_rows_away(written, shown):
+    scenario = SCENARIOS["autolock"]
+    progress = progress_of(scenario, [axis(1), axis(2)])
+    without = results_csv(scenario, progress)
+    progress.identity = identity_from({"notes": written})
+    content = results_csv(scenario, progress)
+    added, = set(content.splitlines()) - set(without.splitlines())
+    assert added == f"# identity notes: {shown}"
+    rows = list(csv.reader(io.StringIO(content)))
+    assert len(rows) == content.count("\n") and sum(row[0].startswith("#") for row in rows) == len(rows) - 3
+    assert not [cell for row in rows[:-3] for cell in row if cell[:1] in tuple("=+-@\t")]
+
+
+@pytest.mark.parametrize("text, cell", [("=1+1", "'=1+1"), ("-2+3 b", "'-2+3 b"), ("-3.10 4.20", "-3.10 4.20")])
+def test_text_of_the_table_is_no_formula(text, cell):
+    scenario = SCENARIOS["autolock"]
+    progress = progress_of(scenario, [replace(axis(1), unlock_cause=text)])
+    row, = csv.DictReader(lines_of(results_csv(scenario, progress))[1])
+    assert row["unlock_cause"] == cell
 
 
 @pytest.mark.parametrize("results", [

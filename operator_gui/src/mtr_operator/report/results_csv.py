@@ -1,9 +1,14 @@
-"""results.csv: one line per measured line, metadata in lines that begin with '#' above the header."""
+"""results.csv: one line per measured line, metadata in lines that begin with '#' above the header.
+
+What a person wrote may hold quotes, commas and what a spreadsheet takes for a formula. An apostrophe, by which
+spreadsheets know a text, keeps such a cell of a line from being anything else; all other lines are as they are.
+"""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import csv
 import io
+import re
 from typing import Any, Iterator
 
 from mtr_operator.domain.results.document import plain
@@ -18,6 +23,11 @@ from .identity.identity_rows import identity_lines
 from .table import line_text
 
 FILE_NAME = "results.csv"
+_TEXT = "'"
+# Behind what separates cells: a quote, which joins all up to the next one to a cell, and what begins a formula.
+_NO_TEXT = re.compile(r"""(?<=[,;])(?=\s*[=@"]|[-+\t])""")
+# A cell that begins as a formula does; of numbers with a sign there may be several in one.
+_FORMULA = re.compile(r"[=@\t]|[-+](?![-+.\d\s]*$)")
 
 
 def results_csv(scenario: AnyScenario, progress: Progress, assessment: Assessment | None = None) -> str:
@@ -25,7 +35,7 @@ def results_csv(scenario: AnyScenario, progress: Progress, assessment: Assessmen
     file = io.StringIO()
     added = AssessedColumns(scenario, assessment)
     for line in (*_metadata(scenario, progress), *added.metadata()):
-        file.write(f"# {line}\n")
+        file.write(f"# {_NO_TEXT.sub(_TEXT, ' '.join(line.splitlines()))}\n")
     writer = csv.writer(file, lineterminator="\n")
     columns = scenario.result_type.columns()
     writer.writerow(column.name for column in (*columns, *added.columns))
@@ -79,7 +89,8 @@ def _cell(column: Column, value: Any) -> str:
         return f"{round(value, column.digits) + 0.0:.{column.digits}f}"
     if isinstance(value, list):
         return " ".join(_cell(column, each) for each in value)
-    return str(value)
+    text = str(value)
+    return _TEXT + text if _FORMULA.match(text) else text
 
 
 def _one_line(value: Any) -> str:
