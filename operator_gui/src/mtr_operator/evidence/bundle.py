@@ -45,19 +45,29 @@ def write_bundle(target: pathlib.Path, path: pathlib.Path, scenario: AnyScenario
     contents = contents_of(Tested(path, scenario, progress, assessment, profile), station.name)
     for name, reason in contents.left_out.items():
         watch.left_out(name, reason)
+    with station.signing():
+        return _signed(target, contents.sources, station, watch)
+
+
+def _signed(target: pathlib.Path, sources: Mapping[str, Source], station: Station, watch: BundleWatch) -> Manifest:
     newest = station.newest
     try:
         # Each byte is read twice: for its manifest, and for the container.
-        half = _Half(watch.done, sum(map(size_of, contents.sources.values())))
+        half = _Half(watch.done, sum(map(size_of, sources.values())))
         manifest = Manifest(written(now()), station.name, station.key, 1 if newest is None else newest.number + 1,
                             "" if newest is None else newest.manifest,
-                            {name: _entry(source, half) for name, source in contents.sources.items()})
+                            {name: _entry(source, half) for name, source in sources.items()})
         content = manifest.content()
         signature = {"algorithm": "Ed25519", "key": station.key, "signature": station.sign(content)}
-        _write(target, {MANIFEST: content, SIGNATURE: as_json(signature), **contents.sources}, half)
+        _write(target, {MANIFEST: content, SIGNATURE: as_json(signature), **sources}, half)
     except OSError as error:
         raise OutputError(f"The bundle {target} cannot be written: {error.strerror or error}.") from None
-    station.append(Link(manifest.number, target.name, sha256_of(content)))
+    try:
+        station.append(Link(manifest.number, target.name, sha256_of(content)))
+    except OutputError:
+        # The next bundle would have its number, too.
+        target.unlink(missing_ok=True)
+        raise
     return manifest
 
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import io
 import pathlib
 import shutil
 import zipfile
@@ -45,6 +46,19 @@ def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: Binar
             info = _info(name, container.getinfo(name).file_size)
             with container.open(name) as source, copy.open(info, "w") as target:
                 shutil.copyfileobj(source, target, _BLOCK)
+
+
+def packing_problem(container: zipfile.ZipFile, file: BinaryIO) -> str:
+    """Why nothing of it is read: some kB that are packed, or named again and again, may be more than a disk holds.
+    Empty for one as it is written here. file: that of the container."""
+    members = container.infolist()
+    packed = next((member.filename for member in members
+                   if member.compress_type != zipfile.ZIP_STORED or member.compress_size != member.file_size), None)
+    if packed is not None:
+        return f"{packed} is compressed, as no file of a bundle is: it was packed anew; nothing of it was read."
+    if sum(member.file_size for member in members) > file.seek(0, io.SEEK_END):
+        return "Its files are larger together than it is: it is no bundle; nothing of it was read."
+    return ""
 
 
 def _info(name: str, size: int) -> zipfile.ZipInfo:

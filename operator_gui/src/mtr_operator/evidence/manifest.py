@@ -10,6 +10,8 @@ from typing import Any, BinaryIO, Mapping
 
 FORMAT, VERSION = "mtr evidence bundle", 1
 MANIFEST, SIGNATURE = "manifest.json", "manifest.sig"
+# Some 100,000 files; what is longer is no manifest, and nobody keeps it in memory.
+MAX_MANIFEST_BYTES = 16 * 1024 * 1024
 _BLOCK = 1024 * 1024
 
 

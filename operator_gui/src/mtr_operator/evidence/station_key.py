@@ -2,24 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import getpass
 import json
 import os
 import pathlib
 import platform
+import time
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Iterator
 
 import platformdirs
 from nacl.exceptions import BadSignatureError
 from nacl.signing import SigningKey, VerifyKey
 
-from mtr_operator.domain.errors import OperatorError, OutputError
+from mtr_operator.domain.errors import InUse, OperatorError, OutputError
 from mtr_operator.storage.atomic import write_bytes
+from mtr_operator.storage.lock import Lock
 
 _FOLDER = "evidence"
 _KEY, _CHAIN = "signing.key", "chain.json"
 _KEY_BYTES = 32
+# A bundle of some hundred MB is written in a few seconds.
+PATIENCE_S = 30.0
+_PAUSE_S = 0.1
 
 
 class StationKeyError(OperatorError):
@@ -54,6 +60,23 @@ class Station:
         """Signature, hexadecimal."""
         return self._signing_key().sign(content).signature.hex()
 
+    @contextlib.contextmanager
+    def signing(self) -> Iterator[None]:
+        """Context in which this application alone goes on with the chain, from its newest bundle to the next one;
+        StationKeyError when another one does for too long."""
+        until_s = time.monotonic() + PATIENCE_S
+        with contextlib.ExitStack() as held:
+            self._make_folder()
+            while True:
+                with contextlib.suppress(InUse):
+                    held.enter_context(Lock(self._folder / _CHAIN))
+                    break
+                if time.monotonic() > until_s:
+                    raise StationKeyError("Another application is writing a bundle with the key of this station; write "
+                                          "this one when it has ended.")
+                time.sleep(_PAUSE_S)
+            yield
+
     @property
     def newest(self) -> Link | None:
         """The bundle signed last; None before the first one."""
@@ -86,8 +109,15 @@ class Station:
                                   "elsewhere to have a new one made.")
         return SigningKey(seed)
 
+    def _make_folder(self) -> None:
+        try:
+            self._folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+        except OSError as error:
+            raise OutputError(f"The key of this station in {self._folder / _KEY} cannot be read or made: "
+                              f"{error.strerror or error}.") from None
+
     def _make(self, path: pathlib.Path) -> None:
-        path.parent.mkdir(parents=True, exist_ok=True, mode=0o700)
+        self._make_folder()
         descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600)
         with open(descriptor, "w", encoding="ascii") as file:
             file.write(SigningKey.generate().encode().hex())

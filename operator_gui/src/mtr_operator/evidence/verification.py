@@ -11,10 +11,11 @@ import zlib
 from dataclasses import dataclass, field
 from typing import Any, BinaryIO, Callable, Sequence
 
-from .container import copy_container, first_difference
+from .container import copy_container, first_difference, packing_problem
 from .manifest import (
     FORMAT,
     MANIFEST,
+    MAX_MANIFEST_BYTES,
     SIGNATURE,
     VERSION,
     BadManifest,
@@ -52,7 +53,11 @@ def verify_bundle(path: pathlib.Path) -> Verification:
         return _verified(names, lambda name: (path / name).read_bytes(), lambda name: entry_of_path(path / name))
     try:
         with open(path, "rb") as file, zipfile.ZipFile(file) as container:
-            found = _verified(container.namelist(), container.read, lambda name: _member(container, name))
+            problem = packing_problem(container, file)
+            if problem:
+                return Verification(problems=(problem,))
+            found = _verified(container.namelist(), lambda name: _start_of(container, name),
+                              lambda name: _member(container, name))
             return found if found.problems else _of_container(found, file, container)
     except OSError as error:
         return Verification(problems=(f"{path} cannot be read: {error.strerror or error}.",))
@@ -65,22 +70,26 @@ def is_newer(path: pathlib.Path) -> bool:
     with contextlib.suppress(OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile, zlib.error,
                              RecursionError, NotImplementedError, RuntimeError, EOFError):
         with zipfile.ZipFile(path) as container:
-            document = json.loads(container.read(MANIFEST))
+            document = json.loads(_start_of(container, MANIFEST))
         return bool(document["format"] == FORMAT and document["version"] > VERSION)
     return False
 
 
 def chain_problems(found: Sequence[Verification]) -> list[str]:
-    """Bundles of one station that do not follow one another, among those given."""
-    by_key: dict[str, dict[int, Verification]] = {}
+    """Bundles of one station that do not follow one another, or of which there are several, among those given."""
+    by_key: dict[str, dict[int, dict[str, Manifest]]] = {}
     for each in found:
         if each.manifest is not None:
-            by_key.setdefault(each.manifest.key, {})[each.manifest.number] = each
+            numbers = by_key.setdefault(each.manifest.key, {})
+            numbers.setdefault(each.manifest.number, {})[each.digest] = each.manifest
     problems = []
     for numbers in by_key.values():
-        for number, each in sorted(numbers.items()):
-            former = numbers.get(number - 1)
-            if each.manifest is not None and former is not None and each.manifest.before != former.digest:
+        for number, there in sorted(numbers.items()):
+            if len(there) > 1:
+                problems.append(f"There are {len(there)} different bundles {number} of the station: one of them was "
+                                "made anew.")
+            former = numbers.get(number - 1, {})
+            if former and any(manifest.before not in former for manifest in there.values()):
                 problems.append(f"Bundle {number} of the station does not follow its bundle {number - 1}: one of them "
                                 "was made anew.")
     return problems
@@ -121,6 +130,12 @@ def _entry_or_none(entry: Callable[[str], FileEntry], name: str) -> FileEntry | 
         return entry(name)
     except (zipfile.BadZipFile, zlib.error, OSError, NotImplementedError, RuntimeError, EOFError, ValueError):
         return None
+
+
+def _start_of(container: zipfile.ZipFile, name: str) -> bytes:
+    """All of a manifest or signature; one that is too long to be either is no JSON then."""
+    with container.open(name) as file:
+        return file.read(MAX_MANIFEST_BYTES)
 
 
 def _member(container: zipfile.ZipFile, name: str) -> FileEntry:

@@ -40,6 +40,8 @@ SENTENCES = (
                                   "used."),
     QT_TRANSLATE_NOOP("Sentence", "The journal of {} is damaged; its first {} entries are used."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file {} was recovered from its journal. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "What was measured last is taken from {}, where it was kept."),
+    QT_TRANSLATE_NOOP("Sentence", "Another part of this test, measured apart from this one, is kept in {}."),
     QT_TRANSLATE_NOOP("Sentence", "Its Car and its parameters do not fit together. {}"),
     QT_TRANSLATE_NOOP("Sentence", "CAN database {} is larger than {} KiB; leave the messages that the profile does not "
                                   "name out of it."),
@@ -67,6 +69,9 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The bundle {} cannot be unpacked: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The bundle {} is not as it was signed. {}"),
     QT_TRANSLATE_NOOP("Sentence", "{} is torn, or no bundle: its list of files cannot be read."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is compressed, as no file of a bundle is: it was packed anew; nothing of it was "
+                                  "read."),
+    QT_TRANSLATE_NOOP("Sentence", "Its files are larger together than it is: it is no bundle; nothing of it was read."),
     QT_TRANSLATE_NOOP("Sentence", "There is no {} or {} in it: it is no bundle."),
     QT_TRANSLATE_NOOP("Sentence", "{} or {} is changed: it cannot be read any more."),
     QT_TRANSLATE_NOOP("Sentence", "{} or {} is changed: the signature is not that of the station's key over it."),
@@ -79,6 +84,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The chain of bundles in {} is damaged; move that file elsewhere to begin a new "
                                   "chain."),
     QT_TRANSLATE_NOOP("Sentence", "The key of this station in {} cannot be read or made: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Another application is writing a bundle with the key of this station; write this "
+                                  "one when it has ended."),
     QT_TRANSLATE_NOOP("Sentence", "The key of this station in {} is damaged; restore it from a copy, or move it "
                                   "elsewhere to have a new one made."),
     QT_TRANSLATE_NOOP("Sentence", "The package duckdb is not installed; pip install duckdb, then bundle the test "

@@ -6924,6 +6924,31 @@
         <source>The tests tell different things here, such as a boundary and the place of one event; choose tests that were measured alike.</source>
         <translation>Zkoušky zde udávají různé věci, například hranici a místo jedné události; vyberte zkoušky měřené stejně.</translation>
     </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>What was measured last is taken from {}, where it was kept.</source>
+        <translation>Co bylo změřeno naposledy, je vzato ze souboru {}, kam bylo uloženo.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Another part of this test, measured apart from this one, is kept in {}.</source>
+        <translation>Jiná část tohoto testu, změřená odděleně od této, je uložena v souboru {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is compressed, as no file of a bundle is: it was packed anew; nothing of it was read.</source>
+        <translation>{} je komprimován jako žádný soubor balíčku: byl zabalen znovu; nic z něj nebylo přečteno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Its files are larger together than it is: it is no bundle; nothing of it was read.</source>
+        <translation>Jeho soubory jsou dohromady větší než on sám: není to balíček; nic z něj nebylo přečteno.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Another application is writing a bundle with the key of this station; write this one when it has ended.</source>
+        <translation>Jiná aplikace zapisuje balíček s klíčem této stanice; zapište tento, až skončí.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
