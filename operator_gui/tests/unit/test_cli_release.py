@@ -55,6 +55,25 @@ def test_robot_is_asked_for_once_and_goes_on_after_enter(person):
     assert released(release, 7) == 7
 
 
+def test_line_from_before_the_first_question_answers_nothing():
+    """The reader is there from the start, and takes the line away."""
+    read_end, write_end = os.pipe()
+    with os.fdopen(read_end) as stream, os.fdopen(write_end, "w", buffering=1) as keys:
+        lines, answered = [], []
+
+        class Seen:
+            def readline(self):
+                lines.append(stream.readline())
+                return lines[-1]
+        enter = Enter(Seen())
+        keys.write("\n")
+        assert within_limit(lambda: lines)
+        enter.ask(lambda: answered.append("question"))
+        keys.write("\n")
+        assert within_limit(lambda: answered) and lines == ["\n", "\n"]
+        keys.close()
+
+
 def test_another_hold_is_another_question(person):
     asked, release, keys = person
     release(7)

@@ -9,21 +9,21 @@ from typing import Callable, TextIO
 
 
 class Enter:
-    """One reader for all questions: a line answers the one that was asked first, and one without a question nothing."""
+    """One reader for all questions: a line answers the one that was asked first, and one without a question nothing.
+
+    It reads from its making on, so that no line of before answers the first question.
+    """
 
     def __init__(self, stream: TextIO | None = None):
         self._stream = stream or sys.stdin
         self._lock = threading.Lock()
         self._questions: collections.deque[Callable[[], None]] = collections.deque()
-        self._thread: threading.Thread | None = None
+        threading.Thread(target=self._read, name="enter", daemon=True).start()
 
     def ask(self, answered: Callable[[], None]) -> None:
         """Call this, in the reader's thread, when Enter was pressed."""
         with self._lock:
             self._questions.append(answered)
-        if self._thread is None:
-            self._thread = threading.Thread(target=self._read, name="enter", daemon=True)
-            self._thread.start()
 
     def withdraw(self, answered: Callable[[], None]) -> None:
         """Nobody need answer this question any more; safe when it was answered."""

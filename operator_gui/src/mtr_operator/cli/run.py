@@ -111,13 +111,13 @@ class CommandLineRun:
         for notice in (self._progress.notice, *cautions, *outdated):
             if notice:
                 display.say(notice)
+        enter = Enter()
         with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot, self._phone_closing():
             for link in (car, robot, self._phone):
                 if link is not None:
                     link.connect()
                 if interrupt.requested:
                     raise Cancelled("Interrupted; the robot was not moved.")
-            enter = Enter()
             events = EventLog()
             observer = EventObserver(display, events, self._scenario.line_word)
             loop = ControlLoop(robot, car, observer, interrupt.is_requested, Release(display.say, enter))
