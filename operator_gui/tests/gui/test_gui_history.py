@@ -10,7 +10,7 @@ from mtr_operator.evidence.bundle import write_bundle
 from mtr_operator.evidence.station_key import Station
 from mtr_operator.gui.history import history_screen
 from mtr_operator.gui.history.history_model import HistoryModel
-from mtr_operator.gui.waited_thread import WaitedThread
+from mtr_operator.gui.threads.waited_thread import WaitedThread
 from mtr_operator.storage.progress_file import open_progress
 
 

@@ -25,7 +25,7 @@ from .i18n import Language
 from .stopping import Stopping
 from .theme.appearance import Appearance
 from .theme.sheet import ICON
-from .waited_thread import WaitedThread
+from .threads.waited_thread import WaitedThread
 from .windows.connection_window import ConnectionWindow
 from .windows.main_window import MainWindow
 

@@ -19,7 +19,7 @@ from mtr_operator.storage.photos import copy_photos, photo_folder
 from .pictures import export
 from .pictures.protocol_picture import Protocol
 from .pictures.protocol_sheet import ProtocolSheet
-from .waited_thread import WaitedThread
+from .threads.waited_thread import WaitedThread
 
 CSV, PNG, PDF, SVG, BUNDLE = "csv", "png", "pdf", "svg", "bundle"
 _PERCENT = 100.0

@@ -10,7 +10,7 @@ from PyQt5.QtCore import pyqtSignal
 
 from ..i18n import translate
 from ..sentences import translated
-from ..waited_thread import WaitedThread
+from ..threads.waited_thread import WaitedThread
 
 if TYPE_CHECKING:
     from mtr_operator.evidence.verification import Verification

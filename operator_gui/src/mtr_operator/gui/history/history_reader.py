@@ -11,7 +11,7 @@ from mtr_operator.history.index import Index
 from mtr_operator.history.laboratory import kept_entries
 from mtr_operator.history.search import listed
 
-from ..waited_thread import WaitedThread
+from ..threads.waited_thread import WaitedThread
 
 
 class HistoryReader(WaitedThread):

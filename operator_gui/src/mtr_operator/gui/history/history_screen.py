@@ -31,10 +31,10 @@ from ..fitting.rows import choose_rows, chosen_rows
 from ..fitting.scroller import Scroller
 from ..sentences import translated
 from ..theme.scale import L, M, S
+from ..threads.task import Task, Work
 from .history_filters import HistoryFilters
 from .history_model import HistoryModel
 from .history_reader import HistoryReader
-from .task import Task, Work
 
 if TYPE_CHECKING:
     from mtr_operator.evidence.verification import Verification

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from typing import Any
 
+from PyQt5.QtCore import QObject
+
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.geometry.pose import Pose
-from mtr_operator.domain.results.picture import Stretch
+from mtr_operator.domain.results.picture import Picture, Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.sight.view import View
+from mtr_operator.station.test import Test
 from mtr_operator.station.view_model import ViewModel
 
+from ..threads.task import Task
 from .glide import Glide
 from .layers.car_layer import CarLayer
 from .layers.lines_layer import LinesLayer
@@ -22,14 +26,20 @@ from .layers.surroundings import GridLayer, ScaleLayer
 from .picture_panel import PicturePanel
 
 
-class MeasurementPicture:
+class MeasurementPicture(QObject):
     """Paints what stands still only when it has changed, and the robot thirty times a second."""
 
     def __init__(self, model: ViewModel, panel: PicturePanel):
+        # As long as the panel: a thread that ends later tells nobody.
+        super().__init__(panel)
         self._model = model
         self._panel = panel
         self._glide = Glide()
         self._shown: tuple[Any, ...] = ()
+        # The work on the newest picture, and whether another one is wanted already.
+        self._task: Task | None = None
+        self._pictured: Test | None = None
+        self._is_outdated = False
         self.robot = RobotLayer()
         self.waypoint = WaypointLayer()
         self.trail = TrailLayer()
@@ -86,14 +96,39 @@ class MeasurementPicture:
         model, test = self._model, self._model.current_test
         mapped = model.mapped_car
         car = mapped or USUAL_CAR
-        picture = test.scenario.picture(test.parameters, car, model.results)
-        self.points.sets = self.areas.sets = picture.point_sets
+        if test is not self._pictured:
+            self._pictured = test
+            self.points.sets = self.areas.sets = ()
+        self._compute_picture(car)
         self.areas.is_complete = model.done == model.total
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
-        self._panel.legend.show_sets(picture.point_sets)
         self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
                                       self.points, self.trail, self.sight, self.waypoint, self.robot, ScaleLayer()])
+
+    def _compute_picture(self, car: CarDimensions) -> None:
+        """In a thread, one after the other: that of many zones takes seconds, and Stop has to be heard meanwhile."""
+        self._is_outdated = self._task is not None
+        if self._is_outdated:
+            return
+        test, results = self._model.current_test, self._model.results
+        self._task = Task(lambda _: (test, test.scenario.picture(test.parameters, car, results)))
+        self._task.done.connect(self._show_picture)
+        self._task.refused.connect(lambda *_: self._end_task())
+        self._task.start()
+
+    def _show_picture(self, _: Task, found: tuple[Test, Picture]) -> None:
+        test, picture = found
+        if test is self._pictured:
+            self.points.sets = self.areas.sets = picture.point_sets
+            self._panel.legend.show_sets(picture.point_sets)
+            self._panel.view.refresh()
+        self._end_task()
+
+    def _end_task(self) -> None:
+        self._task = None
+        if self._is_outdated and self._model.test is not None:
+            self._compute_picture(self._model.mapped_car or USUAL_CAR)
 
     def _stretches(self, car: CarDimensions) -> tuple[Stretch, ...]:
         test = self._model.current_test

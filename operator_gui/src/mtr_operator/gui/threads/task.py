@@ -9,7 +9,7 @@ from PyQt5.QtCore import pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError
 
-from ..waited_thread import WaitedThread
+from .waited_thread import WaitedThread
 
 # Is told by a function whether the application ends meanwhile.
 Work = Callable[[Callable[[], bool]], Any]
