@@ -28,7 +28,7 @@ from mtr_operator.station.events import (
     StationEvent,
 )
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
-from mtr_operator.station.readiness import Phase
+from mtr_operator.station.readiness import RUNNING, Phase
 from mtr_operator.station.settings_file import SettingsStore
 from mtr_operator.station.test import NOTHING_SAID, go_on, open_test
 from mtr_operator.storage.given_files import GivenPaths
@@ -105,7 +105,10 @@ class Flow(QObject):
         self.step_changed.emit(step)
 
     def to_welcome(self) -> None:
-        """Back to the beginning; an unfinished test stays on disk."""
+        """Back to the beginning; an unfinished test stays on disk. Back to the measurement while a test is measured."""
+        if self.model.phase in RUNNING:
+            self.show(Step.MEASUREMENT)
+            return
         self.model.lay_aside()
         self.show(Step.WELCOME)
 
@@ -120,6 +123,8 @@ class Flow(QObject):
               who: GivenIdentity = NOTHING_SAID) -> None:
         """Begin a test; failed follows when a file that is given does not suit it any more, or the laboratory requires
         more."""
+        if self.is_measuring():
+            return
         try:
             self.model.take_up(begun_test(self.store, self.connecting.connection, scenario, parameters,
                                           paths=paths, who=who))
@@ -133,7 +138,16 @@ class Flow(QObject):
         """Measure what is left of the test at hand; failed follows when it was begun with other means."""
         self._goes_on()
 
+    def is_measuring(self) -> bool:
+        """True, and failed follows, while a test is measured, which keeps the window: a dialog or a thread may be
+        answered late."""
+        if self.model.phase in RUNNING:
+            self.failed.emit("A test is being measured: stop it first, then open or begin another one.")
+        return self.model.phase in RUNNING
+
     def _goes_on(self) -> bool:
+        if self.is_measuring():
+            return False
         test = self.model.current_test
         try:
             go_on(test, self.connecting.connection)
@@ -147,6 +161,8 @@ class Flow(QObject):
 
     def measure_again(self, numbers: Sequence[int]) -> None:
         """Measure lines of the test at hand once more; their former results stay in its journal."""
+        if self.is_measuring():
+            return
         self.model.current_test.again = tuple(numbers)
         if self._goes_on():
             self.show(Step.MEASUREMENT)
@@ -193,6 +209,8 @@ class Flow(QObject):
 
     def open(self, path: pathlib.Path) -> None:
         """Take up the test in a progress file; failed follows when it is none."""
+        if self.is_measuring():
+            return
         try:
             test = open_test(path)
             self.model.take_up(test)

@@ -7,6 +7,7 @@ from . import can, cars, figures, handle, identity, keeping, learn, limits, pair
 from .keys import phone, relay
 
 SENTENCES = (
+    QT_TRANSLATE_NOOP("Sentence", "A test is being measured: stop it first, then open or begin another one."),
     QT_TRANSLATE_NOOP("Sentence", "wait for robot and Car"),
     QT_TRANSLATE_NOOP("Sentence", "move the key to {} cm"),
     QT_TRANSLATE_NOOP("Sentence", "map the Car"),

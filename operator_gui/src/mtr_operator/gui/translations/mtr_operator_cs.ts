@@ -2176,37 +2176,37 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="240"/>
+        <location filename="../windows/main_window.py" line="242"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="243"/>
+        <location filename="../windows/main_window.py" line="245"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="245"/>
+        <location filename="../windows/main_window.py" line="247"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="260"/>
+        <location filename="../windows/main_window.py" line="262"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="264"/>
+        <location filename="../windows/main_window.py" line="266"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="264"/>
+        <location filename="../windows/main_window.py" line="266"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="223"/>
+        <location filename="../windows/main_window.py" line="225"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -2292,22 +2292,22 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="80"/>
+        <location filename="../screens/measurement.py" line="83"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="82"/>
+        <location filename="../screens/measurement.py" line="85"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="191"/>
+        <location filename="../screens/measurement.py" line="198"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="204"/>
+        <location filename="../screens/measurement.py" line="211"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
@@ -2322,22 +2322,22 @@
         <translation>Podržením jet dál</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="81"/>
+        <location filename="../screens/measurement.py" line="84"/>
         <source>Events</source>
         <translation>Události</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="191"/>
+        <location filename="../screens/measurement.py" line="198"/>
         <source>Extender switched</source>
         <translation>Extender přepnut</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="209"/>
+        <location filename="../screens/measurement.py" line="216"/>
         <source>Switch the extender on now, and then say so here, by Enter or the button.</source>
         <translation>Zapněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="210"/>
+        <location filename="../screens/measurement.py" line="217"/>
         <source>Switch the extender off now, and then say so here, by Enter or the button.</source>
         <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
@@ -2347,12 +2347,12 @@
         <translation>Opustit přímku, která se právě měří, a pokračovat další (Ctrl+K); po skončení testu ji lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="171"/>
+        <location filename="../screens/measurement.py" line="174"/>
         <source>Skip line {number}</source>
         <translation>Přeskočit přímku {number}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="171"/>
+        <location filename="../screens/measurement.py" line="174"/>
         <source>Skip the line</source>
         <translation>Přeskočit přímku</translation>
     </message>
@@ -6948,6 +6948,11 @@
         <location filename="../texts/keeping.py" line="5"/>
         <source>Another application is writing a bundle with the key of this station; write this one when it has ended.</source>
         <translation>Jiná aplikace zapisuje balíček s klíčem této stanice; zapište tento, až skončí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>A test is being measured: stop it first, then open or begin another one.</source>
+        <translation>Probíhá měření testu: nejdříve je zastavte, pak otevřete nebo začněte jiný.</translation>
     </message>
 </context>
 <context>

@@ -205,6 +205,8 @@ class MainWindow(QMainWindow):
 
     def _repeat(self, side: Side) -> None:
         """Offer a new test with the parameters of one of before."""
+        if self._flow.is_measuring():
+            return
         self._show_settings(side.scenario.name)
         screen = self.settings[side.scenario.name]
         screen.form.show_mapping(side.parameters.to_mapping())
