@@ -43,6 +43,10 @@ class HoldButton(QPushButton):
         self.pressed.connect(self._begin)
         self.released.connect(self._let_go)
 
+    def let_go(self) -> None:
+        """What it was held for is over: it has to be held anew."""
+        self._cancel()
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """See QWidget; Enter is held as Space is."""
         if event.key() not in _ENTER:

@@ -76,11 +76,14 @@ class MeasurementScreen(QWidget):
                                      "can be measured again when the test is done"))
         self.skip.clicked.connect(lambda: self.skip.setEnabled(False))
         # A button's own shortcut would take the focus from Stop, and click a tenth of a second later.
-        QShortcut(QKeySequence(_SKIP_KEY), self).activated.connect(self.skip.click)
+        shortcut = QShortcut(QKeySequence(_SKIP_KEY), self)
+        # Held down it would skip line after line.
+        shortcut.setAutoRepeat(False)
+        shortcut.activated.connect(self.skip.click)
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.events = self._button(self.tr("Events"), "", self.events_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
-        self._line = -1
+        self._line, self._hold_id = -1, 0
         self._frames = QTimer(self)
         self._frames.setInterval(FRAME_MS)
         self._frames.timeout.connect(lambda: self.picture.glide(time.monotonic()))
@@ -178,10 +181,14 @@ class MeasurementScreen(QWidget):
     def _show_hold(self) -> None:
         reason = next((notification.text for notification in self._model.notifications
                        if notification.code == HELD_CODE), "")
-        is_held = self._model.robot is not None and self._model.robot.status.hold_id != 0
+        hold_id = 0 if self._model.robot is None else self._model.robot.status.hold_id
+        if hold_id != self._hold_id:
+            # Whoever holds the button has seen another cause.
+            self._hold_id = hold_id
+            self.go_on.let_go()
         self.held.setText(translated(reason))
-        self.held.setVisible(is_held and bool(reason))
-        self.go_on.setVisible(is_held)
+        self.held.setVisible(bool(hold_id and reason))
+        self.go_on.setVisible(hold_id != 0)
 
     def _show_prompt(self) -> None:
         """It has the focus, so that a person who comes back from the Car presses Enter."""
