@@ -110,6 +110,22 @@ def test_bad_settings_leave_the_defaults_and_the_file(tmp_path, text):
     assert path.read_text(encoding="utf-8") == text
 
 
+def test_unusable_settings_are_laid_aside_before_anything_is_kept(tmp_path):
+    path = tmp_path / "settings.json"
+    for text in ('{"comma": too many,}', '{"format": "mtr-operator settings", "version": 2}'):
+        path.write_text(text, encoding="utf-8")
+        store = SettingsStore(path)
+        store.load()
+        store.change(Settings(theme="dark"))
+        store.change(Settings(theme="light"))
+        later = SettingsStore(path)
+        later.load()
+        assert (store.problem, later.problem, later.settings.theme) == ("", "", "light")
+    names = sorted(each.name for each in tmp_path.iterdir())
+    assert names == ["settings.json", "settings.json.bad", "settings.json.bad1"]
+    assert (tmp_path / "settings.json.bad").read_text(encoding="utf-8") == '{"comma": too many,}'
+
+
 def test_each_damaged_entry_is_refused(tmp_path):
     path = tmp_path / "settings.json"
     whole = Settings().to_document()

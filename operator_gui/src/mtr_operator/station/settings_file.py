@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import pathlib
@@ -57,9 +58,10 @@ class SettingsStore:
         self._former = former
         self.settings = Settings()
         self.problem = ""
+        self._is_spoilt = False
 
     def load(self) -> None:
-        """Read the file; without a good one the defaults stay, and a bad one is not overwritten before a change."""
+        """Read the file; without a good one the defaults stay, and a bad one is laid aside before anything is kept."""
         path = self._moved_here()
         try:
             if path.stat().st_size > _MAX_BYTES:
@@ -69,6 +71,7 @@ class SettingsStore:
             pass
         except (OSError, ValueError, ArithmeticError, RecursionError) as error:
             reason = str(error) if isinstance(error, NotSettings) else "They cannot be read."
+            self._is_spoilt = True
             self.problem = f"The settings in {path} were not used. {reason}"
 
     def _moved_here(self) -> pathlib.Path:
@@ -99,9 +102,20 @@ class SettingsStore:
         self.problem = ""
         try:
             self._path.parent.mkdir(parents=True, exist_ok=True)
+            if self._is_spoilt:
+                # A comma too many, or settings of a later version: a person has written them, and can mend them.
+                self._lay_aside()
             write_bytes(self._path, _text(settings.to_document()).encode("utf-8"))
         except (OSError, OutputError) as error:
             self.problem = f"The settings cannot be kept: {error}"
+
+
+    def _lay_aside(self) -> None:
+        """Keep an unusable file under a name of its own, beside those that were laid aside before."""
+        if self._path.exists():
+            names = (self._path.with_name(f"{FILE_NAME}.bad{count or ''}") for count in itertools.count())
+            os.replace(self._path, next(name for name in names if not os.path.lexists(name)))
+        self._is_spoilt = False
 
 
 def _text(document: dict[str, Any]) -> str:
