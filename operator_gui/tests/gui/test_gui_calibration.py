@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
-from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode, PressReport
+from mtr_operator.domain.robot_status import CarCheck, CarDimensions, CheckState, Mode, Notification, PressReport
 from mtr_operator.gui.header.stop_button import StopButton
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 
@@ -94,6 +94,21 @@ def test_car_is_mapped_again_on_request_and_stopped(window, operator, opener):
     operator.click(window.findChild(StopButton))
     operator.wait(lambda: opener.sent[-1].stop)
     assert opener.sent[-1].map_car_id == 1
+
+
+def test_robot_that_is_held_on_its_way_round_the_car_is_had_go_on(window, operator, opener):
+    operator.wait(window.car.map.isEnabled)
+    operator.click(window.car.map)
+    assert not window.hold.go_on.isVisible()
+    opener.spoil_with(mode=Mode.MAPPING_CAR, hold_id=7,
+                      notifications=(Notification("held", 3, "The robot was driven by hand."),))
+    operator.wait(window.hold.go_on.isVisible)
+    assert window.hold.reason.text() == "The robot was driven by hand."
+    assert opener.sent[-1].resume_hold_id == 0
+    operator.click(window.hold.go_on)
+    operator.wait(lambda: opener.sent[-1].resume_hold_id == 7)
+    opener.spoil_with(hold_id=0, notifications=())
+    operator.wait(lambda: not window.hold.go_on.isVisible())
 
 
 def test_position_of_the_car_is_checked_and_the_answer_told(window, operator, opener):

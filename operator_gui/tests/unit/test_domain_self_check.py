@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math
+import queue
 from dataclasses import replace
 
 import pytest
@@ -195,6 +196,37 @@ def test_check_command_ends_with_a_sentence(world, command, capsys, case):
     world.car = world.car if is_found else None
     assert command() == 2
     assert part in capsys.readouterr().err.splitlines()[-1]
+
+
+class Keyboard:
+    """A standard input on which a line is ready as soon as `lines` has one."""
+
+    def __init__(self):
+        self.lines = queue.Queue()
+
+    def readline(self):
+        return self.lines.get()
+
+
+def test_robot_that_is_held_on_its_way_is_had_go_on_by_enter(world, robot_link, command, capsys, monkeypatch):
+    world.check, keyboard, asked = PASSED, Keyboard(), []
+    monkeypatch.setattr("sys.stdin", keyboard)
+
+    def held(status):
+        wanted = world.desired
+        if wanted is None or not wanted.check_car_id or wanted.resume_hold_id == 77:
+            return status
+        asked.append(status)
+        if len(asked) == 3:
+            # The question was asked at the first of them.
+            keyboard.lines.put("\n")
+        return replace(status, hold_id=77)
+    world.spoil = held
+    assert command() == 0
+    said = capsys.readouterr()
+    assert "press Enter" in said.out + said.err and "The Car stands where it was." in said.out
+    assert len(asked) >= 3
+    keyboard.lines.put("")
 
 
 def test_virtual_robot_checks_too(tmp_path, capsys):

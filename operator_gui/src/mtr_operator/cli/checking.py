@@ -13,8 +13,10 @@ from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.robot_status import CheckState
 
 from .display import Display
+from .enter import Enter
 from .interrupt import Interrupt
 from .links import robot_link
+from .release import Release
 
 _SPEED_MPS = 0.5
 
@@ -24,7 +26,8 @@ def check(options: argparse.Namespace) -> None:
     with contextlib.closing(Display(None)) as display, contextlib.closing(robot_link(options)) as link, \
             Interrupt() as interrupt:
         link.connect()
-        loop = ControlLoop(link, AbsentCarLink("The Car's bus is not connected."), display, interrupt.is_requested)
+        loop = ControlLoop(link, AbsentCarLink("The Car's bus is not connected."), display, interrupt.is_requested,
+                           Release(display.say, Enter()))
         robot = Robot(loop)
         try:
             prepare_to_check(loop, robot)

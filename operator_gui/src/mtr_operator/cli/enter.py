@@ -15,7 +15,8 @@ class Enter:
     """
 
     def __init__(self, stream: TextIO | None = None):
-        self._stream = stream or sys.stdin
+        # A program without a terminal may have none.
+        self._stream: TextIO | None = stream or sys.stdin
         self._lock = threading.Lock()
         self._questions: collections.deque[Callable[[], None]] = collections.deque()
         threading.Thread(target=self._read, name="enter", daemon=True).start()
@@ -32,9 +33,16 @@ class Enter:
                 self._questions.remove(answered)
 
     def _read(self) -> None:
-        # At the end of the input nobody can answer any more.
-        while self._stream.readline():
+        while self._has_line():
             with self._lock:
                 answered = self._questions.popleft() if self._questions else None
             if answered is not None:
                 answered()
+
+    def _has_line(self) -> bool:
+        """True as soon as there is a line; False at the end of the input, where nobody can answer any more."""
+        try:
+            return self._stream is not None and bool(self._stream.readline())
+        except (OSError, ValueError):
+            # It was closed, or cannot be read, or what it has is no text.
+            return False

@@ -6,8 +6,8 @@ from typing import Callable
 
 from .enter import Enter
 
-QUESTION = ("The robot stands until you have it go on: see that nobody is near it, then press Enter. Ctrl-C ends the "
-            "test.")
+QUESTION = ("The robot stands until you have it go on: see that nobody is near it, then press Enter. Ctrl-C ends "
+            "it.")
 
 
 class Release:

@@ -9,13 +9,14 @@ from PyQt5.QtGui import QHideEvent, QKeySequence, QResizeEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QShortcut, QVBoxLayout, QWidget
 
 from mtr_operator.station.handle_prompt import HandlePrompt, Prompt
-from mtr_operator.station.readiness import HELD_CODE, Phase, can_resume
+from mtr_operator.station.readiness import Phase, can_resume
 from mtr_operator.station.view_model import ViewModel
 
 from ..bridge import FRAME_MS
 from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..forms.hold_button import HoldButton
+from ..forms.hold_release import HoldRelease
 from ..i18n import number
 from ..pictures.measurement_picture import MeasurementPicture
 from ..pictures.picture_panel import PicturePanel
@@ -66,9 +67,11 @@ class MeasurementScreen(QWidget):
         self.facts = MeasurementFacts()
         self.so_far = ResultsSoFar()
         self.so_far.hide()
-        self.trouble, self.held, self.handle = (self._label("banner") for _ in range(3))
+        self.trouble, self.handle = (self._label("banner") for _ in range(2))
+        self._hold = HoldRelease()
+        self.held, self.go_on = self._hold.reason, self._hold.go_on
+        self.go_on.held.connect(self.release_wanted)
         self.note = self._label("soft")
-        self.go_on = self._hold_button(self.tr("Hold to go on"), self.release_wanted)
         self.taken = self._button(self.tr("Handle taken"), "primary", self.prompt_answered)
         self.resume = self._hold_button(self.tr("Hold to resume"), self.resume_wanted)
         self.skip = self._button(self.tr("Skip the line"), "", self.skip_wanted)
@@ -83,7 +86,7 @@ class MeasurementScreen(QWidget):
         self.save = self._button(self.tr("Save progress"), "", self.save_wanted)
         self.events = self._button(self.tr("Events"), "", self.events_wanted)
         self.leave = self._button(self.tr("Back to the beginning"), "", self.leave_wanted)
-        self._line, self._hold_id = -1, 0
+        self._line = -1
         self._frames = QTimer(self)
         self._frames.setInterval(FRAME_MS)
         self._frames.timeout.connect(lambda: self.picture.glide(time.monotonic()))
@@ -152,7 +155,7 @@ class MeasurementScreen(QWidget):
         self.trouble.setVisible(bool(model.trouble) and model.phase is Phase.PAUSED)
         self.trouble.setText(translated(model.trouble))
         self._show_cause(can_resume(model.readiness))
-        self._show_hold()
+        self._hold.show_status(None if model.robot is None else model.robot.status)
         self._show_prompt()
         self._show_skip()
         self.resume.setVisible(model.phase is Phase.PAUSED)
@@ -177,18 +180,6 @@ class MeasurementScreen(QWidget):
     def _show_cause(self, is_over: bool) -> None:
         """Why the test paused: red while it lasts."""
         show_state(self.trouble, "role", "notice" if is_over else "banner")
-
-    def _show_hold(self) -> None:
-        reason = next((notification.text for notification in self._model.notifications
-                       if notification.code == HELD_CODE), "")
-        hold_id = 0 if self._model.robot is None else self._model.robot.status.hold_id
-        if hold_id != self._hold_id:
-            # Whoever holds the button has seen another cause.
-            self._hold_id = hold_id
-            self.go_on.let_go()
-        self.held.setText(translated(reason))
-        self.held.setVisible(bool(hold_id and reason))
-        self.go_on.setVisible(hold_id != 0)
 
     def _show_prompt(self) -> None:
         """It has the focus, so that a person who comes back from the Car presses Enter."""

@@ -278,92 +278,92 @@
 <context>
     <name>CalibrationWindow</name>
     <message>
-        <location filename="../windows/calibration_window.py" line="60"/>
+        <location filename="../windows/calibration_window.py" line="62"/>
         <source>Calibration</source>
         <translation>Kalibrace</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="68"/>
+        <location filename="../windows/calibration_window.py" line="70"/>
         <source>Lock</source>
         <translation>Zamknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="68"/>
+        <location filename="../windows/calibration_window.py" line="70"/>
         <source>Unlock</source>
         <translation>Odemknout</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="76"/>
+        <location filename="../windows/calibration_window.py" line="80"/>
         <source>Send</source>
         <translation>Odeslat</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="117"/>
+        <location filename="../windows/calibration_window.py" line="124"/>
         <source>Wanted</source>
         <translation>Požadováno</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="120"/>
+        <location filename="../windows/calibration_window.py" line="127"/>
         <source>Buttons to press</source>
         <translation>Tlačítka ke stisknutí</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="132"/>
+        <location filename="../windows/calibration_window.py" line="139"/>
         <source>Key height</source>
         <translation>Výška klíče</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="132"/>
+        <location filename="../windows/calibration_window.py" line="139"/>
         <source>Buttons pressed</source>
         <translation>Stisknutá tlačítka</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="93"/>
+        <location filename="../windows/calibration_window.py" line="97"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="172"/>
+        <location filename="../windows/calibration_window.py" line="179"/>
         <source>none</source>
         <translation>žádné</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="189"/>
+        <location filename="../windows/calibration_window.py" line="198"/>
         <source>Pressed for {duration} s.</source>
         <translation>Stisknuto po dobu {duration} s.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="207"/>
+        <location filename="../windows/calibration_window.py" line="216"/>
         <source>Sent.</source>
         <translation>Odesláno.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="131"/>
+        <location filename="../windows/calibration_window.py" line="138"/>
         <source>Reported by robot and Car</source>
         <translation>Hlásí robot a auto</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="133"/>
+        <location filename="../windows/calibration_window.py" line="140"/>
         <source>The Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="190"/>
+        <location filename="../windows/calibration_window.py" line="199"/>
         <source>The Car has answered: {locks}.</source>
         <translation>Auto odpovědělo: {locks}.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="191"/>
+        <location filename="../windows/calibration_window.py" line="200"/>
         <source>The Car has not answered.</source>
         <translation>Auto neodpovědělo.</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="73"/>
+        <location filename="../windows/calibration_window.py" line="77"/>
         <source>Guided calibration</source>
         <translation>Kalibrace krok za krokem</translation>
     </message>
     <message>
-        <location filename="../windows/calibration_window.py" line="74"/>
+        <location filename="../windows/calibration_window.py" line="78"/>
         <source>Press strength, key height and key&apos;s lever, kept with their date.</source>
         <translation>Síla stisku, výška klíče a rameno klíče; uchovají se s datem.</translation>
     </message>
@@ -1903,6 +1903,14 @@
     </message>
 </context>
 <context>
+    <name>HoldRelease</name>
+    <message>
+        <location filename="../forms/hold_release.py" line="24"/>
+        <source>Hold to go on</source>
+        <translation>Podržením jet dál</translation>
+    </message>
+</context>
+<context>
     <name>Identity</name>
     <message>
         <location filename="../texts/identity.py" line="5"/>
@@ -2171,42 +2179,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="64"/>
+        <location filename="../windows/main_window.py" line="65"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="242"/>
+        <location filename="../windows/main_window.py" line="243"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="245"/>
+        <location filename="../windows/main_window.py" line="246"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="247"/>
+        <location filename="../windows/main_window.py" line="248"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="262"/>
+        <location filename="../windows/main_window.py" line="263"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="266"/>
+        <location filename="../windows/main_window.py" line="267"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="266"/>
+        <location filename="../windows/main_window.py" line="267"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="225"/>
+        <location filename="../windows/main_window.py" line="226"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -2292,67 +2300,62 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="83"/>
+        <location filename="../screens/measurement.py" line="86"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="85"/>
+        <location filename="../screens/measurement.py" line="88"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="198"/>
+        <location filename="../screens/measurement.py" line="189"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="211"/>
+        <location filename="../screens/measurement.py" line="202"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="73"/>
+        <location filename="../screens/measurement.py" line="76"/>
         <source>Hold to resume</source>
         <translation>Podržením pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="71"/>
-        <source>Hold to go on</source>
-        <translation>Podržením jet dál</translation>
-    </message>
-    <message>
-        <location filename="../screens/measurement.py" line="84"/>
+        <location filename="../screens/measurement.py" line="87"/>
         <source>Events</source>
         <translation>Události</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="198"/>
+        <location filename="../screens/measurement.py" line="189"/>
         <source>Extender switched</source>
         <translation>Extender přepnut</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="216"/>
+        <location filename="../screens/measurement.py" line="207"/>
         <source>Switch the extender on now, and then say so here, by Enter or the button.</source>
         <translation>Zapněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="217"/>
+        <location filename="../screens/measurement.py" line="208"/>
         <source>Switch the extender off now, and then say so here, by Enter or the button.</source>
         <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="75"/>
+        <location filename="../screens/measurement.py" line="78"/>
         <source>Leave the line that is being measured and go on with the next one (Ctrl+K); it can be measured again when the test is done</source>
         <translation>Opustit přímku, která se právě měří, a pokračovat další (Ctrl+K); po skončení testu ji lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="174"/>
+        <location filename="../screens/measurement.py" line="177"/>
         <source>Skip line {number}</source>
         <translation>Přeskočit přímku {number}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="174"/>
+        <location filename="../screens/measurement.py" line="177"/>
         <source>Skip the line</source>
         <translation>Přeskočit přímku</translation>
     </message>
@@ -3477,122 +3480,122 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="82"/>
+        <location filename="../screens/protocol.py" line="90"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="83"/>
+        <location filename="../screens/protocol.py" line="91"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="84"/>
+        <location filename="../screens/protocol.py" line="92"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="85"/>
+        <location filename="../screens/protocol.py" line="93"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="86"/>
+        <location filename="../screens/protocol.py" line="94"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="93"/>
+        <location filename="../screens/protocol.py" line="101"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="156"/>
+        <location filename="../screens/protocol.py" line="164"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="259"/>
+        <location filename="../screens/protocol.py" line="270"/>
         <source>Saved {files} to {folder}</source>
         <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="277"/>
+        <location filename="../screens/protocol.py" line="288"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="285"/>
+        <location filename="../screens/protocol.py" line="297"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="190"/>
+        <location filename="../screens/protocol.py" line="198"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="79"/>
+        <location filename="../screens/protocol.py" line="87"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="293"/>
+        <location filename="../screens/protocol.py" line="305"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="76"/>
+        <location filename="../screens/protocol.py" line="84"/>
         <source>Results; choose a row to see its points, or several to measure them again</source>
         <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="87"/>
+        <location filename="../screens/protocol.py" line="95"/>
         <source>Hold to measure again</source>
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="164"/>
+        <location filename="../screens/protocol.py" line="172"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="198"/>
+        <location filename="../screens/protocol.py" line="206"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="199"/>
+        <location filename="../screens/protocol.py" line="207"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="89"/>
+        <location filename="../screens/protocol.py" line="97"/>
         <source>Notes and photos</source>
         <translation>Poznámky a fotky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="90"/>
+        <location filename="../screens/protocol.py" line="98"/>
         <source>Save evidence bundle</source>
         <translation>Uložit balíček důkazů</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="91"/>
+        <location filename="../screens/protocol.py" line="99"/>
         <source>One signed file with results, recording, profile, software versions and journal</source>
         <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="264"/>
+        <location filename="../screens/protocol.py" line="275"/>
         <source>The bundle is written: {percent} %.</source>
         <translation>Balíček se zapisuje: {percent} %.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="267"/>
+        <location filename="../screens/protocol.py" line="278"/>
         <source>It is bundle {number} of {station}.</source>
         <translation>Je to balíček {number} stanice {station}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="270"/>
+        <location filename="../screens/protocol.py" line="281"/>
         <source>Left out is {name}: {reason}</source>
         <translation>Chybí {name}: {reason}</translation>
     </message>

@@ -28,6 +28,7 @@ from ..fitting.place import open_within
 from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
 from ..flow import Flow
+from ..forms.hold_release import HoldRelease
 from ..forms.parameter_field import ParameterField
 from ..i18n import number
 from ..names import locks_text
@@ -49,6 +50,7 @@ class CalibrationWindow(QDialog):
 
     guide: button that opens the guided calibration.
     reported: labels by name of what they show. notice: what became of the request. car: check and mapping of the Car.
+    hold: what holds the robot on its way.
 
     Signals: guide_wanted.
     """
@@ -68,6 +70,8 @@ class CalibrationWindow(QDialog):
         self.buttons = {1: QCheckBox(self.tr("Lock")), 2: QCheckBox(self.tr("Unlock"))}
         self.reported = {name: QLabel(_UNKNOWN) for name in ("height", "buttons", "locks")}
         self.car = CarCard(flow)
+        self.hold = HoldRelease()
+        self.hold.go_on.held.connect(flow.release_hold)
         self.notice = Prose()
         self.notice.setProperty("role", "soft")
         self.guide = QPushButton(self.tr("Guided calibration"))
@@ -109,6 +113,9 @@ class CalibrationWindow(QDialog):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)
         layout.setSpacing(M)
+        # Beside no card: it is seen without scrolling.
+        layout.addWidget(self.hold.reason)
+        layout.addWidget(self.hold.go_on)
         layout.addWidget(Scroller(cards), 1)
         layout.addLayout(row)
         self.send.setDefault(True)
@@ -175,7 +182,9 @@ class CalibrationWindow(QDialog):
         self.reported["locks"].setText(locks_text(robot.lock_state))
         self._show_press(status.presses, robot.lock_state)
         model = self._flow.model
-        self.car.show_status(status, model.readiness.word is not ReadinessWord.LOST, model.may_move)
+        is_linked = model.readiness.word is not ReadinessWord.LOST
+        self.car.show_status(status, is_linked, model.may_move)
+        self.hold.show_status(status, is_linked)
         self._check()
 
     def _show_press(self, presses: Sequence[PressReport], locks: LockState) -> None:
