@@ -173,3 +173,24 @@ def test_notes_that_cannot_be_kept_are_said_and_nothing_is_changed(operator, tmp
         operator.click(dialog.keep)
         operator.wait(lambda: "Another application" in protocol.notice.text())
     assert open_progress(operator.model.test.path, SCENARIOS)[2].identity is None
+
+
+def test_notes_are_kept_with_the_test_for_which_they_were_asked(operator):
+    operator.begin()
+    protocol = operator.finish()
+    dialog = annotated(protocol, operator, "Rain.")
+    first = operator.model.test
+    # Without a window manager it takes the focus from what is held, and late.
+    operator.wait(dialog.isActiveWindow)
+    operator.window.activateWindow()
+    operator.wait(operator.window.isActiveWindow)
+    operator.click(protocol.done)
+    operator.begin()
+    operator.finish()
+    second = operator.model.test
+    operator.wait(protocol.annotate.isEnabled)
+    operator.click(dialog.keep)
+    operator.wait(lambda: first.name in protocol.notice.text().replace("\N{ZERO WIDTH SPACE}", ""))
+    identities = [open_progress(test.path, SCENARIOS)[2].identity for test in (first, second)]
+    assert identities == [Identity(notes="Rain."), None]
+    assert "Rain." not in (operator.folder / "results" / second.name / "results.csv").read_text(encoding="utf-8")

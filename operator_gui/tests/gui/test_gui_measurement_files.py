@@ -50,6 +50,32 @@ def test_vanished_progress_folder_is_asked_for_again_and_nothing_is_lost(operato
     assert operator.model.test.path.parent == other
 
 
+def test_folder_that_is_chosen_late_is_of_the_test_that_could_not_be_written(operator, monkeypatch, notice):
+    other, asked = operator.folder / "other", []
+
+    def late(*_):
+        # The question stands beside the window: the Operator lays the test aside and begins another one first.
+        asked.append(operator.model.test)
+        operator.click(operator.window.measurement.leave)
+        folder = operator.folder / "progress"
+        folder.unlink()
+        operator.begin()
+        operator.wait(lambda: operator.model.done >= 1)
+        return other
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.ask_folder", late)
+    operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    folder = operator.folder / "progress"
+    shutil.rmtree(folder)
+    folder.write_text("a file where the folder was", encoding="utf-8")
+    operator.wait(lambda: other.exists() and list(other.glob("*.json")))
+    assert [each.stem for each in other.glob("*.json")] == [asked[0].name]
+    running = operator.model.test
+    assert asked[0].path.parent == other and running.path.parent == folder
+    assert operator.application.flow.store.settings.unfinished == running.path
+    operator.finish()
+
+
 def test_closing_asks_first_and_the_next_start_offers_to_go_on(operator, start, monkeypatch, qtbot):
     operator.begin()
     operator.wait(lambda: operator.model.done >= 1)

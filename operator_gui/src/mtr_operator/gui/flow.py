@@ -30,7 +30,7 @@ from mtr_operator.station.events import (
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.readiness import RUNNING, Phase
 from mtr_operator.station.settings_file import SettingsStore
-from mtr_operator.station.test import NOTHING_SAID, go_on, open_test
+from mtr_operator.station.test import NOTHING_SAID, Test, go_on, open_test
 from mtr_operator.storage.given_files import GivenPaths
 from mtr_operator.storage.identity_file import GivenIdentity
 
@@ -61,13 +61,13 @@ class Flow(QObject):
         saved(text): the progress was written there.
         stopped: the Operator has stopped the robot.
         language_changed(code): the Operator wants another language, see settings.LANGUAGES.
-        folder_wanted(text): the folder of the progress cannot be written, for this reason; see use_progress_folder.
+        folder_wanted(test, text): its folder cannot be written, for this reason; see use_progress_folder.
     """
 
     step_changed = pyqtSignal(object)
     failed = pyqtSignal(str)
     saved = pyqtSignal(str)
-    folder_wanted = pyqtSignal(str)
+    folder_wanted = pyqtSignal(object, str)
     language_changed = pyqtSignal(str)
     stopped = pyqtSignal()
 
@@ -200,12 +200,11 @@ class Flow(QObject):
         """Write the progress now; saved or folder_wanted follows."""
         self.connecting.links.save(self.model.current_test)
 
-    def use_progress_folder(self, folder: pathlib.Path) -> None:
-        """Write the progress of this and later tests there."""
+    def use_progress_folder(self, test: Test, folder: pathlib.Path) -> None:
+        """Write the progress of a test, which need not be at hand any more, and of later ones there."""
         self.store.change(dataclasses.replace(self.store.settings, progress_folder=folder))
-        test = self.model.current_test
         test.path = folder / test.path.name
-        self.save_progress()
+        self.connecting.links.save(test)
 
     def open(self, path: pathlib.Path) -> None:
         """Take up the test in a progress file; failed follows when it is none."""
@@ -268,12 +267,11 @@ class Flow(QObject):
             self.unfinished.forget()
             self.show(Step.PROTOCOL)
         elif event.outcome is Outcome.NOT_SAVED:
-            self.folder_wanted.emit(event.text)
+            self.folder_wanted.emit(self.model.current_test, event.text)
 
     def _learn_saved(self, event: ProgressSaved) -> None:
-        test = self.model.test
         if event.text:
-            self.folder_wanted.emit(event.text)
-        elif test is not None:
-            self.unfinished.move(test)
-            self.saved.emit(str(test.path))
+            self.folder_wanted.emit(event.test, event.text)
+        else:
+            self.unfinished.move(event.test)
+            self.saved.emit(str(event.test.path))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import enum
 import math
 from dataclasses import dataclass
-from typing import Union
+from typing import TYPE_CHECKING, Union
 
 from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
@@ -14,6 +14,9 @@ from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, PreflightReport, RobotStatus
 
 from .handle_prompt import Prompt
+
+if TYPE_CHECKING:
+    from .test import Test
 
 
 @dataclass(frozen=True)
@@ -130,8 +133,9 @@ class RunEnded:
 
 @dataclass(frozen=True)
 class ProgressSaved:
-    """The progress was written on request. text: why not; empty when it was."""
+    """The progress of a test was written on request. text: why not; empty when it was."""
 
+    test: Test
     text: str
 
 

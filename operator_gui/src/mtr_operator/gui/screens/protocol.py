@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 import pathlib
-from typing import TYPE_CHECKING, Callable
+from typing import TYPE_CHECKING, Callable, NamedTuple
 
 from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
 from PyQt5.QtGui import QDesktopServices
@@ -16,7 +16,7 @@ from mtr_operator.report.protocol_rows import date_text
 from mtr_operator.station.checks.checklist import hindrances
 from mtr_operator.station.events import Outcome
 from mtr_operator.station.identity_entry import Annotation
-from mtr_operator.station.test import report_folder
+from mtr_operator.station.test import Test, report_folder
 
 from ..dialogs import ask_folder
 from ..fitting.plain_table import plain_table, show_in
@@ -46,6 +46,13 @@ _CLICK_PX = 18.0
 _MAY_BREAK = "\N{ZERO WIDTH SPACE}"
 
 
+class _Shown(NamedTuple):
+    """What is shown, and of which test: a question may be answered when another one is at hand."""
+
+    picture: ProtocolPicture
+    test: Test
+
+
 class ProtocolScreen(QWidget):
     """Attributes: protocol: what is shown. panel: the picture. table: the results. budget: of the row chosen.
     notice: what was saved.
@@ -62,7 +69,8 @@ class ProtocolScreen(QWidget):
         super().__init__(parent)
         self.setObjectName("page")
         self._flow = flow
-        self._shown: ProtocolPicture | None = None
+        self._now: _Shown | None = None
+        self._written: _Shown | None = None
         self._writer: ReportWriter | None = None
         self._kinds: tuple[str, ...] = ()
         self._saved: set[str] = set()
@@ -94,15 +102,15 @@ class ProtocolScreen(QWidget):
         self._lay_out()
 
     @property
-    def _picture(self) -> ProtocolPicture:
-        if self._shown is None:
+    def _shown(self) -> _Shown:
+        if self._now is None:
             raise LookupError("no test is shown yet")
-        return self._shown
+        return self._now
 
     @property
     def protocol(self) -> Protocol:
         """What is shown."""
-        return self._picture.protocol
+        return self._shown.picture.protocol
 
     @staticmethod
     def _button(text: str, role: str, act: Callable[[], None]) -> QPushButton:
@@ -149,7 +157,7 @@ class ProtocolScreen(QWidget):
         test = model.current_test
         progress: Progress = dataclasses.replace(test.progress, results=list(model.results))
         protocol = Protocol(test.scenario, test.parameters, progress)
-        self._shown = ProtocolPicture(protocol)
+        self._now = _Shown(ProtocolPicture(protocol), test)
         self._saved.clear()
         self._said = ""
         self._folder = None
@@ -158,7 +166,7 @@ class ProtocolScreen(QWidget):
         show_in(self.table, ResultsModel(protocol, self))
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(protocol.picture.point_sets)
-        self.panel.view.show_layers(self._shown.layers)
+        self.panel.view.show_layers(self._shown.picture.layers)
         self.table.selectionModel().selectionChanged.connect(lambda *_: self.show_model())
         self._show_budget(-1)
         self._show_notice(self.tr("Not saved as CSV and PNG yet."))
@@ -178,7 +186,7 @@ class ProtocolScreen(QWidget):
     def _chosen_lines(self) -> list[int]:
         """Numbers of the lines whose rows are chosen."""
         selection = self.table.selectionModel()
-        rows = [] if selection is None or self._shown is None else sorted(
+        rows = [] if selection is None or self._now is None else sorted(
             index.row() for index in selection.selectedRows())
         return [self.protocol.progress.results[row].number for row in rows]
 
@@ -200,7 +208,7 @@ class ProtocolScreen(QWidget):
 
     def _mark(self, row: int) -> None:
         points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
-        self._picture.points.chosen = tuple(point for each in points for point in each.known)
+        self._shown.picture.points.chosen = tuple(point for each in points for point in each.known)
         self.panel.view.refresh()
         self._show_budget(row)
         why = self.protocol.reason_of(row) if row >= 0 else ""
@@ -219,13 +227,15 @@ class ProtocolScreen(QWidget):
         if row is not None:
             self.table.selectRow(row)
 
-    def _write(self, kinds: tuple[str, ...], annotation: Annotation | None = None) -> None:
-        folder = report_folder(self._flow.store.settings.result_folder, self._flow.model.current_test)
+    def _write(self, kinds: tuple[str, ...], annotation: Annotation | None = None, of: _Shown | None = None) -> None:
+        """Write files of what is shown, or of what was shown when the Operator was asked."""
+        self._written = of = of or self._shown
+        folder = report_folder(self._flow.store.settings.result_folder, of.test)
         self._folder = folder
         self._set_saving(True)
         self._kinds = kinds
         # No child of the screen, and no lambda: it may outlive both when the window closes or is made anew.
-        self._writer = ReportWriter(self.protocol, self._flow.model.current_test, folder, kinds, annotation)
+        self._writer = ReportWriter(of.picture.protocol, of.test, folder, kinds, annotation)
         self._writer.written.connect(self._show_written)
         self._writer.refused.connect(self._show_refused)
         self._writer.not_annotated.connect(self._show_not_annotated)
@@ -237,14 +247,12 @@ class ProtocolScreen(QWidget):
 
     def _open_annotation(self) -> None:
         """Ask for notes and photos beside this window, whose Stop stays at hand."""
-        dialog = AnnotationDialog(self._flow.model.current_test.progress.identity, self)
+        shown = self._shown
+        dialog = AnnotationDialog(shown.test.progress.identity, self)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        dialog.accepted.connect(lambda: self._annotate(dialog.annotation))
+        # They are kept in the record, and the files written anew.
+        dialog.accepted.connect(lambda: self._write((CSV, PNG), dialog.annotation, shown))
         dialog.show()
-
-    def _annotate(self, annotation: Annotation) -> None:
-        """Keep them in the record, and write the files anew."""
-        self._write((CSV, PNG), annotation)
 
     def _set_saving(self, is_saving: bool) -> None:
         for button in (self.save, self.save_pdf, self.save_svg, self.annotate, self.bundle):
@@ -252,8 +260,11 @@ class ProtocolScreen(QWidget):
 
     def _show_written(self, paths: list[pathlib.Path]) -> None:
         self._set_saving(False)
-        self._saved |= {path.name for path in paths}
-        files = ", ".join(sorted(self._saved))
+        names = {path.name for path in paths}
+        if self._written == self._now:
+            self._saved |= names
+            names = self._saved
+        files = ", ".join(sorted(names))
         # A long path goes on in the next line.
         folder = str(self._folder).replace(os.sep, f"{os.sep}{_MAY_BREAK}")
         saved = self.tr("Saved {files} to {folder}").format(files=files, folder=folder)
@@ -275,18 +286,19 @@ class ProtocolScreen(QWidget):
     def _show_refused(self, text: str) -> None:
         self._set_saving(False)
         self._show_notice(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
-        QTimer.singleShot(0, self._ask_folder)
+        written = self._written
+        QTimer.singleShot(0, lambda: self._ask_folder(written))
 
     def _show_not_annotated(self, text: str) -> None:
         self._set_saving(False)
         self._show_notice(translated(text))
 
-    def _ask_folder(self) -> None:
+    def _ask_folder(self, of: _Shown | None) -> None:
         folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path.home())
         if folder is not None:
             store = self._flow.store
             store.change(dataclasses.replace(store.settings, result_folder=folder))
-            self._write(self._kinds)
+            self._write(self._kinds, of=of)
 
     def _open_folder(self) -> None:
         if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._folder))):

@@ -13,6 +13,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.history.comparison import Comparison
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.station.readiness import RUNNING
+from mtr_operator.station.test import Test
 
 from ..bus.bus_window import BusWindow
 from ..calibration.guide_window import GuideWindow
@@ -235,18 +236,18 @@ class MainWindow(QMainWindow):
     def _tell(self, text: str) -> None:
         QTimer.singleShot(0, lambda: self._show_notice(text))
 
-    def _want_progress_folder(self, text: str) -> None:
-        QTimer.singleShot(0, lambda: self._ask_progress_folder(text))
+    def _want_progress_folder(self, test: Test, text: str) -> None:
+        QTimer.singleShot(0, lambda: self._ask_progress_folder(test, text))
 
     def _say_saved(self, path: str) -> None:
         self.measurement.say(self.tr("Saved to {path}").format(path=path))
 
-    def _ask_progress_folder(self, text: str) -> None:
+    def _ask_progress_folder(self, test: Test, text: str) -> None:
         show_message(self, self.windowTitle(),
                      translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
         folder = ask_folder(self, self.tr("Folder for the progress of tests"), pathlib.Path.home())
         if folder is not None:
-            self._flow.use_progress_folder(folder)
+            self._flow.use_progress_folder(test, folder)
 
     def _show_notice(self, text: str) -> None:
         show_message(self, self.windowTitle(), translated(text))

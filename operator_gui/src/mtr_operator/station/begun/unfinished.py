@@ -43,8 +43,8 @@ class UnfinishedTest:
         self._keep(path)
 
     def move(self, test: Test) -> None:
-        """What is remembered of a test is written elsewhere now."""
-        if self.path is not None and test.progress.results:
+        """What is remembered of a test is written elsewhere now; another one that is remembered stays."""
+        if self.path is not None and self.path.name == test.path.name and test.progress.results:
             self._keep(test.path)
 
     def forget(self) -> None:

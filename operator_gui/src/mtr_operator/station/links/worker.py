@@ -253,9 +253,9 @@ class Worker:
         try:
             test.save()
         except OperatorError as error:
-            self._mailbox.put(ProgressSaved(str(error)))
+            self._mailbox.put(ProgressSaved(test, str(error)))
         else:
-            self._mailbox.put(ProgressSaved(""))
+            self._mailbox.put(ProgressSaved(test, ""))
 
     def _measure(self, test: Test, ticket: int) -> None:
         self._close_robot()
