@@ -94,3 +94,19 @@ def test_key_that_is_held_down_skips_one_line(operator):
     shortcuts = screen.findChildren(QShortcut)
     assert shortcuts and not any(shortcut.autoRepeat() for shortcut in shortcuts)
     operator.click(operator.window.header.stop)
+
+
+def test_window_that_hangs_stops_the_robot_and_says_so(operator, monkeypatch):
+    monkeypatch.setattr("mtr_operator.station.links.attention.LIMIT_S", 1.0)
+    screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")
+    operator.wait(screen.taken.isVisible)
+    # No event of Qt is handled meanwhile, no click on Stop either.
+    time.sleep(2.0)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
+    assert "did not react for 1 s" in screen.trouble.text() and screen.trouble.isVisible()
+    operator.wait(screen.resume.isEnabled)
+    operator.click(screen.resume)
+    operator.wait(screen.taken.isVisible)
+    operator.click(operator.window.header.stop)
+    operator.wait(lambda: operator.model.phase is Phase.PAUSED)
+    assert screen.trouble.text() == ""

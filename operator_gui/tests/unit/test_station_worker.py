@@ -1,5 +1,6 @@
 """The thread of the links, with the kinematic robot and Car of these tests."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 import json
 import sys
 import threading
@@ -23,6 +24,7 @@ from mtr_operator.station.events import (
     RunEnded,
     StandstillSeen,
 )
+from mtr_operator.station.links.attention import Attention
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.mailbox import Mailbox
@@ -30,6 +32,7 @@ from mtr_operator.station.test import new_test, open_test
 
 LIMIT_S = 30.0
 CONNECTION = Connection(can=CanChoice(SIMULATED))
+HUNG = "The window did not react for 3 s, nor would its Stop have: the robot was stopped."
 
 
 class Opener(LinkOpener):
@@ -192,6 +195,65 @@ def test_robot_that_maps_the_car_stops_when_the_laptop_has_slept(post, opener, r
     orders = [desired for _, desired in robot_link.answers]
     first = next(index for index, desired in enumerate(orders) if desired.map_car_id)
     assert not orders[first].stop and orders[-1].stop
+
+
+@pytest.fixture
+def hanging(opener, post):
+    """A worker whose every look takes a twentieth of a second, and a list that grows as often as the view is seen."""
+    seen, ticks = [], itertools.count()
+    made = Worker(CONNECTION, opener, post.box, attention=Attention(lambda: len(seen), lambda: 0.05 * next(ticks)))
+    yield made, seen
+    assert made.close(LIMIT_S)
+
+
+def test_test_of_a_window_that_hangs_is_stopped_and_kept(hanging, post, four_lines, robot_link):
+    worker, seen = hanging
+    next_status = robot_link.next_status
+
+    def hangs_in_the_second_line(timeout_s):
+        if not four_lines.progress.results:
+            seen.append(timeout_s)
+        return next_status(timeout_s)
+    robot_link.next_status = hangs_in_the_second_line
+    worker.start()
+    worker.run_test(four_lines)
+    ended = post.wait_for(RunEnded)
+    assert (ended.outcome, ended.text, len(ended.results)) == (Outcome.STOPPED, HUNG, 1)
+    assert robot_link.answers[-1][1].stop and len(stored(four_lines)) == 1
+    assert HUNG in [event.entry.text for event in post.events if isinstance(event, EventLogged)]
+    robot_link.next_status = lambda timeout_s: (seen.append(timeout_s), next_status(timeout_s))[1]
+    worker.run_test(four_lines)
+    assert post.wait_for(RunEnded).outcome is Outcome.COMPLETE
+
+
+def test_robot_that_maps_the_car_for_a_window_that_hangs_is_stopped(hanging, post, robot_link):
+    worker, _ = hanging
+    worker.start()
+    post.wait_for(LinksOpened)
+    worker.request_car(CarRequest.MAP)
+    assert post.wait_for(StandstillSeen).text == HUNG
+    assert worker.close(LIMIT_S)
+    orders = [desired for _, desired in robot_link.answers]
+    first = next(index for index, desired in enumerate(orders) if desired.map_car_id)
+    assert not orders[first].stop and orders[-1].stop
+
+
+def test_window_counts_as_hanging_only_while_the_application_runs():
+    taken, now_s = [0], [0.0]
+    attention = Attention(lambda: taken[0], lambda: now_s[0])
+
+    def look_after(passed_s):
+        now_s[0] += passed_s
+        return attention.look()
+    # The whole application was stopped: the window has had no time either.
+    assert look_after(60.0) == ""
+    assert [look_after(0.4) for _ in range(6)] == [""] * 6
+    taken[0] += 1
+    assert [look_after(0.4) for _ in range(8)] == [""] * 8
+    # Said once.
+    assert [look_after(0.4) for _ in range(4)] == [HUNG, "", "", ""]
+    taken[0] += 1
+    assert [look_after(0.4) for _ in range(9)].count(HUNG) == 1
 
 
 def test_defect_of_a_scenario_is_a_sentence_and_the_thread_goes_on(worker, post, four_lines, monkeypatch):

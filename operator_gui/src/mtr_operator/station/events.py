@@ -74,8 +74,8 @@ class RobotSilent:
 
 @dataclass(frozen=True)
 class StandstillSeen:
-    """The application did not run for a while between two tests: the laptop slept, or it was stopped. text: a sentence
-    that says for how long."""
+    """The application, or its view, did not run for a while between two tests: the laptop slept, it was stopped, or
+    the window hung. text: a sentence that says for how long."""
 
     text: str
 

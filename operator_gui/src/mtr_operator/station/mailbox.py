@@ -41,7 +41,10 @@ class Batch:
 
 class Mailbox:
     """Thread-safe. wake is called, in the putting thread, when the first thing comes into an empty mailbox. wall_clock:
-    the laptop's time of day, s since 1970."""
+    the laptop's time of day, s since 1970.
+
+    Attributes: taken: how often it was emptied.
+    """
 
     def __init__(self, wake: Callable[[], None] = lambda: None, wall_clock: Callable[[], float] = time.time):
         self._wake = wake
@@ -55,6 +58,7 @@ class Mailbox:
         self._preflight = KeptPreflight()
         self._clock_offset = ClockOffset(wall_clock)
         self._said: dict[str, tuple[Problem, ...]] = {}
+        self.taken = 0
 
     def put(self, event: StationEvent) -> None:
         """An event; none is lost."""
@@ -91,6 +95,7 @@ class Mailbox:
             self._events, self._robot, self._trail, self._said = [], None, [], {}
             self._sight = None
             self._trail_begins = False
+            self.taken += 1
         return batch
 
     def _is_empty(self) -> bool:

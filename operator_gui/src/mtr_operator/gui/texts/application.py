@@ -83,6 +83,8 @@ SENTENCES = (
                                   "ports are the robot's."),
     QT_TRANSLATE_NOOP("Sentence", "The laptop slept for {} s, and the robot stood meanwhile."),
     QT_TRANSLATE_NOOP("Sentence", "The application stood still for {} s, and the robot stood meanwhile."),
+    QT_TRANSLATE_NOOP("Sentence", "The window did not react for {} s, nor would its Stop have: the robot was "
+                                  "stopped."),
     QT_TRANSLATE_NOOP("Sentence", "{} The line at hand is measured anew when the test goes on."),
     QT_TRANSLATE_NOOP("Sentence", "The robot started anew during the test; the measured lines are kept, go on with "
                                   "a continued test."),

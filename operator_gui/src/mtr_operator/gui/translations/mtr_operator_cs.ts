@@ -6957,6 +6957,11 @@
         <source>A test is being measured: stop it first, then open or begin another one.</source>
         <translation>Probíhá měření testu: nejdříve je zastavte, pak otevřete nebo začněte jiný.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The window did not react for {} s, nor would its Stop have: the robot was stopped.</source>
+        <translation>Okno {} s nereagovalo a jeho Stop by nezabral: robot byl zastaven.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -71,6 +71,13 @@ class IdleLoop:
         self._desired = replace(self._desired, stop=request is CarRequest.STOP, check_car_id=self._check_id,
                                 map_car_id=self._map_id)
 
+    @property
+    def has_order(self) -> bool:
+        """True while something is wanted for which the robot may move."""
+        wanted = self._desired
+        key = (wanted.key_height_m, wanted.press)
+        return not wanted.stop and any([wanted.map_car_id, wanted.check_car_id, *(each is not None for each in key)])
+
     def use_car(self, car: CarLink) -> None:
         """Watch the Car through another link from now on."""
         self._car = car

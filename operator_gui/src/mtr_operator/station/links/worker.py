@@ -6,6 +6,7 @@ import contextlib
 import logging
 import queue
 import threading
+from dataclasses import replace
 from typing import Callable
 
 from mtr_operator.domain.absent_car import AbsentCarLink
@@ -35,6 +36,7 @@ from ..events import (
 from ..handle_prompt import AskedPerson, Prompt
 from ..mailbox import Mailbox
 from ..test import Test
+from .attention import Attention
 from .idle_loop import CalibrationRequest, CarRequest, IdleLoop
 from .measurement_run import Answers, MeasurementRun
 from .stop_order import StopOrder
@@ -50,10 +52,13 @@ class Worker:
     """Everything that waits for robot or Car happens in its thread; requests are taken between two Statuses."""
 
     def __init__(self, connection: Connection, opener: LinkOpener, mailbox: Mailbox,
-                 new_standstill: Callable[[], Standstill] = lambda: Standstill(SILENCE_LIMIT_S)):
-        """new_standstill: makes what notices that the laptop slept, for each run and for the time between them."""
+                 new_standstill: Callable[[], Standstill] = lambda: Standstill(SILENCE_LIMIT_S),
+                 attention: Attention | None = None):
+        """new_standstill: makes what notices that the laptop slept, for each run and for the time between them.
+        attention: notices that the view hangs; None for the mailbox's own."""
         self._new_standstill = new_standstill
         self._standstill = new_standstill()
+        self._attention = attention or Attention(lambda: mailbox.taken)
         self._connection = connection
         self._opener = opener
         self._mailbox = mailbox
@@ -173,6 +178,7 @@ class Worker:
 
     def _turn(self) -> None:
         self._look_for_standstill()
+        self._look_for_attention()
         self._run_short_requests()
         with contextlib.suppress(queue.Empty):
             self._requests.get_nowait()()
@@ -193,10 +199,19 @@ class Worker:
         """The robot does not go on with what it was ordered to before the laptop slept."""
         said = self._standstill.look()
         if said:
-            if self._idle is not None:
-                self._idle.request_car(CarRequest.STOP)
-            self._event_log.add(EventKind.FAULT, said, WARNING)
-            self._mailbox.put(StandstillSeen(said))
+            self._stop_unattended(said)
+
+    def _look_for_attention(self) -> None:
+        """Nor with what it was ordered to by a window that hangs."""
+        said = self._attention.look()
+        if said and self._idle is not None and self._idle.has_order:
+            self._stop_unattended(said)
+
+    def _stop_unattended(self, said: str) -> None:
+        if self._idle is not None:
+            self._idle.request_car(CarRequest.STOP)
+        self._event_log.add(EventKind.FAULT, said, WARNING)
+        self._mailbox.put(StandstillSeen(said))
 
     def _open(self) -> bool:
         part = "car"
@@ -261,12 +276,23 @@ class Worker:
         self._close_robot()
         # A stop that came meanwhile stays in force, and ends the run at its first Status.
         self._stop.lift(ticket)
+        unattended: list[str] = []
         answers = Answers(self._released, self._person, self._person, self._skipping)
         run = MeasurementRun(test, self._new_robot, self._car, self._mailbox, answers, event_log=self._event_log,
                              standstill=self._new_standstill())
-        self._mailbox.put(run.run(lambda: self._stop.is_in_force, self._run_short_requests))
+        ended = run.run(lambda: self._is_stopped(unattended), self._run_short_requests)
+        self._mailbox.put(replace(ended, text=ended.text or "".join(unattended)))
         # What happened during the run was told there.
         self._standstill = self._new_standstill()
+
+    def _is_stopped(self, unattended: list[str]) -> bool:
+        """True when the Operator has stopped the robot, or cannot; the reason goes to the list then."""
+        said = self._attention.look()
+        if said:
+            unattended.append(said)
+            self._event_log.add(EventKind.FAULT, said, WARNING)
+            self._stop.give()
+        return self._stop.is_in_force
 
     def _released(self, _hold_id: int) -> int:
         return self._released_hold
