@@ -152,7 +152,8 @@ def test_closing_lets_the_adapter_go(newcomer, dialog, bus):
     newcomer.wait(lambda: bus.stops)
 
 
-def test_adapter_of_the_open_link_is_lent_and_given_back(operator, bus):
+@pytest.mark.parametrize("is_left_by_settings", [False, True])
+def test_adapter_of_the_open_link_is_lent_and_given_back(operator, bus, is_left_by_settings):
     flow = operator.application.flow
     operator.window.show_settings()
     settings = operator.window._opened[next(iter(operator.window._opened))]
@@ -165,7 +166,8 @@ def test_adapter_of_the_open_link_is_lent_and_given_back(operator, bus):
     operator.click(dialog.act)
     operator.wait(lambda: bus.starts)
     assert flow.connecting.can_in_use is None
-    dialog.reject()
+    (settings if is_left_by_settings else dialog).reject()
+    operator.wait(lambda: bus.stops)
     operator.wait(lambda: getattr(flow.connecting.can_in_use, "channel", "") == "/dev/ttyACM7")
 
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from PyQt5.QtCore import QObject, Qt
+from PyQt5.QtCore import QEvent, QObject, Qt
 from PyQt5.QtWidgets import QWidget
 
 from ..flow import Flow
@@ -11,13 +11,20 @@ from .learn_window import LearnWindow
 
 
 class LearnOffer(QObject):
-    """Lives as long as the window of the form."""
+    """Lives as long as the window of the form, and so does the dialog: it has the adapter, and gives it back first."""
 
     def __init__(self, flow: Flow, form: CanForm, window: QWidget):
         super().__init__(window)
         self._flow, self._form = flow, form
         self._dialog: LearnWindow | None = None
         form.learn_wanted.connect(self._open)
+        window.installEventFilter(self)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """See QObject; a minimized window is hidden by the system."""
+        if event.type() == QEvent.Type.Hide and not event.spontaneous() and self._dialog:
+            self._dialog.reject()
+        return super().eventFilter(watched, event)
 
     def _open(self) -> None:
         choice = self._form.choice
