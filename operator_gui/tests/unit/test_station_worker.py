@@ -119,6 +119,13 @@ def test_refusal_names_the_part_and_ends_the_thread(worker, post, opener, refusa
     assert (refused.part, refused.text) == (part, str(refusal))
 
 
+def test_defect_while_the_links_are_opened_is_a_refusal_too(worker, post, opener):
+    opener.refusal = ValueError("a driver's own")
+    worker.start()
+    refused = post.wait_for(LinkRefused)
+    assert (refused.part, refused.text) == ("robot", "The application has a defect: ValueError: a driver's own")
+
+
 def test_missing_contract_is_a_sentence_in_the_window_too(post, monkeypatch):
     for name in [name for name in sys.modules if name.startswith(("mtr_proto", "mtr_operator.robot_link."))]:
         monkeypatch.delitem(sys.modules, name)
@@ -227,7 +234,14 @@ def test_test_of_a_window_that_hangs_is_stopped_and_kept(hanging, post, four_lin
 
 
 def test_robot_that_maps_the_car_for_a_window_that_hangs_is_stopped(hanging, post, robot_link):
-    worker, _ = hanging
+    worker, seen = hanging
+    next_status = robot_link.next_status
+
+    def hangs_while_the_car_is_mapped(timeout_s):
+        if not any(desired.map_car_id for _, desired in robot_link.answers):
+            seen.append(timeout_s)
+        return next_status(timeout_s)
+    robot_link.next_status = hangs_while_the_car_is_mapped
     worker.start()
     post.wait_for(LinksOpened)
     worker.request_car(CarRequest.MAP)
@@ -250,10 +264,9 @@ def test_window_counts_as_hanging_only_while_the_application_runs():
     assert [look_after(0.4) for _ in range(6)] == [""] * 6
     taken[0] += 1
     assert [look_after(0.4) for _ in range(8)] == [""] * 8
-    # Said once.
-    assert [look_after(0.4) for _ in range(4)] == [HUNG, "", "", ""]
+    assert [look_after(0.4) for _ in range(4)] == [HUNG] * 4
     taken[0] += 1
-    assert [look_after(0.4) for _ in range(9)].count(HUNG) == 1
+    assert [look_after(0.4) for _ in range(9)] == [""] * 8 + [HUNG]
 
 
 def test_defect_of_a_scenario_is_a_sentence_and_the_thread_goes_on(worker, post, four_lines, monkeypatch):

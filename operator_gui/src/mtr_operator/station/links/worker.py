@@ -228,6 +228,11 @@ class Worker:
         except OperatorError as error:
             self._mailbox.put(LinkRefused(part, str(error), _bus_of(error)))
             return False
+        # An adapter's driver may raise whatever it likes, and a view waits for an answer.
+        except Exception as error:
+            logging.exception("The links were not opened because of a defect.")
+            self._mailbox.put(LinkRefused(part, f"The application has a defect: {type(error).__name__}: {error}"))
+            return False
         self._idle = IdleLoop(self._robot, self._car, self._released, self._event_log)
         return True
 
@@ -288,7 +293,7 @@ class Worker:
     def _is_stopped(self, unattended: list[str]) -> bool:
         """True when the Operator has stopped the robot, or cannot; the reason goes to the list then."""
         said = self._attention.look()
-        if said:
+        if said and not self._stop.is_in_force:
             unattended.append(said)
             self._event_log.add(EventKind.FAULT, said, WARNING)
             self._stop.give()
