@@ -1,6 +1,7 @@
 """What is found of a test whose files lost, doubled or changed something, and of a robot that went on for too long."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import random
 import shutil
 import subprocess
 import sys
@@ -12,7 +13,7 @@ from nav_msgs.msg import Odometry
 
 from mtr_benchmarks.kills import __main__ as kills_main
 from mtr_benchmarks.kills import kept as kept_module
-from mtr_benchmarks.kills.deaths import first_zero_s, kill_of, silence
+from mtr_benchmarks.kills.deaths import LIMITS_S, first_zero_s, kill_of, silence
 from mtr_benchmarks.kills.kept import CHANGED, DOUBLED, LOST, UNKEPT, UNREADABLE, Kept, wrong_distances
 from mtr_benchmarks.kills.killed import Found
 from mtr_benchmarks.kills.robot import KilledRobot
@@ -171,6 +172,21 @@ def test_robot_that_turns_has_not_stopped():
     turning.twist.twist.angular.z = 0.8
     KilledRobot._take_wheels(robot, turning)
     assert robot._sent[0].mps > 0.2 and robot._wheels[0].mps > 0.2
+
+
+@pytest.mark.parametrize("comes_again, goes_on, is_back", [
+    # Without an application time stands, and who is back says nothing.
+    (True, False, True), (True, True, False), (False, True, False), (False, False, False)])
+def test_silent_node_is_back_when_it_was_started_and_the_test_came_to_its_end(
+        monkeypatch, comes_again, goes_on, is_back):
+    monkeypatch.setattr("mtr_benchmarks.kills.robot.BACK_LIMIT_S", 0.05)
+    monkeypatch.setattr("mtr_benchmarks.kills.robot.os.kill", lambda *_: None)
+    words = {node: [4.9, 5.0] for node in LIMITS_S}
+    processes = iter([7] + [8 if comes_again else None] * 1000)
+    robot = SimpleNamespace(_process_of=lambda _: next(processes), _waited=KilledRobot._waited, _sent=speeds(5.4),
+                            _wheels=speeds(5.5), _words_s=words)
+    kill = KilledRobot.kill_one(robot, random.Random(1), lambda: goes_on)
+    assert (kill.back_s, kill.is_back) == (None, is_back)
 
 
 def test_lost_line_is_not_what_it_must_be():

@@ -21,6 +21,8 @@ class Kill(NamedTuple):
         stopped_s: until they were sent zero for as long as the node was away; None: they were not.
         stood_s: until they stood, which a base on tyres does somewhat later.
         back_s: until its next word; None: there was none.
+        is_back: it was started again, and has said a word, unless the test came to its end meanwhile: without an
+            application time stands still, and nobody says anything.
     """
 
     node: str
@@ -28,6 +30,7 @@ class Kill(NamedTuple):
     stopped_s: Optional[float]
     stood_s: Optional[float]
     back_s: Optional[float]
+    is_back: bool = True
 
     @property
     def limit_s(self) -> float:
@@ -53,7 +56,8 @@ def silence(words_s: Sequence[float]) -> Tuple[float, float]:
     return max(zip(words_s, words_s[1:]), key=lambda pair: pair[1] - pair[0])
 
 
-def kill_of(node: str, sent: Speeds, wheels: Speeds, last_s: float, back_s: Optional[float]) -> Kill:
+def kill_of(node: str, sent: Speeds, wheels: Speeds, last_s: float, back_s: Optional[float],
+            *, is_back: bool = True) -> Kill:
     """Of a robot whose node said its last word at a time, and the next at another.
 
     sent, wheels: speeds that were sent to the wheels, and theirs, each with its time.
@@ -61,7 +65,8 @@ def kill_of(node: str, sent: Speeds, wheels: Speeds, last_s: float, back_s: Opti
     before = [speed_mps for time_s, speed_mps in sent if time_s <= last_s]
     end_s = sent[-1][0] if back_s is None else back_s
     return Kill(node, abs(before[-1]) if before else 0.0, first_zero_s(sent, last_s, end_s),
-                standstill_s(wheels, last_s, end_s), None if back_s is None else back_s - last_s)
+                standstill_s(wheels, last_s, end_s), None if back_s is None else back_s - last_s,
+                is_back=is_back)
 
 
 def first_zero_s(sent: Speeds, begin_s: float, end_s: float) -> Optional[float]:

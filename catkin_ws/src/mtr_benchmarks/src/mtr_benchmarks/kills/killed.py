@@ -101,10 +101,10 @@ class _KilledTest:
         return time.monotonic() + self._chance.uniform(SOONEST_S, LATEST_S)
 
     def _kill(self, application: "subprocess.Popen[bytes]") -> None:
-        kill = self._robot.kill_one(self._chance)
+        kill = self._robot.kill_one(self._chance, lambda: application.poll() is None)
         if kill:
             self.found.kills.append(kill)
-            self.kept.found[NOT_BACK] += kill.back_s is None
+            self.kept.found[NOT_BACK] += not kill.is_back
             self.kept.found[DROVE_ON] += not kill.stopped_in_time
             print(f"{kill}; the application {'goes on' if application.poll() is None else 'has ended'}", flush=True)
         self.kept.look()

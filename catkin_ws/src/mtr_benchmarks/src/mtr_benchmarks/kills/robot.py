@@ -66,8 +66,8 @@ class KilledRobot:
     def __exit__(self, *_: object) -> None:
         self._open.close()
 
-    def kill_one(self, chance: random.Random) -> Optional[Kill]:
-        """Kill a node and wait until it is back; None when it is not there."""
+    def kill_one(self, chance: random.Random, goes_on: Callable[[], bool]) -> Optional[Kill]:
+        """Kill a node and wait until it is back; None when it is not there. goes_on: the application runs."""
         node = chance.choice(list(LIMITS_S))
         killed, words = self._process_of(node), self._words_s[node]
         if killed is None or not words:
@@ -75,11 +75,12 @@ class KilledRobot:
         first = len(words) - 1
         os.kill(killed, signal.SIGKILL)
         if not self._waited(lambda: self._process_of(node) not in (None, killed)):
-            return kill_of(node, list(self._sent), list(self._wheels), words[-1], None)
+            return kill_of(node, list(self._sent), list(self._wheels), words[-1], None, is_back=False)
         # What it said before its death has arrived by now.
         said = len(words)
-        if not self._waited(lambda: len(words) > said):
-            return kill_of(node, list(self._sent), list(self._wheels), words[-1], None)
+        self._waited(lambda: len(words) > said or not goes_on())
+        if len(words) == said:
+            return kill_of(node, list(self._sent), list(self._wheels), words[-1], None, is_back=not goes_on())
         return kill_of(node, list(self._sent), list(self._wheels), *silence(words[first:]))
 
     @staticmethod
