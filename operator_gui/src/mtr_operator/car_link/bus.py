@@ -37,6 +37,9 @@ if TYPE_CHECKING:
 
 # Wall time for which observe() waits at most for the bus to catch up.
 CATCH_UP_LIMIT_S = 0.25
+# The same for a bus that was late at the Status before, of a robot whose time goes on. Who waited each time for one
+# that is dead would fall behind the ten Statuses a second, and the robot would stop because its Operator is silent.
+LATE_LIMIT_S = 0.02
 _NOT_CONNECTED = "The Car's CAN bus is not connected."
 
 
@@ -66,7 +69,7 @@ class CanCarLink(CarLink, FrameSink):
         frames_received: data frames of any message since the start.
     """
 
-    READER = CanReader
+    READER, CATCH_UP_S = CanReader, CATCH_UP_LIMIT_S
 
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
                  options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic,
@@ -87,6 +90,7 @@ class CanCarLink(CarLink, FrameSink):
         self._further = FurtherBuses(self._settings, dict(further or {}), clock)
         self._cycles = CycleCheck()
         self._phone: DistanceFeed | None = None
+        self._is_late = False
         self.profile: CarProfile | None = None
         self.frames_received = 0
 
@@ -122,7 +126,10 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             watch.status(status, arrival_s)
             logged = self._log.frames
-            self._changed.wait_for(lambda: bool(self._trouble.fault) or watch.has_caught_up(), CATCH_UP_LIMIT_S)
+            is_late = self._is_late and not status.waits_for_answer
+            patience_s = LATE_LIMIT_S if is_late else self.CATCH_UP_S
+            self._is_late = not self._changed.wait_for(lambda: bool(self._trouble.fault) or watch.has_caught_up(),
+                                                       patience_s)
             self._trouble.status(status.stamp_s)
             told_s = self._clock()
             self._log.status(logged, arrival_s, told_s, "" if watch.stamps is None else watch.stamps.name)

@@ -8,6 +8,10 @@ from mtr_campaign.kernels.registry import kernel_of
 from mtr_campaign.plan.run import Run
 from mtr_campaign.work.folder import FAILED, LOG_FILE, CampaignFolder
 from mtr_campaign.work.one_run import execute
+from mtr_operator.car_link.drivers.in_process import InProcessCarLink
+from mtr_operator.car_link.fake_message import DemoLockMessage
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.progress_file import FILE_NAME, open_progress
 
@@ -68,3 +72,19 @@ def test_frames_of_the_application_reach_the_car_once():
     port.send(0x100, b"\1", 5)
     port.take(0x321, b"\2")
     assert [(frame.can_id, frame.data) for frame in port.taken()] == [(0x321, b"\2")] and port.taken() == []
+
+
+def test_nobody_waits_for_frames_that_come_in_the_same_thread(monkeypatch):
+    now_s, message, waited = [0.0], DemoLockMessage(), []
+    link = InProcessCarLink("mtr_demo_car", lambda: now_s[0], lambda *_: None)
+    link.connect()
+    monkeypatch.setattr(link._changed, "wait", waited.append)
+    for step in range(1, 200):
+        now_s[0] = 0.02 * step
+        # The last two fifths of a second nothing comes: less than a bus that is called silent.
+        if step < 180:
+            link.received(0x320, message.next(), round(now_s[0] * 1e9))
+        if step % 5 == 0:
+            link.observe(RobotStatus(step, 1, now_s[0], waits_for_answer=True))
+    assert link.lock_state is not LockState.UNKNOWN and not any(waited)
+    link.close()
