@@ -17,8 +17,9 @@ SLOW_S = 2.0
 
 
 @pytest.fixture
-def told(operator):
-    """Sentences that the window is to show."""
+def told(operator, monkeypatch):
+    """Sentences that the window is to show; no dialog waits for somebody who has read them."""
+    monkeypatch.setattr("mtr_operator.gui.windows.main_window.show_message", lambda *_: None)
     found = []
     operator.application.flow.failed.connect(found.append)
     return found
