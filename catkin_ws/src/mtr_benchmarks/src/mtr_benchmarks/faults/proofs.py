@@ -31,7 +31,7 @@ class Proof:
 LANES = (
     (Proof("matrix", "faults.json", ("-m", "mtr_benchmarks.faults")),),
     (Proof("soak", "soak.json", ("-m", "mtr_benchmarks.soak", "--hours", "1")),
-     Proof("fuzz", "fuzz.json", ("tests/fuzz/run.py",)),
+     Proof("fuzz", "fuzz.json", ("tests/fuzz/run.py", "--cases", "100000")),
      Proof("fuzz of Commands", "fuzz_commands.json", (_COMMAND_FUZZ,)),
      Proof("kills", "kills.json", ("operator_gui/tests/proofs/kills.py", "--kills", "100")),
      Proof("kills of nodes", "node_kills.json", ("-m", "mtr_benchmarks.kills", "--kills", "10")),
