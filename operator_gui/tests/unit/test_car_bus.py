@@ -61,6 +61,28 @@ def test_observe_waits_for_frames_that_precede_the_status(adapter, link):
     assert [event.lock_state for event in events] == [LockState.UNLOCKED]
 
 
+def test_adapter_says_that_all_frames_are_here_to_a_robot_whose_time_stands(adapter, link):
+    """No later frame tells it, and the machine may be busy: what is measured in lock-step does not depend on it."""
+    course = Course(link, adapter.send)
+    course.run(4.0)
+    course.step += 25
+    course.message.is_locked = UNLOCKED
+    told = threading.Event()
+    adapter.flags = b""
+    late = threading.Timer(0.6, lambda: (adapter.send(course.message.next(), course.now_s - 0.3), told.set(),
+                                         adapter.send_bytes(b"F00\r" * 100)))
+    late.start()
+    link.observe(RobotStatus(9998, 1, round(course.now_s, 6), waits_for_answer=True))
+    # The frame is farther from the Status than frames are from each other, and nothing comes behind it.
+    assert told.is_set() and link.frames_received == 201
+    late.join()
+    adapter.flags = b"F00\r"
+    started = time.monotonic()
+    for number in range(5):
+        link.observe(RobotStatus(9999 + number, 1, round(course.now_s + 0.01, 6), waits_for_answer=True))
+    assert time.monotonic() - started < 0.6
+
+
 def test_observe_waits_no_longer_than_the_limit(adapter, link):
     course = Course(link, adapter.send)
     course.run(4.0)

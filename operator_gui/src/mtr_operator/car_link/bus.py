@@ -20,6 +20,7 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .adapter import AdapterSettings, open_adapter
 from .bus_trouble import BusTrouble
 from .can_frame import CanFrame
+from .catch_up import CatchUp
 from .further.buses import FurtherBuses
 from .further.cycles import CycleCheck
 from .lock_watch import LockWatch
@@ -35,11 +36,6 @@ from .traffic import TrafficMeter
 if TYPE_CHECKING:
     from .uds.poller import StatePoller
 
-# Wall time for which observe() waits at most for the bus to catch up.
-CATCH_UP_LIMIT_S = 0.25
-# The same for a bus that was late at the Status before, of a robot whose time goes on. Who waited each time for one
-# that is dead would fall behind the ten Statuses a second, and the robot would stop because its Operator is silent.
-LATE_LIMIT_S = 0.02
 _NOT_CONNECTED = "The Car's CAN bus is not connected."
 
 
@@ -69,7 +65,7 @@ class CanCarLink(CarLink, FrameSink):
         frames_received: data frames of any message since the start.
     """
 
-    READER, CATCH_UP_S = CanReader, CATCH_UP_LIMIT_S
+    READER = CanReader
 
     def __init__(self, interface: str, channel: str, bitrate: int = 500_000, profile: str = "mtr_demo_car",
                  options: dict[str, Any] | None = None, *, clock: Callable[[], float] = time.monotonic,
@@ -81,6 +77,7 @@ class CanCarLink(CarLink, FrameSink):
         self._watch: LockWatch | None = None
         self._reader: CanReader | None = None
         self._changed = threading.Condition()
+        self._catch_up = CatchUp(self._changed)
         self._trouble = BusTrouble(self._settings)
         self._log = KeptLog()
         self._traffic = TrafficMeter(bitrate, data_bitrate)
@@ -90,7 +87,6 @@ class CanCarLink(CarLink, FrameSink):
         self._further = FurtherBuses(self._settings, dict(further or {}), clock)
         self._cycles = CycleCheck()
         self._phone: DistanceFeed | None = None
-        self._is_late = False
         self.profile: CarProfile | None = None
         self.frames_received = 0
 
@@ -126,10 +122,8 @@ class CanCarLink(CarLink, FrameSink):
         with self._changed:
             watch.status(status, arrival_s)
             logged = self._log.frames
-            is_late = self._is_late and not status.waits_for_answer
-            patience_s = LATE_LIMIT_S if is_late else self.CATCH_UP_S
-            self._is_late = not self._changed.wait_for(lambda: bool(self._trouble.fault) or watch.has_caught_up(),
-                                                       patience_s)
+            self._catch_up.wait(lambda: bool(self._trouble.fault) or watch.has_caught_up(), status.waits_for_answer,
+                                self._reader.settled)
             self._trouble.status(status.stamp_s)
             told_s = self._clock()
             self._log.status(logged, arrival_s, told_s, "" if watch.stamps is None else watch.stamps.name)
@@ -288,6 +282,11 @@ class CanCarLink(CarLink, FrameSink):
         """See FrameSink."""
         with self._changed:
             self._trouble.fault = text
+            self._changed.notify_all()
+
+    def answered(self) -> None:
+        """See FrameSink."""
+        with self._changed:
             self._changed.notify_all()
 
     def reopened(self) -> None:

@@ -17,6 +17,7 @@ from .adapter import shut_down
 from .can_frame import CanFrame
 from .clocks.frame_stamps import frame_time
 from .drivers.health import AdapterHealth
+from .drivers.slcan import StampedSlcanBus
 
 _POLL_S = 0.1
 _REOPEN_PERIOD_S = 1.0
@@ -45,6 +46,9 @@ class FrameSink(ABC):
     def reopened(self) -> None:
         """The adapter was opened again."""
 
+    def answered(self) -> None:  # noqa: B027, most have asked nothing
+        """The adapter has said the word for which it was asked."""
+
     def tick(self, now_s: float) -> None:  # noqa: B027, most have nothing to do
         """Time has passed, by the laptop's monotonic clock; ten times a second and with each frame."""
 
@@ -69,7 +73,7 @@ class CanReader:
 
     def start(self) -> None:
         """Open the adapter, or raise ConnectionFailed; then read in a thread."""
-        self._bus = self._open_bus()
+        self._bus = self._opened()
         self._thread = threading.Thread(target=self._run, name="can-reader", daemon=True)
         self._thread.start()
 
@@ -89,6 +93,18 @@ class CanReader:
         self._outgoing.put((message, left))
         return left
 
+    def settled(self) -> Callable[[], bool] | None:
+        """Have the adapter say a word behind all frames of before; what is given tells whether they have been read.
+        None: this one has no such word, or is not there."""
+        bus = self._bus
+        if not isinstance(bus, StampedSlcanBus):
+            return None
+        # An adapter that has gone is the thread's business.
+        with contextlib.suppress(Exception):
+            number = bus.request_flags()
+            return lambda: bus.flags_answered >= number
+        return None
+
     def _run(self) -> None:
         while not self._stopping.is_set():
             bus = self._bus
@@ -105,6 +121,12 @@ class CanReader:
         # What is let go with the last order shall not stay taken; the adapter may have gone.
         with contextlib.suppress(Exception):
             self._send_all()
+
+    def _opened(self) -> can.BusABC:
+        bus = self._open_bus()
+        if isinstance(bus, StampedSlcanBus):
+            bus.answered = self._sink.answered
+        return bus
 
     def _send_all(self) -> None:
         """What waits; nothing of it when there is no adapter, for it would come too late."""
@@ -137,7 +159,7 @@ class CanReader:
         if self._stopping.wait(_REOPEN_PERIOD_S):
             return
         try:
-            bus = self._open_bus()
+            bus = self._opened()
         except ConnectionFailed as error:
             self._sink.fault(str(error))
             return

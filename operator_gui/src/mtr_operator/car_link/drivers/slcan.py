@@ -12,8 +12,9 @@ a filter of eight digits.
 from __future__ import annotations
 
 import re
+import threading
 import time
-from typing import Any
+from typing import Any, Callable
 
 import can
 import serial
@@ -51,6 +52,7 @@ class StampedSlcanBus(slcanBus):
     Attributes:
         stamp_ms: adapter's stamp of the frame that recv returned last, None when it has none.
         flags: newest answer to request_flags(), 0 before the first.
+        flags_answered: how often that was answered. answered: called then, in the thread that reads.
         overruns: answers that told of lost frames.
         answers: lines that make sense as slcan; malformed: lines that do not.
         refuses: the adapter does not take the order to only listen.
@@ -60,7 +62,9 @@ class StampedSlcanBus(slcanBus):
         """data_bitrate: in bit/s, for adapters with CAN FD."""
         self._data_bitrate = data_bitrate
         self.stamp_ms: int | None = None
-        self.flags = self.overruns = 0
+        self.flags = self.overruns = self.flags_answered = 0
+        self.answered: Callable[[], None] = lambda: None
+        self._flags_asked, self._asking = 0, threading.Lock()
         self.answers = 0
         self.malformed = 0
         self.refuses = False
@@ -85,9 +89,13 @@ class StampedSlcanBus(slcanBus):
         super().open()
         self._write("V")
 
-    def request_flags(self) -> None:
-        """Ask for the controller's state."""
-        self._write("F")
+    def request_flags(self) -> int:
+        """Ask for the controller's state, from any thread; the answer comes behind all frames of before. Gives the
+        number of answers by which this question is answered."""
+        with self._asking:
+            self._flags_asked += 1
+            self._write("F")
+            return self._flags_asked
 
     def _read(self, timeout: float | None) -> str | None:
         deadline = None if timeout is None else time.monotonic() + timeout
@@ -141,6 +149,8 @@ class StampedSlcanBus(slcanBus):
         if re.fullmatch(r"F[0-9A-Fa-f]{2}\r", line):
             self.flags = int(line[1:3], 16)
             self.overruns += bool(self.flags & (FLAG_RECEIVE_FULL | FLAG_DATA_OVERRUN))
+            self.flags_answered += 1
+            self.answered()
         elif not re.fullmatch(r"(z|Z|[VvN][0-9A-Za-z]*)?[\r\a]", line):
             self.malformed += 1
             return
