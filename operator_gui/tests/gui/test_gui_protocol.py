@@ -134,7 +134,7 @@ def test_save_pdf_and_svg(protocol, operator):
 
 def test_vanished_result_folder_is_asked_for_again(operator, opener, monkeypatch):
     other = operator.folder / "other"
-    monkeypatch.setattr("mtr_operator.gui.screens.protocol.ask_folder", lambda *_: other)
+    monkeypatch.setattr("mtr_operator.gui.screens.protocol_files.ask_folder", lambda *_: other)
     (operator.folder / "results").write_text("a file where the folder was", encoding="utf-8")
     opener.passive = True
     operator.begin("autolock")
@@ -240,9 +240,10 @@ def test_sentence_that_comes_moves_no_button_under_the_mouse(protocol, operator,
     QApplication.processEvents()
     buttons = [protocol.save, protocol.save_pdf, protocol.bundle, protocol.done]
     places = [each.mapTo(operator.window, each.rect().center()) for each in buttons]
-    protocol._folder = pathlib.Path("/home/operator/measurements/2026-11-23/a car with a long name/autolock of the day")
-    protocol._said = "It is bundle 12 of laboratory 3."
-    protocol._show_written([protocol._folder / name for name in ("results.csv", "protocol.png", "autolock.mtr.zip")])
+    files = protocol._files
+    files._folder = pathlib.Path("/home/operator/measurements/2026-11-23/a car with a long name/autolock of the day")
+    files._said = "It is bundle 12 of laboratory 3."
+    files._learn_written([files._folder / name for name in ("results.csv", "protocol.png", "autolock.mtr.zip")])
     QApplication.processEvents()
     assert [each.mapTo(operator.window, each.rect().center()) for each in buttons] == places
 

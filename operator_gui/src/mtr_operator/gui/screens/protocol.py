@@ -3,22 +3,16 @@
 from __future__ import annotations
 
 import dataclasses
-import os
-import pathlib
-from typing import TYPE_CHECKING, Callable, NamedTuple
+from typing import Callable
 
-from PyQt5.QtCore import Qt, QTimer, QUrl, pyqtSignal
-from PyQt5.QtGui import QDesktopServices
+from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
 
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.report.protocol_rows import date_text
 from mtr_operator.station.checks.checklist import hindrances
 from mtr_operator.station.events import Outcome
-from mtr_operator.station.identity_entry import Annotation
-from mtr_operator.station.test import Test, report_folder
 
-from ..dialogs import ask_folder
 from ..fitting.plain_table import plain_table, show_in
 from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
@@ -27,30 +21,19 @@ from ..forms.hold_button import HoldButton
 from ..names import scenario_title
 from ..pictures.picture_panel import PicturePanel
 from ..pictures.protocol_picture import Protocol, ProtocolPicture
-from ..report_writer import BUNDLE, CSV, PDF, PNG, SVG, ReportWriter
+from ..report_writer import BUNDLE, CSV, PDF, PNG, SVG
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import M, S
 from ..verdict_text import verdict_text
-from .annotation_dialog import AnnotationDialog
 from .budget_model import BudgetModel
+from .protocol_files import ProtocolFiles, Shown
 from .results_model import ResultsModel
-
-if TYPE_CHECKING:
-    from ..evidence.bundling import Bundled
 
 _SIDE_WIDTH = 600
 _TABLE_HEIGHT, _BUDGET_HEIGHT = 180, 140
 _NOTICE_LINES = 3
 _CLICK_PX = 18.0
-_MAY_BREAK = "\N{ZERO WIDTH SPACE}"
-
-
-class _Shown(NamedTuple):
-    """What is shown, and of which test: a question may be answered when another one is at hand."""
-
-    picture: ProtocolPicture
-    test: Test
 
 
 class ProtocolScreen(QWidget):
@@ -69,13 +52,11 @@ class ProtocolScreen(QWidget):
         super().__init__(parent)
         self.setObjectName("page")
         self._flow = flow
-        self._now: _Shown | None = None
-        self._written: _Shown | None = None
-        self._writer: ReportWriter | None = None
-        self._kinds: tuple[str, ...] = ()
-        self._saved: set[str] = set()
-        self._said = self._told = ""
-        self._folder: pathlib.Path | None = None
+        self._is_shown = False
+        self._told = ""
+        self._files = ProtocolFiles(flow, self)
+        self._files.saving.connect(self._set_saving)
+        self._files.told.connect(self._show_notice)
         self.panel = PicturePanel(appearance)
         self.panel.view.clicked.connect(self._choose_point)
         self.title, self.date, self.notice = QLabel(), QLabel(), Prose()
@@ -87,30 +68,26 @@ class ProtocolScreen(QWidget):
         self.budget = plain_table(self.tr("What the uncertainty of the chosen row is made of"), _BUDGET_HEIGHT)
         self.budget.setSelectionMode(QTableView.NoSelection)
         self.budget.hide()
-        self.save = self._button(self.tr("Save"), "primary", lambda: self._write((CSV, PNG)))
+        self.save = self._button(self.tr("Save"), "primary", lambda: self._files.write((CSV, PNG)))
         self.save.setToolTip(self.tr("Save as CSV and PNG"))
-        self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._write((PDF,)))
-        self.save_svg = self._button(self.tr("Save SVG"), "", lambda: self._write((SVG,)))
-        self.show_folder = self._button(self.tr("Show folder"), "", self._open_folder)
+        self.save_pdf = self._button(self.tr("Save PDF"), "", lambda: self._files.write((PDF,)))
+        self.save_svg = self._button(self.tr("Save SVG"), "", lambda: self._files.write((SVG,)))
+        self.show_folder = self._button(self.tr("Show folder"), "", self._files.open_folder)
+        self._files.written.connect(lambda: self.show_folder.setEnabled(True))
         self.again = HoldButton(self.tr("Hold to measure again"))
         self.again.held.connect(self._measure_again)
-        self.annotate = self._button(self.tr("Notes and photos"), "", self._open_annotation)
-        self.bundle = self._button(self.tr("Save evidence bundle"), "", lambda: self._write((CSV, PNG, PDF, BUNDLE)))
+        self.annotate = self._button(self.tr("Notes and photos"), "", self._files.annotate)
+        self.bundle = self._button(self.tr("Save evidence bundle"), "",
+                                   lambda: self._files.write((CSV, PNG, PDF, BUNDLE)))
         self.bundle.setToolTip(self.tr("One signed file with results, recording, profile, software versions and "
                                        "journal"))
         self.done = self._button(self.tr("New test"), "", self.closed.emit)
         self._lay_out()
 
     @property
-    def _shown(self) -> _Shown:
-        if self._now is None:
-            raise LookupError("no test is shown yet")
-        return self._now
-
-    @property
     def protocol(self) -> Protocol:
         """What is shown."""
-        return self._shown.picture.protocol
+        return self._files.shown.picture.protocol
 
     @staticmethod
     def _button(text: str, role: str, act: Callable[[], None]) -> QPushButton:
@@ -157,16 +134,14 @@ class ProtocolScreen(QWidget):
         test = model.current_test
         progress: Progress = dataclasses.replace(test.progress, results=list(model.results))
         protocol = Protocol(test.scenario, test.parameters, progress)
-        self._now = _Shown(ProtocolPicture(protocol), test)
-        self._saved.clear()
-        self._said = ""
-        self._folder = None
+        self._files.show(Shown(ProtocolPicture(protocol), test))
+        self._is_shown = True
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
         show_in(self.table, ResultsModel(protocol, self))
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
         self.panel.legend.show_sets(protocol.picture.point_sets)
-        self.panel.view.show_layers(self._shown.picture.layers)
+        self.panel.view.show_layers(self._files.shown.picture.layers)
         self.table.selectionModel().selectionChanged.connect(lambda *_: self.show_model())
         self._show_budget(-1)
         self._show_notice(self.tr("Not saved as CSV and PNG yet."))
@@ -175,7 +150,7 @@ class ProtocolScreen(QWidget):
         self.show_model()
         if model.outcome is Outcome.COMPLETE:
             # Nobody has to think of it.
-            self._write((CSV, PNG))
+            self._files.write((CSV, PNG))
 
     def show_model(self) -> None:
         """Something of robot, Car or test is another one."""
@@ -186,7 +161,7 @@ class ProtocolScreen(QWidget):
     def _chosen_lines(self) -> list[int]:
         """Numbers of the lines whose rows are chosen."""
         selection = self.table.selectionModel()
-        rows = [] if selection is None or self._now is None else sorted(
+        rows = [] if selection is None or not self._is_shown else sorted(
             index.row() for index in selection.selectedRows())
         return [self.protocol.progress.results[row].number for row in rows]
 
@@ -208,7 +183,7 @@ class ProtocolScreen(QWidget):
 
     def _mark(self, row: int) -> None:
         points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
-        self._shown.picture.points.chosen = tuple(point for each in points for point in each.known)
+        self._files.shown.picture.points.chosen = tuple(point for each in points for point in each.known)
         self.panel.view.refresh()
         self._show_budget(row)
         why = self.protocol.reason_of(row) if row >= 0 else ""
@@ -227,83 +202,9 @@ class ProtocolScreen(QWidget):
         if row is not None:
             self.table.selectRow(row)
 
-    def _write(self, kinds: tuple[str, ...], annotation: Annotation | None = None, of: _Shown | None = None) -> None:
-        """Write files of what is shown, or of what was shown when the Operator was asked."""
-        self._written = of = of or self._shown
-        folder = report_folder(self._flow.store.settings.result_folder, of.test)
-        self._folder = folder
-        self._set_saving(True)
-        self._kinds = kinds
-        # No child of the screen, and no lambda: it may outlive both when the window closes or is made anew.
-        self._writer = ReportWriter(of.picture.protocol, of.test, folder, kinds, annotation)
-        self._writer.written.connect(self._show_written)
-        self._writer.refused.connect(self._show_refused)
-        self._writer.not_annotated.connect(self._show_not_annotated)
-        self._writer.bundling.connect(self._show_bundling)
-        self._writer.bundled.connect(self._show_bundled)
-        self._writer.not_bundled.connect(self._show_not_bundled)
-        self._said = ""
-        self._writer.start()
-
-    def _open_annotation(self) -> None:
-        """Ask for notes and photos beside this window, whose Stop stays at hand."""
-        shown = self._shown
-        dialog = AnnotationDialog(shown.test.progress.identity, self)
-        dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        # They are kept in the record, and the files written anew.
-        dialog.accepted.connect(lambda: self._write((CSV, PNG), dialog.annotation, shown))
-        dialog.show()
-
     def _set_saving(self, is_saving: bool) -> None:
         for button in (self.save, self.save_pdf, self.save_svg, self.annotate, self.bundle):
             button.setEnabled(not is_saving)
-
-    def _show_written(self, paths: list[pathlib.Path]) -> None:
-        self._set_saving(False)
-        names = {path.name for path in paths}
-        if self._written == self._now:
-            self._saved |= names
-            names = self._saved
-        files = ", ".join(sorted(names))
-        # A long path goes on in the next line.
-        folder = str(self._folder).replace(os.sep, f"{os.sep}{_MAY_BREAK}")
-        saved = self.tr("Saved {files} to {folder}").format(files=files, folder=folder)
-        self._show_notice(f"{saved}. {self._said}" if self._said else saved)
-        self.show_folder.setEnabled(True)
-
-    def _show_bundling(self, percent: int) -> None:
-        self._show_notice(self.tr("The bundle is written: {percent} %.").format(percent=percent))
-
-    def _show_bundled(self, bundled: Bundled) -> None:
-        self._said = self.tr("It is bundle {number} of {station}.").format(number=bundled.number,
-                                                                          station=bundled.station)
-        for name, reason in bundled.left_out.items():
-            self._said += " " + self.tr("Left out is {name}: {reason}").format(name=name, reason=translated(reason))
-
-    def _show_not_bundled(self, text: str) -> None:
-        self._said = translated(text)
-
-    def _show_refused(self, text: str) -> None:
-        self._set_saving(False)
-        self._show_notice(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
-        written = self._written
-        QTimer.singleShot(0, lambda: self._ask_folder(written))
-
-    def _show_not_annotated(self, text: str) -> None:
-        self._set_saving(False)
-        self._show_notice(translated(text))
-
-    def _ask_folder(self, of: _Shown | None) -> None:
-        folder = ask_folder(self, self.tr("Folder for results"), pathlib.Path.home())
-        if folder is not None:
-            store = self._flow.store
-            store.change(dataclasses.replace(store.settings, result_folder=folder))
-            self._write(self._kinds, of=of)
-
-    def _open_folder(self) -> None:
-        if not QDesktopServices.openUrl(QUrl.fromLocalFile(str(self._folder))):
-            sentence = self.tr("No file manager opens it; the files are in {folder}")
-            self._show_notice(sentence.format(folder=self._folder))
 
     def _show_notice(self, sentence: str) -> None:
         self._told = sentence

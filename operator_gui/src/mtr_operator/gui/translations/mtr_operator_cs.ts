@@ -3478,126 +3478,129 @@
     </message>
 </context>
 <context>
-    <name>ProtocolScreen</name>
+    <name>ProtocolFiles</name>
     <message>
-        <location filename="../screens/protocol.py" line="90"/>
-        <source>Save</source>
-        <translation>Uložit</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="91"/>
-        <source>Save as CSV and PNG</source>
-        <translation>Uložit jako CSV a PNG</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="92"/>
-        <source>Save PDF</source>
-        <translation>Uložit PDF</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="93"/>
-        <source>Save SVG</source>
-        <translation>Uložit SVG</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="94"/>
-        <source>Show folder</source>
-        <translation>Ukázat složku</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="101"/>
-        <source>New test</source>
-        <translation>Nový test</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="164"/>
-        <source>{scenario} protocol</source>
-        <translation>Protokol {scenario}</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="270"/>
-        <source>Saved {files} to {folder}</source>
-        <translation>Uloženo: {files}, složka {folder}</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="288"/>
-        <source>Choose another folder; nothing is lost.</source>
-        <translation>Vyberte jinou složku; nic se neztratilo.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="297"/>
-        <source>Folder for results</source>
-        <translation>Složka pro výsledky</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="198"/>
-        <source>Verdict: {verdict}.</source>
-        <translation>Verdikt: {verdict}.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="87"/>
-        <source>What the uncertainty of the chosen row is made of</source>
-        <translation>Z čeho se skládá nejistota vybraného řádku</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="305"/>
+        <location filename="../screens/protocol_files.py" line="100"/>
         <source>No file manager opens it; the files are in {folder}</source>
         <translation>Žádný správce souborů ji neotevře; soubory jsou ve složce {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="84"/>
-        <source>Results; choose a row to see its points, or several to measure them again</source>
-        <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
+        <location filename="../screens/protocol_files.py" line="111"/>
+        <source>Saved {files} to {folder}</source>
+        <translation>Uloženo: {files}, složka {folder}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="95"/>
-        <source>Hold to measure again</source>
-        <translation>Podržením změřit znovu</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="172"/>
-        <source>Not saved as CSV and PNG yet.</source>
-        <translation>Zatím neuloženo jako CSV a PNG.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="206"/>
-        <source>{count} lines, {invalid} of them invalid.</source>
-        <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="207"/>
-        <source>{count} lines.</source>
-        <translation>Počet přímek: {count}.</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="97"/>
-        <source>Notes and photos</source>
-        <translation>Poznámky a fotky</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="98"/>
-        <source>Save evidence bundle</source>
-        <translation>Uložit balíček důkazů</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="99"/>
-        <source>One signed file with results, recording, profile, software versions and journal</source>
-        <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
-    </message>
-    <message>
-        <location filename="../screens/protocol.py" line="275"/>
+        <location filename="../screens/protocol_files.py" line="116"/>
         <source>The bundle is written: {percent} %.</source>
         <translation>Balíček se zapisuje: {percent} %.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="278"/>
+        <location filename="../screens/protocol_files.py" line="119"/>
         <source>It is bundle {number} of {station}.</source>
         <translation>Je to balíček {number} stanice {station}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="281"/>
+        <location filename="../screens/protocol_files.py" line="122"/>
         <source>Left out is {name}: {reason}</source>
         <translation>Chybí {name}: {reason}</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol_files.py" line="129"/>
+        <source>Choose another folder; nothing is lost.</source>
+        <translation>Vyberte jinou složku; nic se neztratilo.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol_files.py" line="138"/>
+        <source>Folder for results</source>
+        <translation>Složka pro výsledky</translation>
+    </message>
+</context>
+<context>
+    <name>ProtocolScreen</name>
+    <message>
+        <location filename="../screens/protocol.py" line="71"/>
+        <source>Save</source>
+        <translation>Uložit</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="72"/>
+        <source>Save as CSV and PNG</source>
+        <translation>Uložit jako CSV a PNG</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="73"/>
+        <source>Save PDF</source>
+        <translation>Uložit PDF</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="74"/>
+        <source>Save SVG</source>
+        <translation>Uložit SVG</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="75"/>
+        <source>Show folder</source>
+        <translation>Ukázat složku</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="84"/>
+        <source>New test</source>
+        <translation>Nový test</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="139"/>
+        <source>{scenario} protocol</source>
+        <translation>Protokol {scenario}</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="173"/>
+        <source>Verdict: {verdict}.</source>
+        <translation>Verdikt: {verdict}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="68"/>
+        <source>What the uncertainty of the chosen row is made of</source>
+        <translation>Z čeho se skládá nejistota vybraného řádku</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="65"/>
+        <source>Results; choose a row to see its points, or several to measure them again</source>
+        <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="77"/>
+        <source>Hold to measure again</source>
+        <translation>Podržením změřit znovu</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="147"/>
+        <source>Not saved as CSV and PNG yet.</source>
+        <translation>Zatím neuloženo jako CSV a PNG.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="181"/>
+        <source>{count} lines, {invalid} of them invalid.</source>
+        <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="182"/>
+        <source>{count} lines.</source>
+        <translation>Počet přímek: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="79"/>
+        <source>Notes and photos</source>
+        <translation>Poznámky a fotky</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="80"/>
+        <source>Save evidence bundle</source>
+        <translation>Uložit balíček důkazů</translation>
+    </message>
+    <message>
+        <location filename="../screens/protocol.py" line="82"/>
+        <source>One signed file with results, recording, profile, software versions and journal</source>
+        <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
     </message>
 </context>
 <context>
