@@ -10,6 +10,7 @@ from typing import NamedTuple
 import pytest
 
 from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.catch_up import LIMIT_S as CATCH_UP_S
 from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
@@ -19,8 +20,6 @@ from mtr_operator.domain.robot_status import RobotStatus
 LOCK_ID = 0x320
 CYCLE_S = 0.02
 STATUS_PERIOD_S = 0.1
-# As bus.CATCH_UP_LIMIT_S.
-CATCH_UP_S = 0.25
 PROFILE = load_profile("mtr_demo_car")
 
 

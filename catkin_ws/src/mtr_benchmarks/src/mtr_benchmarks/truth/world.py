@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import Callable, List, NamedTuple, Optional, Tuple
 
 from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.catch_up import LIMIT_S as CATCH_UP_LIMIT_S
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import CarProfile
 from mtr_operator.domain.ports import CarEvent, CarLink, LinkStatistics, LockFacts, LockState, RobotLink
@@ -18,8 +19,6 @@ from .robot import KEY_X_M, RobotBody
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 STATUS_PERIOD_S = 0.1
 STEPS = 10
-# As in car_link/bus.py.
-CATCH_UP_LIMIT_S = 0.25
 # A pose is that old when it is sent.
 POSE_AGE_S = 0.06
 
