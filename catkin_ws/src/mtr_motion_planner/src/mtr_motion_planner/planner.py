@@ -154,6 +154,9 @@ class MotionPlanner:
         return Direction(number) if number in tuple(Direction) else Direction.ANY
 
     def _follow(self, site: Site, follower: Follower, pose: Pose2, now: Situation, speed: float) -> PlannerOutput:
+        if self._stall.rests(now.tick_s):
+            self._ramp.brake()
+            return self._output(Result.BLOCKED, follower.remaining_m, problems.STALLED())
         if not follower.set_speed(speed):
             self._replanning.is_needed = True
         wanted = follower.step(pose, now.robot, self._ramp.step_s)

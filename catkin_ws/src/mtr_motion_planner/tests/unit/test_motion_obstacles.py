@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
+from itertools import groupby
 
 import numpy as np
 import pytest
-from motion_simulation import FOOTPRINT, OUTLINE, PARAMETERS, ROBOT, SimulatedRobot, car_at
+from motion_simulation import FOOTPRINT, OUTLINE, PARAMETERS, PERIOD_S, ROBOT, SimulatedRobot, car_at
 from shapely.geometry import Polygon, box
 from shapely.geometry.polygon import orient
 
@@ -140,6 +141,25 @@ def test_blind_lidar_is_reported_in_drive_controls_words():
     robot.go(1, 0.0, -3.0, 90.0)
     output = robot.run_for(1.0)
     assert (output.result, output.message) == (Result.BLOCKED, robot.collision_stop.message)
+
+
+def test_robot_that_does_not_move_rests_before_each_further_attempt():
+    """Drive control's lock for a base that stands still goes only when nobody has wanted to move for a second."""
+    robot = SimulatedRobot(Pose2(0.0, -6.0, math.radians(90.0)))
+    robot.go(1, 0.0, -3.0, 90.0)
+    robot.run_for(2.0)
+    robot.held = True
+    robot.run_for(14.0)
+    phases = [(is_still, sum(1 for _ in ticks) * PERIOD_S) for is_still, ticks in groupby(
+        robot.outputs, lambda output: output.linear_mps == output.angular_radps == 0.0)]
+    rests_s = [duration_s for is_still, duration_s in phases[1:-1] if is_still]
+    assert len(rests_s) >= 2 and min(rests_s) > 1.5
+    assert {output.result for output in robot.outputs[-200:]} == {Result.BLOCKED}
+    assert robot.outputs[-1].message.code == "motion_planner.stalled" and robot.outputs[-1].remaining_m > 1.0
+    robot.held = False
+    assert robot.run().result == Result.REACHED
+    assert robot.miss().distance_to(Pose2(0.0, 0.0, 0.0)) < 0.02
+    assert sum(output.path is not None for output in robot.outputs) == 1
 
 
 def test_command_to_a_slowed_robot_does_not_wind_up_and_its_way_is_kept():

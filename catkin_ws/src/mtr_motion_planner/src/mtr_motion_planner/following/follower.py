@@ -61,6 +61,14 @@ class Follower:
     def _limits(self) -> MotionLimits:
         return self._parameters.limits
 
+    @property
+    def remaining_m(self) -> float:
+        """What is left of the way; 0 when the reference has arrived."""
+        if self._part is None or self._is_over():
+            return 0.0
+        done = 0.0 if self._part.is_on_the_spot else self.reference().way
+        return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), MIN_REMAINING_M)
+
     def reference(self, ahead_s: float = 0.0) -> Reference:
         """Where the robot is to be."""
         if self._part is None:
@@ -101,15 +109,15 @@ class Follower:
     def step(self, pose: Pose2, robot: RobotState, passed_s: float) -> FollowerOutput:
         """Velocity now, passed_s after the last step."""
         if not self.is_near(pose):
-            return FollowerOutput(Velocity(), self._remaining(), lost=True)
+            return FollowerOutput(Velocity(), self.remaining_m, lost=True)
         if self._part is not None:
             self._advance(self._part, pose, robot, passed_s)
         if self._cannot_go_on:
-            return FollowerOutput(Velocity(), self._remaining(), lost=True)
+            return FollowerOutput(Velocity(), self.remaining_m, lost=True)
         now = self.reference()
         if self._is_over() and self._has_settled(pose, robot):
             return FollowerOutput(Velocity(), 0.0, finished=True)
-        return FollowerOutput(tracked(now, self.reference(DELAY_S), pose), self._remaining())
+        return FollowerOutput(tracked(now, self.reference(DELAY_S), pose), self.remaining_m)
 
     def _advance(self, part: PlanPart, pose: Pose2, robot: RobotState, passed_s: float) -> None:
         now = self.reference()
@@ -149,9 +157,3 @@ class Follower:
             return False
         late = self._part is None or self._time_s >= self._part.trajectory.duration_s + SETTLE_S
         return late or miss_of(self.plan.goal, pose, self._parameters.arrival).is_within
-
-    def _remaining(self) -> float:
-        if self._part is None or self._is_over():
-            return 0.0
-        done = 0.0 if self._part.is_on_the_spot else self.reference().way
-        return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), MIN_REMAINING_M)

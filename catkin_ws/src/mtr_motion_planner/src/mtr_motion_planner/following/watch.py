@@ -15,6 +15,8 @@ from ..parameters import MotionParameters
 from .tracking import DELAY_S, Velocity
 
 STALL_AFTER_S = 2.0
+# Drive control forgets that the base did not follow when nobody has wanted to move for a second (kRestS).
+REST_S = 2.0
 MOVED_M, MOVED_RAD = 0.01, math.radians(1.0)
 # The plan keeps the margins; half of the footprint's is left for errors of control before the robot is stopped.
 GUARD_SHARE = 0.5
@@ -24,7 +26,7 @@ SIDES = ((math.radians(45.0), "ahead"), (math.radians(135.0), "to the left"), (m
 
 
 class StallWatch:
-    """Notices that the robot does not follow the command."""
+    """Notices that the robot does not follow the command, and lets it rest between one attempt and the next."""
 
     def __init__(self) -> None:
         self._since_s: Optional[float] = None
@@ -40,6 +42,11 @@ class StallWatch:
             self._since_s, self._from = now_s, pose
             return False
         return now_s - self._since_s > STALL_AFTER_S
+
+    def rests(self, now_s: float) -> bool:
+        """True for a while after each attempt to move of which nothing came."""
+        since_s = now_s if self._since_s is None else self._since_s + STALL_AFTER_S
+        return now_s > since_s and (now_s - since_s) % (REST_S + STALL_AFTER_S) < REST_S
 
 
 def _has_moved(before: Pose2, now: Pose2) -> bool:
