@@ -269,7 +269,7 @@ class Operator:
 
     def finish(self):
         """Wait for the protocol."""
-        self.wait(lambda: self.window.screen is self.window.protocol)
+        self.wait(lambda: self.window.screen is self.window.protocol and self.window.protocol.is_pictured)
         return self.window.protocol
 
 

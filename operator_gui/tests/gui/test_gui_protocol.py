@@ -3,6 +3,7 @@
 import csv
 import pathlib
 import shutil
+import threading
 
 import pytest
 from PyQt5.QtCore import QAbstractItemModel, QByteArray, QCoreApplication, QEvent, QItemSelectionModel, Qt
@@ -18,6 +19,9 @@ from mtr_operator.gui.pictures.protocol_sheet import ProtocolSheet
 from mtr_operator.gui.pictures.protocol_tables import Row, pages_of, table_rows
 from mtr_operator.gui.screens.measurement_facts import newest_text
 from mtr_operator.gui.theme.palette import LIGHT
+
+# Longer than a window waits for anything.
+COMPUTES_S = 30.0
 
 
 def points_layer(protocol):
@@ -40,11 +44,33 @@ def test_row_marks_its_points_and_point_selects_its_row(protocol, operator):
     protocol.table.selectRow(2)
     marked = points_layer(protocol).chosen
     assert len(marked) == 2
-    other = protocol.protocol.picture_of(5).point_sets[0].known[0]
+    others = points_layer(protocol).sets[0]
+    other = others.known[5]
     protocol.panel.view.clicked.emit(*other)
     assert protocol.table.currentIndex().row() == 5
     protocol.panel.view.clicked.emit(other[0] + 30.0, other[1])
     assert protocol.table.currentIndex().row() == 5
+
+
+def test_window_goes_on_while_the_picture_of_a_protocol_is_computed(operator, monkeypatch):
+    operator.begin("key_press")
+    may_end, scenario = threading.Event(), operator.model.test.scenario
+    picture = scenario.picture
+
+    def late(*arguments):
+        assert may_end.wait(COMPUTES_S), "the window waits for the picture"
+        return picture(*arguments)
+
+    operator.wait(lambda: operator.model.line == operator.model.total)
+    monkeypatch.setattr(type(scenario), "picture", staticmethod(late))
+    operator.wait(lambda: operator.window.screen is operator.window.protocol)
+    screen = operator.window.protocol
+    screen.table.selectRow(1)
+    assert not screen.is_pictured and not points_layer(screen).points()
+    may_end.set()
+    operator.wait(lambda: screen.is_pictured)
+    assert points_layer(screen).chosen
+    saved(screen, operator)
 
 
 def test_row_of_an_invalid_line_says_below_why(operator, opener):

@@ -50,7 +50,7 @@ class ProtocolSheet:
     def __init__(self, protocol: Protocol):
         self._protocol = protocol
         self._tables = signed(pages_of([*identity_table(protocol), *table_rows(protocol)], _ROWS), protocol, _ROWS)
-        self.picture = ProtocolPicture(protocol)
+        self.picture = ProtocolPicture(protocol, protocol.picture)
         self.pages = 1 + len(self._tables)
 
     def paint(self, painter: QPainter, page: int = 0) -> None:

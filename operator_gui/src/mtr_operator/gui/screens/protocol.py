@@ -8,6 +8,7 @@ from typing import Callable
 from PyQt5.QtCore import Qt, pyqtSignal
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QTableView, QVBoxLayout, QWidget
 
+from mtr_operator.domain.results.picture import Picture
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.report.protocol_rows import date_text
 from mtr_operator.station.checks.checklist import hindrances
@@ -25,6 +26,7 @@ from ..report_writer import BUNDLE, CSV, PDF, PNG, SVG
 from ..sentences import translated
 from ..theme.appearance import Appearance
 from ..theme.scale import M, S
+from ..threads.task import Task
 from ..verdict_text import verdict_text
 from .budget_model import BudgetModel
 from .protocol_files import ProtocolFiles, Shown
@@ -54,6 +56,7 @@ class ProtocolScreen(QWidget):
         self._flow = flow
         self._is_shown = False
         self._told = ""
+        self._task: Task | None = None
         self._files = ProtocolFiles(flow, self)
         self._files.saving.connect(self._set_saving)
         self._files.told.connect(self._show_notice)
@@ -88,6 +91,11 @@ class ProtocolScreen(QWidget):
     def protocol(self) -> Protocol:
         """What is shown."""
         return self._files.shown.picture.protocol
+
+    @property
+    def is_pictured(self) -> bool:
+        """True when what was measured is shown, and not only the Car."""
+        return self._files.shown.picture.is_complete
 
     @staticmethod
     def _button(text: str, role: str, act: Callable[[], None]) -> QPushButton:
@@ -135,13 +143,12 @@ class ProtocolScreen(QWidget):
         progress: Progress = dataclasses.replace(test.progress, results=list(model.results))
         protocol = Protocol(test.scenario, test.parameters, progress)
         self._files.show(Shown(ProtocolPicture(protocol), test))
+        self._compute_picture()
         self._is_shown = True
         self.title.setText(self.tr("{scenario} protocol").format(scenario=scenario_title(test.scenario)))
         self.date.setText(date_text(str(progress.session.get("started", ""))))
         show_in(self.table, ResultsModel(protocol, self))
         self.table.selectionModel().currentRowChanged.connect(lambda index, _: self._mark(index.row()))
-        self.panel.legend.show_sets(protocol.picture.point_sets)
-        self.panel.view.show_layers(self._files.shown.picture.layers)
         self.table.selectionModel().selectionChanged.connect(lambda *_: self.show_model())
         self._show_budget(-1)
         self._show_notice(self.tr("Not saved as CSV and PNG yet."))
@@ -151,6 +158,24 @@ class ProtocolScreen(QWidget):
         if model.outcome is Outcome.COMPLETE:
             # Nobody has to think of it.
             self._files.write((CSV, PNG))
+
+    def _compute_picture(self) -> None:
+        """In a thread: that of many zones takes seconds, in which a window that stands could stop no robot."""
+        shown = self._files.shown.picture
+        self.panel.legend.show_sets(())
+        self.panel.view.show_layers(shown.layers)
+        self._task = Task(lambda _: (shown, shown.protocol.picture))
+        self._task.done.connect(self._take_picture)
+        self._task.start()
+
+    def _take_picture(self, _: Task, computed: tuple[ProtocolPicture, Picture]) -> None:
+        shown, picture = computed
+        if shown is not self._files.shown.picture:
+            return
+        shown.take(picture)
+        self.panel.legend.show_sets(picture.point_sets)
+        self.panel.view.show_layers(shown.layers)
+        self._mark(self.table.currentIndex().row())
 
     def show_model(self) -> None:
         """Something of robot, Car or test is another one."""
@@ -182,8 +207,8 @@ class ProtocolScreen(QWidget):
         return self.tr("{count} lines.").format(count=len(results))
 
     def _mark(self, row: int) -> None:
-        points = self.protocol.picture_of(row).point_sets if row >= 0 else ()
-        self._files.shown.picture.points.chosen = tuple(point for each in points for point in each.known)
+        picture = self._files.shown.picture
+        picture.points.chosen = picture.points_of(row) if row >= 0 else ()
         self.panel.view.refresh()
         self._show_budget(row)
         why = self.protocol.reason_of(row) if row >= 0 else ""
@@ -198,7 +223,7 @@ class ProtocolScreen(QWidget):
 
     def _choose_point(self, x: float, y: float) -> None:
         """Select the row of the point that was clicked."""
-        row = self.protocol.nearest(x, y, _CLICK_PX / self.panel.view.viewport.px_per_m)
+        row = self._files.shown.picture.nearest(x, y, _CLICK_PX / self.panel.view.viewport.px_per_m)
         if row is not None:
             self.table.selectRow(row)
 
