@@ -199,7 +199,7 @@ def test_waypoint_and_robot_that_stand_still_cost_only_the_surroundings_of_the_r
 def test_full_can_bus_is_read_outside_the_gui_thread(operator, monkeypatch):
     """At 500 kbit/s some 4000 frames come per second; not one of them may cost the window anything."""
     threads = set()
-    car_type = type(operator.application.flow.connecting.worker._car)
+    car_type = type(operator.application.flow.connecting.worker._links.car)
     observe = car_type.observe
 
     def seen(self, status):

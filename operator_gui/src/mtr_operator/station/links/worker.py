@@ -9,24 +9,19 @@ import threading
 from dataclasses import replace
 from typing import Callable
 
-from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
 from mtr_operator.domain.actions.skipping import Skipping
 from mtr_operator.domain.actions.standstill import Standstill
-from mtr_operator.domain.errors import BusRefused, InvalidParameter, OperatorError
+from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
 from mtr_operator.domain.eventlog.event_log import EventLog
-from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.session_record import now
 
 from ..bus.bus_view import BusView
-from ..bus.time_line import TimeLine
-from ..bus.watched_car import WatchedCarLink
 from ..connection import CanChoice, Connection, LinkOpener
 from ..events import (
     CarLinkOpened,
     EventLogged,
-    LinkRefused,
     LinksOpened,
     PersonWanted,
     ProgressSaved,
@@ -38,9 +33,9 @@ from ..mailbox import Mailbox
 from ..test import Test
 from .attention import Attention
 from .idle_loop import CalibrationRequest, CarRequest, IdleLoop
+from .links import Links
 from .measurement_run import Answers, MeasurementRun
 from .stop_order import StopOrder
-from .watched_link import WatchedRobotLink
 
 # Wall time between two attempts to open the robot's link again.
 RETRY_S = 1.0
@@ -59,8 +54,6 @@ class Worker:
         self._new_standstill = new_standstill
         self._standstill = new_standstill()
         self._attention = attention or Attention(lambda: mailbox.taken)
-        self._connection = connection
-        self._opener = opener
         self._mailbox = mailbox
         self._event_log = EventLog()
         self._event_log.listen(lambda entry: mailbox.put(EventLogged(entry)))
@@ -73,10 +66,7 @@ class Worker:
         self._skipping = Skipping()
         self._person = AskedPerson(lambda prompt: self._mailbox.put(PersonWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
-        self._robot: WatchedRobotLink | None = None
-        self._time_line = TimeLine()
-        self._car: CarLink = AbsentCarLink()
-        self._idle: IdleLoop | None = None
+        self._links = Links(connection, opener, self._stop, self._event_log, self._released)
 
     def start(self) -> None:
         """Open the links and go on until close(); Connected or Refused comes into the mailbox."""
@@ -99,7 +89,7 @@ class Worker:
         """Stop the robot, whatever it does: the stop has left when this returns. A running test ends, and what is
         measured is kept; what was ordered before and not begun yet is not begun."""
         self._stop.give()
-        self._requests.put(lambda: self._idle.request_car(CarRequest.STOP) if self._idle else None)
+        self._requests.put(lambda: self._links.idle.request_car(CarRequest.STOP) if self._links.idle else None)
         self.note("Stop.")
 
     def release_hold(self, hold_id: int) -> None:
@@ -140,8 +130,8 @@ class Worker:
 
     def bus_view(self) -> BusView:
         """What comes over the Car's bus now, and what its locks did."""
-        car = self._car
-        return BusView(car.messages, car.traffic, car.problem, *self._time_line.recent())
+        car = self._links.car
+        return BusView(car.messages, car.traffic, car.problem, *self._links.time_line.recent())
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
@@ -152,15 +142,15 @@ class Worker:
         self._requests.put(lambda: self._carry_out(carry_out, ticket))
 
     def _carry_out(self, order: Callable[[IdleLoop], None], ticket: int) -> None:
-        if self._idle is not None and self._stop.lift(ticket):
-            order(self._idle)
+        if self._links.idle is not None and self._stop.lift(ticket):
+            order(self._links.idle)
 
     def _run(self) -> None:
-        if self._open():
-            self._mailbox.put(LinksOpened())
-            while not self._closing.is_set():
-                self._try_turn()
-        self._close_links()
+        refused = self._links.open()
+        self._mailbox.put(refused or LinksOpened())
+        while refused is None and not self._closing.is_set():
+            self._try_turn()
+        self._links.close()
 
     def _try_turn(self) -> None:
         try:
@@ -168,7 +158,7 @@ class Worker:
         # Whatever it was: with a new session the links may work again, and without this thread nothing would.
         except Exception:
             logging.exception("The link to the robot is opened anew after a defect.")
-            self._close_robot()
+            self._links.close_robot()
             self._closing.wait(RETRY_S)
 
     def _run_short_requests(self) -> None:
@@ -183,7 +173,7 @@ class Worker:
         with contextlib.suppress(queue.Empty):
             self._requests.get_nowait()()
             return
-        idle = self._idle or self._open_robot()
+        idle = self._links.idle or self._open_robot()
         if idle is None:
             self._closing.wait(RETRY_S)
             return
@@ -195,6 +185,19 @@ class Worker:
             self._mailbox.put(RobotSilent(idle.silent_s))
             self._event_log.silent()
 
+    def _open_robot(self) -> IdleLoop | None:
+        try:
+            self._links.open_robot()
+        except OperatorError:
+            self._mailbox.put(RobotSilent(SILENCE_SHOWN_S))
+        return self._links.idle
+
+    def _change_car(self, choice: CanChoice | None) -> None:
+        refused = self._links.change_car(choice)
+        if refused is not None:
+            self._event_log.add(EventKind.FAULT, refused.text, ERROR)
+        self._mailbox.put(refused or CarLinkOpened())
+
     def _look_for_standstill(self) -> None:
         """The robot does not go on with what it was ordered to before the laptop slept."""
         said = self._standstill.look()
@@ -204,70 +207,14 @@ class Worker:
     def _look_for_attention(self) -> None:
         """Nor with what it was ordered to by a window that hangs."""
         said = self._attention.look()
-        if said and self._idle is not None and self._idle.has_order:
+        if said and self._links.idle is not None and self._links.idle.has_order:
             self._stop_unattended(said)
 
     def _stop_unattended(self, said: str) -> None:
-        if self._idle is not None:
-            self._idle.request_car(CarRequest.STOP)
+        if self._links.idle is not None:
+            self._links.idle.request_car(CarRequest.STOP)
         self._event_log.add(EventKind.FAULT, said, WARNING)
         self._mailbox.put(StandstillSeen(said))
-
-    def _open(self) -> bool:
-        part = "car"
-        try:
-            self._car = self._watched(self._connection.can)
-            part = "robot"
-            self._robot = self._new_robot()
-            self._robot.connect()
-            part = "car"
-            self._car.connect()
-        except InvalidParameter as error:
-            self._mailbox.put(LinkRefused("address" if part == "robot" else part, str(error)))
-            return False
-        except OperatorError as error:
-            self._mailbox.put(LinkRefused(part, str(error), _bus_of(error)))
-            return False
-        # An adapter's driver may raise whatever it likes, and a view waits for an answer.
-        except Exception as error:
-            logging.exception("The links were not opened because of a defect.")
-            self._mailbox.put(LinkRefused(part, f"The application has a defect: {type(error).__name__}: {error}"))
-            return False
-        self._idle = IdleLoop(self._robot, self._car, self._released, self._event_log)
-        return True
-
-    def _watched(self, choice: CanChoice | None) -> CarLink:
-        return WatchedCarLink(self._opener.car(choice), self._time_line)
-
-    def _new_robot(self) -> WatchedRobotLink:
-        return WatchedRobotLink(self._opener.robot(self._connection.robot), self._stop)
-
-    def _open_robot(self) -> IdleLoop | None:
-        """A session of its own for each purpose: ids of requests begin anew."""
-        robot = self._new_robot()
-        try:
-            robot.connect()
-        except OperatorError:
-            self._mailbox.put(RobotSilent(SILENCE_SHOWN_S))
-            return None
-        self._robot, self._idle = robot, IdleLoop(robot, self._car, self._released, self._event_log)
-        return self._idle
-
-    def _change_car(self, choice: CanChoice | None) -> None:
-        # The new one may be the same adapter.
-        self._car.close()
-        self._car = self._opener.car(None)
-        try:
-            car = self._watched(choice)
-            car.connect()
-        except OperatorError as error:
-            self._mailbox.put(LinkRefused("car", str(error), _bus_of(error)))
-            self._event_log.add(EventKind.FAULT, str(error), ERROR)
-        else:
-            self._car = car
-            self._mailbox.put(CarLinkOpened())
-        if self._idle is not None:
-            self._idle.use_car(self._car)
 
     def _save(self, test: Test) -> None:
         try:
@@ -278,13 +225,13 @@ class Worker:
             self._mailbox.put(ProgressSaved(test, ""))
 
     def _measure(self, test: Test, ticket: int) -> None:
-        self._close_robot()
+        self._links.close_robot()
         # A stop that came meanwhile stays in force, and ends the run at its first Status.
         self._stop.lift(ticket)
         unattended: list[str] = []
         answers = Answers(self._released, self._person, self._person, self._skipping)
-        run = MeasurementRun(test, self._new_robot, self._car, self._mailbox, answers, event_log=self._event_log,
-                             standstill=self._new_standstill())
+        run = MeasurementRun(test, self._links.new_robot, self._links.car, self._mailbox, answers,
+                             event_log=self._event_log, standstill=self._new_standstill())
         ended = run.run(lambda: self._is_stopped(unattended), self._run_short_requests)
         self._mailbox.put(replace(ended, text=ended.text or "".join(unattended)))
         # What happened during the run was told there.
@@ -301,16 +248,3 @@ class Worker:
 
     def _released(self, _hold_id: int) -> int:
         return self._released_hold
-
-    def _close_robot(self) -> None:
-        robot, self._robot, self._idle = self._robot, None, None
-        if robot is not None:
-            robot.close()
-
-    def _close_links(self) -> None:
-        self._close_robot()
-        self._car.close()
-
-
-def _bus_of(error: OperatorError) -> str:
-    return error.bus if isinstance(error, BusRefused) else ""
