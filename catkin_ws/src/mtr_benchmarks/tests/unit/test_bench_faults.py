@@ -146,6 +146,8 @@ def test_both_times_count_from_the_limit_up_to_which_the_fault_is_none():
 
 
 def test_where_any_reason_will_do_there_must_be_one():
+    cell = replace(CELL, expected=replace(MUST, record="had a fault or lock"))
+    assert wrong(cell, SEEN) == [] and len(wrong(cell, replace(SEEN, record="was interrupted"))) == 1
     cell = replace(CELL, expected=replace(MUST, record=ANY_REASON))
     assert wrong(cell, SEEN) == [] and len(wrong(cell, replace(SEEN, record=""))) == 1
     assert table(Matrix((cell,)))[2].endswith("| invalid |")

@@ -7,7 +7,7 @@ from typing import List, Optional, Tuple
 from mtr_core.liveness import is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_PRESS, DesiredState, PressReport
-from mtr_core.schedule import PERIPHERALS, STATE_MACHINE
+from mtr_core.schedule import DRIVE_CONTROL, PERIPHERALS, STATE_MACHINE
 from mtr_core.states import State
 
 from . import problems
@@ -18,9 +18,11 @@ from .parameters import Parameters
 from .presses import Presses
 
 NS = 1e-9
-# Between two ticks nobody looks, neither here nor in the state machine, which stops the robot for it: a silence is told
-# so early that the robot knows of it when it has lasted as long as it may.
-TOLD_BEFORE_S = (PERIPHERALS.period_ns + STATE_MACHINE.period_ns) * NS
+# From a lock to wheels that brake, as in drive control's `reaction_s`, whose other part is its tick.
+WHEELS_ANSWER_S = 0.06
+# Between two ticks nobody looks, neither here nor in the state machine, which stops the robot for it, nor in drive
+# control: a silence is told so early that the wheels brake when it has lasted as long as it may.
+TOLD_BEFORE_S = (PERIPHERALS.period_ns + STATE_MACHINE.period_ns + DRIVE_CONTROL.period_ns) * NS + WHEELS_ANSWER_S
 # A person who holds the button wants the lift this far ahead; somewhat more than the period of its messages.
 MANUAL_LEAD_S = 0.3
 # States in which a part of the robot is not well, or the state machine does not say.

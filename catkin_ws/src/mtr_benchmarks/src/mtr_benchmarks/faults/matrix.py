@@ -50,7 +50,7 @@ class Expected:
             several one.
         lift_s: longest time from the fault to standstill of the true lift, s; None: it may move on, or does not move.
         back_s: longest time from the end of the fault until it is no fault of the robot any more, s.
-        record: what makes a line at hand invalid, words of the reason; `any`: whatever of several comes first;
+        record: what makes a line at hand invalid, words of the reason, of several one; `any`: whatever comes first;
             empty: the line counts; None: there is no line.
         limit_s: how long the fault can last before it is one, s: so long a silence, or the same content; both times
             count from there.
