@@ -16,6 +16,8 @@ STANDS_MPS = 0.02
 LIFT_STANDS_MPS = 0.01
 # Who drives on stands for less, where it turns or waits for its next way: s.
 MIN_STOP_S = 0.5
+# What is said so shortly before a fault of the link ends is under way when it does, and is heard, s.
+UNDER_WAY_S = 0.05
 
 
 class CarSeen(NamedTuple):
@@ -108,7 +110,7 @@ def modes_during(seen: Sequence[Seen], begin_s: float, end_s: float) -> List[str
     """States that the Operator reads during a fault, in their order."""
     found: List[str] = []
     before_s = begin_s
-    for each in [each for each in seen if begin_s < each.time_s <= end_s]:
+    for each in [each for each in seen if begin_s < each.time_s <= end_s - UNDER_WAY_S]:
         found += [UNHEARD] * (each.time_s - before_s > LINK_GAP_S) + [each.status.mode.name.lower()]
         before_s = each.time_s
     found += [UNHEARD] * (end_s - before_s > LINK_GAP_S)
