@@ -4,6 +4,8 @@ import dataclasses
 import threading
 
 from earlier_tests import shown_history
+from PyQt5 import sip
+from PyQt5.QtCore import QTimer
 
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.evidence.bundle import write_bundle
@@ -153,8 +155,22 @@ def test_window_made_anew_while_a_test_is_read_hears_nothing_of_it(lab, monkeypa
     lab.click(history.repeat)
     lab.application.flow.use_language("cs")
     try:
-        go_on.set()
-        WaitedThread.finish_all()
+        # What is read before that is offered by the window at hand.
         lab.wait(lambda: lab.window.history is not history)
+        lab.wait(lambda: sip.isdeleted(history))
+        reading = list(WaitedThread._running)
+        go_on.set()
+        lab.wait(lambda: all(thread.isFinished() for thread in reading))
     finally:
+        go_on.set()
         lab.application.flow.use_language("en")
+
+
+def test_notice_for_a_window_that_is_no_more_is_no_defect(lab):
+    former = lab.window
+    lab.application.flow.failed.emit("There is no such folder.")
+    lab.application._renew()
+    sip.delete(former)
+    turns = []
+    QTimer.singleShot(0, lambda: turns.append("after it"))
+    lab.wait(lambda: turns)

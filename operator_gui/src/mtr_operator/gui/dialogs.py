@@ -7,9 +7,20 @@ systems, and know nothing of the keys that stop the robot.
 from __future__ import annotations
 
 import pathlib
+from typing import Callable
 
-from PyQt5.QtCore import QEventLoop
+from PyQt5.QtCore import QEventLoop, QObject, QTimer
 from PyQt5.QtWidgets import QDialog, QFileDialog, QMessageBox, QWidget
+
+
+def after_delivery(receiver: QObject, ask: Callable[[], None]) -> None:
+    """Open a dialog when the events at hand are delivered, for the later ones would pass the earlier ones; not if the
+    receiver is no more by then: windows are made anew in another language."""
+    timer = QTimer(receiver)
+    timer.setSingleShot(True)
+    timer.timeout.connect(ask)
+    timer.timeout.connect(timer.deleteLater)
+    timer.start(0)
 
 
 def ask_folder(parent: QWidget, title: str, start: pathlib.Path) -> pathlib.Path | None:

@@ -7,14 +7,14 @@ import os
 import pathlib
 from typing import TYPE_CHECKING, NamedTuple
 
-from PyQt5.QtCore import QObject, Qt, QTimer, QUrl, pyqtSignal
+from PyQt5.QtCore import QObject, Qt, QUrl, pyqtSignal
 from PyQt5.QtGui import QDesktopServices
 from PyQt5.QtWidgets import QWidget
 
 from mtr_operator.station.identity_entry import Annotation
 from mtr_operator.station.test import Test, report_folder
 
-from ..dialogs import ask_folder
+from ..dialogs import after_delivery, ask_folder
 from ..flow import Flow
 from ..pictures.protocol_picture import ProtocolPicture
 from ..report_writer import CSV, PNG, ReportWriter
@@ -128,7 +128,7 @@ class ProtocolFiles(QObject):
         self.saving.emit(False)
         self.told.emit(translated(text) + " " + self.tr("Choose another folder; nothing is lost."))
         of, kinds = self._of, self._kinds
-        QTimer.singleShot(0, lambda: self._ask_folder(of, kinds))
+        after_delivery(self, lambda: self._ask_folder(of, kinds))
 
     def _learn_not_annotated(self, text: str) -> None:
         self.saving.emit(False)

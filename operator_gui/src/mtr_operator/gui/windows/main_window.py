@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 from typing import TYPE_CHECKING, Callable
 
-from PyQt5.QtCore import QSize, Qt, QTimer
+from PyQt5.QtCore import QSize, Qt
 from PyQt5.QtGui import QCloseEvent
 from PyQt5.QtWidgets import QDialog, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
@@ -17,7 +17,7 @@ from mtr_operator.station.test import Test
 
 from ..bus.bus_window import BusWindow
 from ..calibration.guide_window import GuideWindow
-from ..dialogs import ask_folder, ask_progress_file, confirm, show_message
+from ..dialogs import after_delivery, ask_folder, ask_progress_file, confirm, show_message
 from ..events.event_window import EventWindow
 from ..fitting.place import open_within
 from ..flow import Flow, Step
@@ -231,13 +231,11 @@ class MainWindow(QMainWindow):
         self._flow.unfinished.dismiss()
         self.welcome.offer_unfinished(None)
 
-    # A dialog within the delivery of events would let the later ones pass the earlier ones.
-
     def _tell(self, text: str) -> None:
-        QTimer.singleShot(0, lambda: self._show_notice(text))
+        after_delivery(self, lambda: self._show_notice(text))
 
     def _want_progress_folder(self, test: Test, text: str) -> None:
-        QTimer.singleShot(0, lambda: self._ask_progress_folder(test, text))
+        after_delivery(self, lambda: self._ask_progress_folder(test, text))
 
     def _say_saved(self, path: str) -> None:
         self.measurement.say(self.tr("Saved to {path}").format(path=path))
