@@ -98,6 +98,8 @@ def test_second_without_a_status_is_a_state_of_its_own():
     assert modes_during([status(0.9), status(1.1), status(3.2)], 1.0, 3.0) == ["following_waypoint", UNHEARD]
     assert modes_during([status(0.9), status(2.9)], 1.0, 3.0) == [UNHEARD, "following_waypoint"]
     assert modes_during([status(0.9), status(2.96)], 1.0, 3.0) == [UNHEARD], "said as the fault ended"
+    heard = [status(0.9), status(1.9), status(2.8), status(2.96, mode=Mode.FAULT)]
+    assert modes_during(heard, 1.0, 3.0) == ["following_waypoint", "fault"], "a link that was never cut"
     assert modes_during([status(0.9), status(1.9), status(2.8)], 1.0, 3.0) == ["following_waypoint"]
 
 

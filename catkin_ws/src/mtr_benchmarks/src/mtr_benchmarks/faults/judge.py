@@ -110,7 +110,9 @@ def modes_during(seen: Sequence[Seen], begin_s: float, end_s: float) -> List[str
     """States that the Operator reads during a fault, in their order."""
     found: List[str] = []
     before_s = begin_s
-    for each in [each for each in seen if begin_s < each.time_s <= end_s - UNDER_WAY_S]:
+    for each in [each for each in seen if begin_s < each.time_s <= end_s]:
+        if each.time_s - before_s > LINK_GAP_S and each.time_s > end_s - UNDER_WAY_S:
+            break
         found += [UNHEARD] * (each.time_s - before_s > LINK_GAP_S) + [each.status.mode.name.lower()]
         before_s = each.time_s
     found += [UNHEARD] * (end_s - before_s > LINK_GAP_S)
