@@ -20,9 +20,6 @@ from mtr_operator.gui.pictures.protocol_tables import Row, pages_of, table_rows
 from mtr_operator.gui.screens.measurement_facts import newest_text
 from mtr_operator.gui.theme.palette import LIGHT
 
-# Longer than a window waits for anything.
-COMPUTES_S = 30.0
-
 
 def points_layer(protocol):
     return next(layer for layer in protocol.panel.view.layers if isinstance(layer, PointsLayer))
@@ -58,7 +55,7 @@ def test_window_goes_on_while_the_picture_of_a_protocol_is_computed(operator, mo
     picture = scenario.picture
 
     def late(*arguments):
-        assert may_end.wait(COMPUTES_S), "the window waits for the picture"
+        assert may_end.wait(30.0), "the window waits for the picture"
         return picture(*arguments)
 
     operator.wait(lambda: operator.model.line == operator.model.total)
@@ -71,6 +68,16 @@ def test_window_goes_on_while_the_picture_of_a_protocol_is_computed(operator, mo
     operator.wait(lambda: screen.is_pictured)
     assert points_layer(screen).chosen
     saved(screen, operator)
+
+
+def test_picture_that_cannot_be_computed_is_said(protocol, operator, monkeypatch):
+    saved(protocol, operator)
+    said = []
+    monkeypatch.setattr(type(protocol.protocol), "computed", lambda _: 1 // 0)
+    monkeypatch.setattr(protocol, "_show_notice", said.append)
+    protocol.show_test()
+    operator.wait(lambda: "ZeroDivisionError" in said[-1] and protocol.save.isEnabled())
+    assert not protocol.is_pictured and protocol.table.model().rowCount() == 8
 
 
 def test_row_of_an_invalid_line_says_below_why(operator, opener):

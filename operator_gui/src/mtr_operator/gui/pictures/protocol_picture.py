@@ -37,8 +37,23 @@ class Protocol:
 
     @functools.cached_property
     def picture(self) -> Picture:
-        """All lines and points; that of many zones takes seconds to compute, in a thread."""
+        """All lines and points."""
         return self.scenario.picture(self.parameters, self.progress.measured_car, self.progress.results)
+
+    @functools.cached_property
+    def points_of_results(self) -> Sequence[tuple[Point, ...]]:
+        """Points of each result that are on the picture, m in the Car coordinate system."""
+        # An outline that a result alone would have need not be there.
+        shown = {point for each in self.picture.point_sets for point in each.known}
+        pictures = (self.scenario.picture(self.parameters, self.progress.measured_car, [result])
+                    for result in self.progress.results)
+        return [tuple(point for each in picture.point_sets for point in each.known if point in shown)
+                for picture in pictures]
+
+    def computed(self) -> Picture:
+        """The picture, with the points of the results kept beside it: of many zones that takes seconds, in a thread."""
+        _ = self.points_of_results
+        return self.picture
 
     def reason_of(self, index: int) -> str:
         """Why a line is invalid, or did not pass; empty for one of which there is nothing to say."""
@@ -70,7 +85,7 @@ class ProtocolPicture:
 
     def points_of(self, index: int) -> tuple[Point, ...]:
         """Points of one result that are shown."""
-        return self._points_of_results[index] if self.is_complete else ()
+        return self.protocol.points_of_results[index] if self.is_complete else ()
 
     def nearest(self, x: float, y: float, limit_m: float) -> int | None:
         """Index of the result with the point nearest to this place (m), None where none is within limit_m."""
@@ -78,12 +93,3 @@ class ProtocolPicture:
                      for point in self.points_of(index)]
         nearest_m, found = min(distances, default=(math.inf, -1))
         return found if nearest_m <= limit_m else None
-
-    @functools.cached_property
-    def _points_of_results(self) -> Sequence[tuple[Point, ...]]:
-        # An outline that a result alone would have need not be on the picture.
-        shown, protocol = set(self.points.points()), self.protocol
-        pictures = (protocol.scenario.picture(protocol.parameters, protocol.progress.measured_car, [result])
-                    for result in protocol.progress.results)
-        return [tuple(point for each in picture.point_sets for point in each.known if point in shown)
-                for picture in pictures]

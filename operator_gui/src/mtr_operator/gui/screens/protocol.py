@@ -56,7 +56,6 @@ class ProtocolScreen(QWidget):
         self._flow = flow
         self._is_shown = False
         self._told = ""
-        self._task: Task | None = None
         self._files = ProtocolFiles(flow, self)
         self._files.saving.connect(self._set_saving)
         self._files.told.connect(self._show_notice)
@@ -164,9 +163,13 @@ class ProtocolScreen(QWidget):
         shown = self._files.shown.picture
         self.panel.legend.show_sets(())
         self.panel.view.show_layers(shown.layers)
-        self._task = Task(lambda _: (shown, shown.protocol.picture))
-        self._task.done.connect(self._take_picture)
-        self._task.start()
+        task = Task(lambda _: (shown, shown.protocol.computed()))
+        task.done.connect(self._take_picture)
+        task.refused.connect(self._say_no_picture)
+        task.start()
+
+    def _say_no_picture(self, _: Task, text: str) -> None:
+        self._show_notice(translated(text))
 
     def _take_picture(self, _: Task, computed: tuple[ProtocolPicture, Picture]) -> None:
         shown, picture = computed
