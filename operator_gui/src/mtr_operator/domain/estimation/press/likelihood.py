@@ -8,6 +8,9 @@ curve of scale sqrt(1 - shared) * scale. For a place with several presses that i
 
 a convolution along d50; for one press it is the curve itself. A press between the places depends on the fading of
 several: what it tells of the line's own end is in line_boundary, what it would tell of the grid is left out.
+
+The product of n undecided presses is near 0.5^n. It is convolved relative to its peak over d50, so that the evidence
+for fading does not depend on the number of presses at a place.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -22,11 +25,11 @@ from scipy import fft
 from ..interval import FloatArray
 from .hypotheses import Hypotheses
 from .lattice import Lattice
-from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, SingleArray, falling_single
+from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, falling
 
 # Of a probability: a transition of 5 cm would make one press at the wrong side refute all else.
 _MIN_PROBABILITY = 1e-6
-# What the convolution leaves of an impossible course, beyond the rounding of its transform.
+# Of the peak over d50: what the convolution leaves of an impossible course, beyond the rounding of its transform.
 _MIN_BLURRED = 1e-12
 # The widest fading reaches this many sigmas beyond the grid.
 _EDGE_SIGMAS = 2.0
@@ -44,13 +47,14 @@ class Press:
 class _Place:
     """Presses that share the fading of their half wavelength.
 
-    products: for each part of the fading that stays, the product of the presses' steep likelihoods before the
-    convolution; axes [lapse, width, d50]. Made when the second press comes.
+    log: of the likelihood; axes [shared, lapse, width, d50]. steep: for each part of the fading that stays, the sum of
+    the logarithms of the presses' steep likelihoods before the convolution; axes [lapse, width, d50]. Made when the
+    second press comes.
     """
 
     first: Press
-    log: SingleArray
-    products: dict[float, FloatArray] = field(default_factory=dict)
+    log: FloatArray
+    steep: dict[float, FloatArray] = field(default_factory=dict)
     presses: int = 1
 
 
@@ -67,7 +71,7 @@ class PressLikelihood:
         self.lattice = lattice
         self._places: dict[int, _Place] = {}
         self._between: collections.Counter[int] = collections.Counter()
-        self.log: SingleArray = np.zeros((*hypotheses.shape_size, len(hypotheses.d50_m)), np.float32)
+        self.log: FloatArray = np.zeros((*hypotheses.shape_size, len(hypotheses.d50_m)))
 
     def presses_beside(self, distance_m: float) -> int:
         """Presses so far that share the fading with a distance."""
@@ -82,7 +86,7 @@ class PressLikelihood:
             self._between[number] += 1
             return
         # The fading of one press alone is part of the curve.
-        alone: SingleArray = np.log(self._factor(press, 1.0))
+        alone = self._log_factor(press, 1.0)
         place = self._places.get(number)
         if place is None:
             self._places[number] = _Place(press, np.broadcast_to(alone, self.log.shape))
@@ -94,35 +98,42 @@ class PressLikelihood:
         self.log += log - place.log
         place.log = log
 
-    def without(self, distance_m: float) -> SingleArray:
+    def without(self, distance_m: float) -> FloatArray:
         """The logarithm without the presses that share the fading of a place."""
         place = self._places.get(self.lattice.place_of(distance_m))
         return self.log if place is None else self.log - place.log
 
-    def _shared_log(self, place: _Place, press: Press, alone: SingleArray, row: int, share: float) -> SingleArray:
+    def _shared_log(self, place: _Place, press: Press, alone: FloatArray, row: int, share: float) -> FloatArray:
         """Logarithm for a place with one press more, for one part of the fading that stays."""
         if share <= 0.0:
             return np.asarray(place.log[row] + alone)
         steepness = math.sqrt(1.0 - share)
-        if share not in place.products:
-            place.products[share] = self._factor(place.first, steepness).astype(np.float64)
-        place.products[share] = place.products[share] * self._factor(press, steepness)
-        return np.asarray(np.log(self._blurred(place.products[share], share)).astype(np.float32))
+        if share not in place.steep:
+            place.steep[share] = self._log_factor(place.first, steepness)
+        place.steep[share] = place.steep[share] + self._log_factor(press, steepness)
+        peak = np.max(place.steep[share], axis=-1, keepdims=True)
+        return np.asarray(np.log(self._blurred(np.exp(place.steep[share] - peak), share)) + peak)
 
-    def _factor(self, press: Press, steepness: float) -> SingleArray:
-        """Likelihood of one press; axes [lapse, width, d50]."""
+    def _log_factor(self, press: Press, steepness: float) -> FloatArray:
+        """Logarithm of the likelihood of one press; axes [lapse, width, d50]."""
         grid = self._hypotheses
-        curve = falling_single(press.distance_m, grid.d50_m, steepness * grid.width_m[:, None])
-        works = (1.0 - grid.lapse[:, None, None]).astype(np.float32) * curve
-        return np.asarray(np.maximum(works if press.worked else np.float32(1.0) - works, np.float32(_MIN_PROBABILITY)))
+        width_m, lapse = steepness * grid.width_m[:, None], grid.lapse[:, None, None]
+        if press.worked:
+            likely = (1.0 - lapse) * falling(press.distance_m, grid.d50_m, width_m)
+        else:
+            # Beyond the curve, not 1 less the curve: that would lose its digits where the curve is near 1.
+            likely = lapse + (1.0 - lapse) * falling(grid.d50_m, press.distance_m, width_m)
+        return np.asarray(np.log(np.maximum(likely, _MIN_PROBABILITY)))
 
     def _blurred(self, product: FloatArray, shared: float) -> FloatArray:
-        """The convolution along d50; what lies outside the grid is as its edge."""
+        """The convolution along d50 of a product whose peak is 1; what lies outside the grid is as its edge."""
         grid = self._hypotheses
         sigmas = np.sqrt(shared) * SIGMA_PER_SCALE * grid.width_m / WIDTH_PER_SCALE / grid.step_m
         edge = int(_EDGE_SIGMAS * sigmas[-1])
         padded = np.pad(product, ((0, 0), (0, 0), (edge, edge)), mode="edge")
         size = fft.next_fast_len(padded.shape[-1], real=True)
-        transfer = np.exp(-0.5 * (2.0 * np.pi * np.outer(sigmas, fft.rfftfreq(size))) ** 2)
+        # Sampled, not its spectrum: where the fading is narrower than a step that would have negative lobes.
+        kernel = np.exp(-0.5 * (size * fft.fftfreq(size) / sigmas[:, None]) ** 2)
+        transfer = fft.rfft(kernel / np.sum(kernel, axis=-1, keepdims=True))
         blurred = fft.irfft(fft.rfft(padded, size) * transfer, size)[..., edge:edge + product.shape[-1]]
         return np.asarray(np.maximum(blurred, _MIN_BLURRED))

@@ -133,12 +133,12 @@ def _faded(draws: FadingDraws, presses: Sequence[Press], lattice: Lattice, numbe
 
 def _known_fading(draws: FadingDraws, presses: Sequence[Press], chance: np.random.Generator) -> SingleArray:
     """Of one place, in sigmas, as the presses there leave it possible."""
-    likely = np.exp(-0.5 * _NODES.astype(np.float64) ** 2)[None, :]
+    log = np.broadcast_to(-0.5 * _NODES.astype(np.float64) ** 2, (len(draws.d50_m), len(_NODES)))
     moved_m = draws.d50_m[:, None] + draws.fading_m[:, None] * _NODES
     for press in presses:
         works = (1.0 - draws.lapse[:, None]) * falling_single(press.distance_m, moved_m, draws.own_width_m[:, None])
-        likely = likely * (works if press.worked else 1.0 - works)
-    below = np.cumsum(likely, axis=1)
-    wanted = chance.random(len(likely))[:, None] * below[:, -1:]
+        log = log + np.log(np.maximum(works if press.worked else 1.0 - works, _TINY))
+    below = np.cumsum(np.exp(log - np.max(log, axis=1, keepdims=True)), axis=1)
+    wanted = chance.random(len(below))[:, None] * below[:, -1:]
     node = np.minimum(np.sum(below < wanted, axis=1), len(_NODES) - 1)
     return np.asarray(_NODES[node] + _HALF_NODE * (2.0 * chance.random(len(node)) - 1.0), np.float32)

@@ -21,12 +21,12 @@ class RadialPosterior:
         log_evidence: logarithm of the likelihood with d50 integrated out; axes [shared, lapse, width].
     """
 
-    def __init__(self, hypotheses: Hypotheses, log_likelihood: SingleArray, log_shape_prior: FloatArray,
+    def __init__(self, hypotheses: Hypotheses, log_likelihood: FloatArray, log_shape_prior: FloatArray,
                  log_place_prior: FloatArray):
         self.hypotheses = hypotheses
         # One exponential serves evidence and posterior; single precision takes an eighth of the time.
         peak = log_likelihood.max(axis=-1)
-        below = log_likelihood - peak[..., None]
+        below: SingleArray = (log_likelihood - peak[..., None]).astype(np.float32)
         self._likelihood: SingleArray = np.exp(np.maximum(below, _MIN_LOG, out=below), out=below)
         self._place_prior = np.exp(log_place_prior - np.max(log_place_prior))
         both = np.stack((np.full(len(self._place_prior), 1.0 / len(self._place_prior)), self._place_prior), axis=-1)

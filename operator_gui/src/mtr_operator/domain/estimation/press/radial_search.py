@@ -20,7 +20,6 @@ from .likelihood import Press, PressLikelihood
 from .line_boundary import LineBoundary
 from .plan import SearchPlan
 from .posterior import RadialPosterior
-from .transition import SingleArray
 
 # A press has to tell this share of what the best place would: one that costs nothing, as the key is there, is no use.
 MIN_SHARE = 0.7
@@ -167,7 +166,7 @@ class RadialSearch:
         informative = own >= MIN_SHARE * np.max(own)
         return float(places_m[np.argmax(informative * own / seconds)])
 
-    def _given(self, log_likelihood: SingleArray) -> RadialPosterior:
+    def _given(self, log_likelihood: FloatArray) -> RadialPosterior:
         return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
                                self._campaign.log_place_prior(self._radial))
 
