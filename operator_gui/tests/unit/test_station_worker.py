@@ -3,9 +3,9 @@
 import itertools
 import json
 import sys
-import threading
 
 import pytest
+from post import LIMIT_S, Post
 
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.actions.standstill import Standstill
@@ -27,10 +27,8 @@ from mtr_operator.station.events import (
 from mtr_operator.station.links.attention import Attention
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
 from mtr_operator.station.links.worker import Worker
-from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.test import new_test, open_test
 
-LIMIT_S = 30.0
 CONNECTION = Connection(can=CanChoice(SIMULATED))
 HUNG = "The window did not react for 3 s, nor would its Stop have: the robot was stopped."
 
@@ -49,25 +47,6 @@ class Opener(LinkOpener):
 
     def car(self, choice):
         return AbsentCarLink() if choice is None else self._car
-
-
-class Post:
-    """Mailbox whose events can be waited for."""
-
-    def __init__(self):
-        self.events, self._arrived = [], threading.Event()
-        self.box = Mailbox(self._arrived.set)
-
-    def wait_for(self, kind):
-        """The first event of a kind that was not taken yet."""
-        while True:
-            for event in self.events:
-                if isinstance(event, kind):
-                    self.events.remove(event)
-                    return event
-            assert self._arrived.wait(LIMIT_S), f"no {kind.__name__}; there were {self.events}"
-            self._arrived.clear()
-            self.events += self.box.take().events
 
 
 @pytest.fixture

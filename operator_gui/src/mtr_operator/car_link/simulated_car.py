@@ -142,7 +142,7 @@ class SimulatedCarLink(CarLink):
         self._state = LockState.LOCKED
         self._is_passive = True
         self._session_id = self._robot_session_id = 0
-        self._poll_s = self._answered_s = -math.inf
+        self._poll_s = self._answered_s = self._stamp_s = -math.inf
         self._agreed = 0
         self._robot: tuple[float, tuple[float, float]] | None = None
 
@@ -155,10 +155,11 @@ class SimulatedCarLink(CarLink):
         """See CarLink."""
         if not self._is_active:
             return []
-        if status.session_id != self._session_id and not status.controlled_by_other:
-            self._session_id, self._is_passive = status.session_id, True
-        if status.robot_session_id != self._robot_session_id:
+        if status.robot_session_id != self._robot_session_id or status.stamp_s < self._stamp_s:
             self._forget_times(status.robot_session_id)
+        if status.session_id != self._session_id and not status.controlled_by_other:
+            self._begin_session(status.session_id)
+        self._stamp_s = status.stamp_s
         car, before = status.car or _NOBODY, self._robot
         self._robot = (status.stamp_s, status.key_place) if status.pose_valid else None
         if self._robot is not None:
@@ -168,9 +169,14 @@ class SimulatedCarLink(CarLink):
             events += self._polls(before, self._robot, car)
         return events
 
+    def _begin_session(self, session_id: int) -> None:
+        """Restore passive entry for the next test; a request of the previous one is no longer pending."""
+        self._session_id, self._is_passive, self._handle.is_waiting = session_id, True, False
+
     def _forget_times(self, robot_session_id: int) -> None:
-        """The robot has started anew, and its clock with it: all that comes would be older than what came before."""
+        """Drop all instants, and the session, of the previous clock of the robot: the new one starts below them."""
         self._robot_session_id = robot_session_id
+        self._begin_session(0)
         self._poll_s = self._answered_s = -math.inf
         self._agreed, self._robot = 0, None
         self._key.forget()

@@ -15,7 +15,8 @@ def robot_link(options: argparse.Namespace, is_real_time: bool = False) -> Robot
     it can; beside a real bus it has to be, for its frames are placed on the robot's clock."""
     if options.simulated_robot:
         from mtr_operator.robot_link.fake import FakeRobotLink
-        return FakeRobotLink(options.seed, time_factor=float(is_real_time))
+        from mtr_operator.robot_link.virtual.robot import VirtualRobot
+        return FakeRobotLink(time_factor=float(is_real_time), robot=VirtualRobot.started(options.seed))
     return LinkOpener().robot(RobotChoice(options.robot, options.subscriber_port, options.publisher_port,
                                           bool(options.unencrypted)))
 

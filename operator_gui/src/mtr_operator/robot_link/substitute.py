@@ -44,7 +44,7 @@ class RobotSubstitute:
                  world: VirtualWorld = DEFAULT_WORLD, *, robot: VirtualRobot | None = None):
         self.server = server
         self.rejected = 0
-        self._robot = robot or VirtualRobot(seed, world)
+        self._robot = robot or VirtualRobot.started(seed, world)
         self.period_s = STATUS_PERIOD_S / time_factor
         self._silence_limit_wall_s = max(_SILENCE_LIMIT_S / time_factor, _MIN_SILENCE_WALL_S)
         self._stopping = threading.Event()

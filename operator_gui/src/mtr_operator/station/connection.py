@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import secrets
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Callable
 
@@ -15,11 +16,14 @@ if TYPE_CHECKING:
     from mtr_operator.car_link.adapter import AdapterSettings
     from mtr_operator.car_link.can_frame import CanFrame
     from mtr_operator.car_link.learn.listener import Listener
+    from mtr_operator.robot_link.virtual.robot import VirtualRobot
 
 DEFAULT_BITRATE_BPS = 500_000
 DEFAULT_PROFILE = "mtr_demo_car"
 # Host of the robot's substitute and interface of the Car's, both inside the application.
 SIMULATED = "simulated"
+_SIMULATED_SEED = 1
+_MAX_SESSION_ID = 2 ** 63 - 1
 
 
 @dataclass(frozen=True)
@@ -94,14 +98,20 @@ def robot_choice(host: str, subscriber_port: str, publisher_port: str, is_unencr
 
 
 class LinkOpener:
-    """Makes the links for a choice; drivers are imported when they are used first."""
+    """Makes the links for a choice; drivers are imported when they are used first.
+
+    The simulated robot continues from one link to the next, as a real robot does: its clock, place and map are kept.
+    time_factor: simulated seconds per second of wall time; a person watches at 1, and a real bus may be connected.
+    """
+
+    def __init__(self, time_factor: float = 1.0):
+        self._time_factor = time_factor
+        self._simulated_robot: VirtualRobot | None = None
 
     def robot(self, choice: RobotChoice) -> RobotLink:
         """A new link of a new session, not connected yet; ConnectionFailed when the contract is not installed."""
         if choice.host == SIMULATED:
-            from mtr_operator.robot_link.fake import FakeRobotLink
-            # A person watches, and a real bus may be beside it.
-            return FakeRobotLink(time_factor=1.0)
+            return self._simulated()
         try:
             from mtr_operator.robot_link.client import ZmqRobotLink
         except ModuleNotFoundError as error:
@@ -111,6 +121,14 @@ class LinkOpener:
                                    "the folder proto of the project.") from None
         return ZmqRobotLink(choice.host, choice.subscriber_port, choice.publisher_port,
                             is_unencrypted=choice.is_unencrypted)
+
+    def _simulated(self) -> RobotLink:
+        from mtr_operator.robot_link.fake import FakeRobotLink
+        from mtr_operator.robot_link.virtual.robot import VirtualRobot
+        if self._simulated_robot is None:
+            self._simulated_robot = VirtualRobot.started(_SIMULATED_SEED)
+        session_id = secrets.randbelow(_MAX_SESSION_ID) + 1
+        return FakeRobotLink(time_factor=self._time_factor, robot=self._simulated_robot, session_id=session_id)
 
     def pair(self, host: str, code: str) -> str:
         """Pair this laptop with the robot that shows the code; its role.

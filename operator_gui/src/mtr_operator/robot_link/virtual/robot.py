@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import random
+import secrets
 from dataclasses import dataclass
 
 from mtr_operator import __version__
@@ -31,6 +32,7 @@ _DEFAULT_SPEED_MPS = 0.5
 _MAX_SPEED_MPS = 2.0
 # Half diagonal of the robot's footprint (0.51 m x 0.43 m).
 _ROBOT_RADIUS_M = 0.34
+_MAX_SESSION_ID = 2 ** 63 - 1
 
 
 @dataclass(frozen=True)
@@ -56,15 +58,20 @@ DEFAULT_WORLD = VirtualWorld()
 
 
 class VirtualRobot:
-    """Virtual state of the robot; step() lets time pass, take() hands it a desired state."""
+    """Virtual state of the robot; step() lets time pass, take() hands it a desired state.
 
-    def __init__(self, seed: int, world: VirtualWorld = DEFAULT_WORLD):
+    robot_session_id: 1 to 2^63 - 1. None draws it from the seed, so that two robots of one seed are equal in all that
+    they report; a consumer that outlives the first takes the second for the same robot. Use started() for those.
+    """
+
+    def __init__(self, seed: int, world: VirtualWorld = DEFAULT_WORLD, *, robot_session_id: int | None = None):
         chance = random.Random(seed)
         bearing = chance.uniform(-math.pi, math.pi)
         self._world = world
         self._car = CarDimensions(world.car_length_m, world.car_width_m, world.car_sigma_m, world.car_sigma_m)
         self._box = Box(world.car_length_m / 2 + _ROBOT_RADIUS_M, world.car_width_m / 2 + _ROBOT_RADIUS_M)
-        self._robot_session_id = chance.randrange(1, 2 ** 63)
+        drawn_id = chance.randrange(1, _MAX_SESSION_ID + 1)
+        self._robot_session_id = drawn_id if robot_session_id is None else robot_session_id
         self._session_id = 0
         self._command_id = 0
         self._time_s = _START_TIME_S
@@ -80,6 +87,11 @@ class VirtualRobot:
         self._map_car_id = 0
         self._mapping_left_s = world.mapping_s
         self._status_id = 0
+
+    @classmethod
+    def started(cls, seed: int, world: VirtualWorld = DEFAULT_WORLD) -> VirtualRobot:
+        """Return a robot with a session id that no other has: its clock and its map begin with it."""
+        return cls(seed, world, robot_session_id=secrets.randbelow(_MAX_SESSION_ID) + 1)
 
     @property
     def time_s(self) -> float:
