@@ -70,6 +70,66 @@ def test_a_clock_that_is_set_is_told(jump_s, way):
     assert reading.reason == f"The clock of the phone's distance was set {way}."
 
 
+def repeated(changes_s, end_s=106.0, start_s=95.0):
+    """A feed that repeats its newest figure ten times a second; each change is by 7 cm, back and forth."""
+    times = [start_s + 0.1 * index for index in range(round(10 * (end_s - start_s)))]
+    return [Reported(time_s, 2.0 + 0.07 * (sum(change_s <= time_s for change_s in changes_s) % 3)) for time_s in times]
+
+
+@pytest.mark.parametrize(("changes_s", "often"), [
+    ((), ""), ((98.0, 99.0, 99.5, 105.5), ""), ((102.0,), " more than once"), ((101.0, 103.0), " more than 2 times"),
+    ((99.2, 101.0, 103.0, 104.9), " more than 3 times")])
+@pytest.mark.parametrize("has_clock", [False, True])
+def test_a_figure_that_changes_too_rarely_makes_the_place_invalid(changes_s, often, has_clock):
+    """Also of a feed that stamps its repetitions: a phone that hangs looks like that."""
+    heard = [replace(each, feed_s=each.time_s - 70.0) if has_clock else each for each in repeated(changes_s)]
+    reading = read(heard, WINDOW, PARAMETERS)
+    assert (reading.answer, reading.median) == (Answer.CONSTANT, None)
+    assert reading.reason == (f"The phone's distance did not change{often} within 5.0 s; 4 changes are needed. "
+                              "Increase reading_time_s, or check the phone.")
+
+
+def test_repeated_figures_count_once_and_the_first_of_the_window_not_at_all():
+    heard = [replace(each, distance_m=9.0) if each.time_s < 101.0 else each for each in
+             repeated((101.0, 102.0, 103.0, 104.0))]
+    reading = read(heard, WINDOW, PARAMETERS)
+    values_m = [2.07, 2.14, 2.0, 2.07]
+    assert reading.answer is Answer.DISTANCE
+    assert (reading.median.value_m, reading.median.sigma_m) == pytest.approx(
+        (2.07, median_of(values_m, 0.0).sigma_m))
+    assert reading.median.sigma_m > 0.04
+
+
+def test_figures_that_were_measured_before_the_robot_stood_do_not_count():
+    late = [replace(each, age_s=0.85) for each in repeated((100.2, 100.4, 100.6, 100.8, 102.0, 103.0, 104.0))]
+    reading = read(late, WINDOW, PARAMETERS)
+    assert (reading.answer, "more than 3 times" in reading.reason) == (Answer.CONSTANT, True)
+
+
+@pytest.mark.parametrize(("window_s", "has_age"), [(5.0, False), (5.0, True), (30.0, False)])
+@pytest.mark.parametrize("period_s", [0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0])
+def test_intervals_of_slow_phones_hold_the_distance_or_the_place_is_invalid(period_s, window_s, has_age):
+    """A phone with an error of 15 cm that measures every period_s, and whose feed repeats the figure at 10 Hz."""
+    chance, holds, parameters = random.Random(f"{period_s} {window_s}"), [], replace(
+        PARAMETERS, resolution_m=0.01, reading_time_s=window_s, maximum_age_s=min(window_s, 30.0))
+    for _ in range(250):
+        measured_s, figure_m, heard, time_s = -12.0 - period_s * chance.random(), 0.0, [], -1.0 + 0.1 * chance.random()
+        while time_s <= window_s:
+            while measured_s + period_s <= time_s:
+                measured_s, figure_m = measured_s + period_s, round(2.0 + chance.gauss(0.0, 0.15), 2)
+            heard.append(Reported(time_s, figure_m, age_s=time_s - measured_s if has_age else 0.0))
+            time_s += 0.1
+        reading = read(heard, (0.0, window_s), parameters)
+        if reading.answer is Answer.DISTANCE:
+            holds.append(abs(reading.median.value_m - 2.0) <= 1.959964 * reading.median.sigma_m)
+        else:
+            assert "did not change" in reading.reason or (has_age and reading.answer is Answer.STALE)
+    is_read_long_enough = window_s > 4.5 * period_s
+    assert (len(holds) > 200) is is_read_long_enough
+    # 95 % as the promise has it; the upper end leaves room for the chance of 250 places.
+    assert not holds or 0.92 <= sum(holds) / len(holds) <= 0.995
+
+
 def test_a_clock_that_was_set_on_the_way_to_the_place_does_not_matter_there():
     before = [Reported(90.0 + index, 2.0, 20.0 + index) for index in range(5)]
     for jump_s in (40.0, -40.0):
@@ -87,7 +147,8 @@ def test_a_burst_that_was_held_up_is_late_and_no_set_clock():
 def test_clocks_that_drift_apart_are_no_age():
     hours = [Reported(100.0 + 60.0 * index, 2.0, (1.0 - 100e-6) * 60.0 * index) for index in range(600)]
     last_s = hours[-1].time_s
-    end = [Reported(last_s + 0.2 * step, 2.0, (1.0 - 100e-6) * (last_s + 0.2 * step - 100.0)) for step in range(1, 26)]
+    end = [Reported(last_s + 0.2 * step, 2.0 + 0.01 * (step % 3), (1.0 - 100e-6) * (last_s + 0.2 * step - 100.0))
+           for step in range(1, 26)]
     assert read([*hours, *end], (last_s, last_s + 5.0), PARAMETERS).answer is Answer.DISTANCE
 
 

@@ -1,6 +1,7 @@
 """The benchmark of ranges: its Cars are what they say, and its figures and verdicts."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import random
 
 import numpy as np
 import pytest
@@ -9,11 +10,13 @@ from mtr_benchmarks.ranges import referees
 from mtr_benchmarks.ranges.campaigns import FADINGS, POLLINGS, WIDTHS_M, Amount, Task, run_task, tasks
 from mtr_benchmarks.ranges.cars import Polling, Radial, Radio, noticed_at
 from mtr_benchmarks.ranges.pass_methods import AxesDraw
+from mtr_benchmarks.ranges.phones import Coverage, Phone, coverage
+from mtr_benchmarks.ranges.phones import figures as feed
 from mtr_benchmarks.ranges.press_methods import Draw, scan
 from mtr_benchmarks.ranges.referees import up_and_down
 from mtr_benchmarks.ranges.repeated import pairs_agree
 from mtr_benchmarks.ranges.result import LineFound, false_passes, figures, point, without_interval
-from mtr_benchmarks.ranges.table import BIAS, RATIO, WITHOUT, report
+from mtr_benchmarks.ranges.table import BIAS, RATIO, WITHOUT, phone_rows, report
 from mtr_operator.domain.estimation.interval import UNKNOWN
 
 
@@ -170,3 +173,23 @@ def measured():
             found.update({("adaptive", *kind): lines(0.1), ("adaptive_scan_time", *kind): lines(0.1),
                           ("scan_beside", *kind): lines(0.5)})
     return found
+
+
+def test_feed_of_a_phone_repeats_each_figure_until_the_next_one():
+    heard = list(feed(Phone(2.0, has_age=True), 3.0, 20.0, random.Random(1)))
+    changes = sum(before.distance_m != after.distance_m for before, after in zip(heard, heard[1:]))
+    assert 9 <= changes <= 11 and len(heard) == pytest.approx(210, abs=2)
+    assert 1.8 <= max(each.age_s for each in heard) <= 2.0 and min(each.age_s for each in heard) < 0.11
+
+
+@pytest.mark.parametrize(("period_s", "valid"), [(0.5, 200), (4.0, 0)])
+def test_places_of_a_phone_are_covered_or_invalid(period_s, valid):
+    found = coverage(Phone(period_s), 5.0, 200, 1)
+    assert found.valid == valid and (found.share is None) is (valid == 0)
+    assert found.share is None or found.share >= 0.92
+
+
+def test_row_of_phones_is_about_the_worst_kind_that_has_valid_places():
+    least, most = phone_rows({"good": Coverage(100, 100, 95), "bad": Coverage(100, 50, 40), "none": Coverage(9, 0, 0)})
+    assert (least.value, least.remark, most.value) == (0.8, "bad", 0.95)
+    assert phone_rows({}) == []

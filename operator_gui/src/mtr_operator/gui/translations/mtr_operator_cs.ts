@@ -2184,32 +2184,32 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="243"/>
+        <location filename="../windows/main_window.py" line="241"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="246"/>
+        <location filename="../windows/main_window.py" line="244"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="248"/>
+        <location filename="../windows/main_window.py" line="246"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="263"/>
+        <location filename="../windows/main_window.py" line="261"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="267"/>
+        <location filename="../windows/main_window.py" line="265"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="267"/>
+        <location filename="../windows/main_window.py" line="265"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
@@ -3100,57 +3100,57 @@
         <translation>Jak se auto po každém odemčení znovu zamkne. button: robot stiskne na klíči tlačítko zamčení. itself: robot odjede a počká, pro klíč, jehož tlačítko stisknout nemůže.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>Nearest places at which the distance is read.</source>
         <translation>Nejbližší místa, na kterých se vzdálenost čte.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>Farthest places at which the distance is read.</source>
         <translation>Nejvzdálenější místa, na kterých se vzdálenost čte.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>Standstill before the distance is read.</source>
         <translation>Stání před čtením vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>How long the distance is read at each place.</source>
         <translation>Jak dlouho se vzdálenost na každém místě čte.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
-        <source>Fewer reported distances at a place tell nothing.</source>
-        <translation>Méně hlášených vzdáleností na místě nic neříká.</translation>
+        <location filename="../texts/keys/phone.py" line="73"/>
+        <source>Minimum number of reported distances at a place, and of changes among them; at least 4 changes are needed in any case.</source>
+        <translation>Nejmenší počet hlášených vzdáleností na místě a jejich změn; v každém případě jsou třeba aspoň 4 změny.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>Longest time for which the newest reported distance may stand; a place where it is older is invalid.</source>
         <translation>Nejdelší doba, po kterou smí platit nejnovější hlášená vzdálenost; místo, kde je starší, je neplatné.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>Step of the reported distances.</source>
         <translation>Krok hlášených vzdáleností.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>What the reported distance is compared with. outline: the shortest way from the phone to the Car&apos;s outline, over ground. anchor: the straight way to a point of the Car, with the difference in height.</source>
         <translation>S čím se hlášená vzdálenost porovnává. outline: nejkratší cesta od telefonu k obrysu auta, po zemi. anchor: přímá cesta k bodu auta, s rozdílem výšek.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>The anchor, ahead of the Car&apos;s centre.</source>
         <translation>Kotva, před středem auta.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>The anchor, to the left of the Car&apos;s centre.</source>
         <translation>Kotva, vlevo od středu auta.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="67"/>
+        <location filename="../texts/keys/phone.py" line="73"/>
         <source>Height of the anchor above ground.</source>
         <translation>Výška kotvy nad zemí.</translation>
     </message>
@@ -3518,87 +3518,87 @@
 <context>
     <name>ProtocolScreen</name>
     <message>
-        <location filename="../screens/protocol.py" line="71"/>
+        <location filename="../screens/protocol.py" line="73"/>
         <source>Save</source>
         <translation>Uložit</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="72"/>
+        <location filename="../screens/protocol.py" line="74"/>
         <source>Save as CSV and PNG</source>
         <translation>Uložit jako CSV a PNG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="73"/>
+        <location filename="../screens/protocol.py" line="75"/>
         <source>Save PDF</source>
         <translation>Uložit PDF</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="74"/>
+        <location filename="../screens/protocol.py" line="76"/>
         <source>Save SVG</source>
         <translation>Uložit SVG</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="75"/>
+        <location filename="../screens/protocol.py" line="77"/>
         <source>Show folder</source>
         <translation>Ukázat složku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="84"/>
+        <location filename="../screens/protocol.py" line="86"/>
         <source>New test</source>
         <translation>Nový test</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="139"/>
+        <location filename="../screens/protocol.py" line="147"/>
         <source>{scenario} protocol</source>
         <translation>Protokol {scenario}</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="173"/>
+        <location filename="../screens/protocol.py" line="201"/>
         <source>Verdict: {verdict}.</source>
         <translation>Verdikt: {verdict}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="68"/>
+        <location filename="../screens/protocol.py" line="70"/>
         <source>What the uncertainty of the chosen row is made of</source>
         <translation>Z čeho se skládá nejistota vybraného řádku</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="65"/>
+        <location filename="../screens/protocol.py" line="67"/>
         <source>Results; choose a row to see its points, or several to measure them again</source>
         <translation>Výsledky; volbou řádku uvidíte jeho body, více řádků lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="77"/>
+        <location filename="../screens/protocol.py" line="79"/>
         <source>Hold to measure again</source>
         <translation>Podržením změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="147"/>
+        <location filename="../screens/protocol.py" line="153"/>
         <source>Not saved as CSV and PNG yet.</source>
         <translation>Zatím neuloženo jako CSV a PNG.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="181"/>
+        <location filename="../screens/protocol.py" line="209"/>
         <source>{count} lines, {invalid} of them invalid.</source>
         <translation>Počet přímek: {count}, z toho neplatných: {invalid}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="182"/>
+        <location filename="../screens/protocol.py" line="210"/>
         <source>{count} lines.</source>
         <translation>Počet přímek: {count}.</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="79"/>
+        <location filename="../screens/protocol.py" line="81"/>
         <source>Notes and photos</source>
         <translation>Poznámky a fotky</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="80"/>
+        <location filename="../screens/protocol.py" line="82"/>
         <source>Save evidence bundle</source>
         <translation>Uložit balíček důkazů</translation>
     </message>
     <message>
-        <location filename="../screens/protocol.py" line="82"/>
+        <location filename="../screens/protocol.py" line="84"/>
         <source>One signed file with results, recording, profile, software versions and journal</source>
         <translation>Jeden podepsaný soubor s výsledky, záznamem, profilem, verzemi programů a deníkem</translation>
     </message>
@@ -6192,6 +6192,21 @@
     </message>
     <message>
         <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance did not change within {} s; {} changes are needed. Increase reading_time_s, or check the phone.</source>
+        <translation>Vzdálenost telefonu se za {} s nezměnila; je třeba {} změn. Prodlužte reading_time_s, nebo zkontrolujte telefon.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance did not change more than once within {} s; {} changes are needed. Increase reading_time_s, or check the phone.</source>
+        <translation>Vzdálenost telefonu se za {} s změnila jen jednou; je třeba {} změn. Prodlužte reading_time_s, nebo zkontrolujte telefon.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>The phone&apos;s distance did not change more than {} times within {} s; {} changes are needed. Increase reading_time_s, or check the phone.</source>
+        <translation>Vzdálenost telefonu se změnila jen {}krát za {} s; je třeba {} změn. Prodlužte reading_time_s, nebo zkontrolujte telefon.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
         <source>The phone&apos;s distances scatter by {} m; their median is not known.</source>
         <translation>Vzdálenosti telefonu kolísají o {} m; jejich medián není znám.</translation>
     </message>
@@ -7903,62 +7918,62 @@
         <translation>poznámky a fotografie doplněny</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>position</source>
         <translation>poloha</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>phone</source>
         <translation>telefon</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>Error</source>
         <translation>Chyba</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>No answer</source>
         <translation>Bez odpovědi</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>bias</source>
         <translation>systematická chyba</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>spread of errors</source>
         <translation>rozptyl chyb</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>95 % of errors within</source>
         <translation>95 % chyb do</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>places without answer</source>
         <translation>místa bez odpovědi</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>phone&apos;s distance from</source>
         <translation>vzdálenost telefonu z</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>distances of the phone that were not used</source>
         <translation>vzdálenosti telefonu, které nebyly použity</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>port</source>
         <translation>port</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="52"/>
+        <location filename="../texts/keys/phone.py" line="58"/>
         <source>baud rate</source>
         <translation>rychlost linky</translation>
     </message>

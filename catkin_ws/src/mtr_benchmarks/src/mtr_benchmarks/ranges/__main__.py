@@ -1,4 +1,4 @@
-"""Measures the estimators of both scenarios on simulated Cars; figures go to range.json.
+"""Measures the estimators of all scenarios on simulated Cars and phones; figures go to range.json.
 
 Usage: python -m mtr_benchmarks.ranges --out out/bench
 """
@@ -10,6 +10,7 @@ from typing import List, Optional
 
 from ..harness.report import finish
 from .campaigns import Amount, measure
+from .phones import measure_phones
 from .table import report
 
 
@@ -20,10 +21,12 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--radials", type=int, default=1000, help="of each width, with and without fading")
     parser.add_argument("--axes", type=int, default=1000, help="of each polling")
+    parser.add_argument("--places", type=int, default=2000, help="of each kind of phone")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     options = parser.parse_args(arguments)
     found = measure(Amount(options.radials, options.axes, options.seed, options.jobs))
-    return finish(report(found), options.out / "range.json")
+    phones = measure_phones(options.places, options.seed)
+    return finish(report(found, phones), options.out / "range.json")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import numpy as np
 from ..harness.report import BenchmarkReport
 from ..harness.rows import Requirement, Row
 from .campaigns import FADINGS, POLLINGS, WIDTHS_M, Found
+from .phones import Coverage
 from .repeated import pairs_agree
 from .result import LineFound, false_passes, figures, share, without_interval
 
@@ -25,13 +26,21 @@ JUDGED = ("adaptive", "adaptive_scan_time", "passes")
 FALSE_PASS = Requirement("false pass, worst of Cars and limits", "(share)", 0.025, 0.05)
 
 
-def report(found: Found) -> BenchmarkReport:
-    """Of all campaigns."""
+def report(found: Found, phones: Optional[Dict[str, Coverage]] = None) -> BenchmarkReport:
+    """Of all campaigns, and of the phones if they were measured."""
     pooled = {key: [line for campaign in campaigns for line in campaign] for key, campaigns in found.items()}
     details: Dict[str, Any] = {}
     for (method, *kind), lines in pooled.items():
         details.setdefault(method, {})["/".join(kind)] = figures(lines)
-    return BenchmarkReport(rows(found, pooled, details), {"details": details})
+    phones = phones or {}
+    details["phones"] = {name: each._asdict() for name, each in phones.items()}
+    return BenchmarkReport([*rows(found, pooled, details), *phone_rows(phones)], {"details": details})
+
+
+def phone_rows(phones: Dict[str, Coverage]) -> List[Row]:
+    """Coverage of the phone's distance over the kinds that have valid places; a kind without one makes no claim."""
+    shares = {name: each.share for name, each in phones.items() if each.share is not None}
+    return _shares("coverage of a phone's distance", dict(shares)) if shares else []
 
 
 def rows(found: Found, pooled: Dict[Tuple[str, ...], List[LineFound]], details: Dict[str, Any]) -> List[Row]:

@@ -10,11 +10,11 @@ from typing import Sequence
 from ..interval import SIGMAS_OF_LEVEL
 from ..student import quantile
 
-# Of the median of a normal distribution beside the mean's (its asymptotic efficiency is 2 / pi).
-_OF_MEDIAN = math.sqrt(math.pi / 2.0)
 # Filtered figures that hardly move say little more than one of them.
 _MAX_CORRELATION = 0.95
 _MIN_COUNT = 2.0
+# The correction of the bias from so many values on; with fewer it is itself too uncertain and makes intervals too wide.
+_FULL_CORRECTION = 12
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,8 @@ class Median:
 def median_of(values_m: Sequence[float], resolution_m: float) -> Median:
     """Of figures in the order in which they came; resolution_m: their step. One figure has an infinite sigma.
 
-    A phone filters what it tells, so that a figure is like the one before it: the correlation of neighbours takes that
-    from their number, n (1 - r) / (1 + r). The step is an error of all of them alike, even over its width.
+    A phone filters what it reports, so that a figure is like the one before it: the correlation r of neighbours
+    reduces their number n to n (1 - r) / (1 + r). The step is a common error of all figures, uniform over its width.
     """
     step_m = resolution_m / math.sqrt(12.0)
     if len(values_m) < _MIN_COUNT:
@@ -42,14 +42,27 @@ def median_of(values_m: Sequence[float], resolution_m: float) -> Median:
     spread_m = statistics.stdev(values_m)
     correlation = min(max(_neighbours(values_m), 0.0), _MAX_CORRELATION)
     count = max(len(values_m) * (1.0 - correlation) / (1.0 + correlation), _MIN_COUNT)
-    factor = quantile(count - 1.0) / SIGMAS_OF_LEVEL
-    return Median(statistics.median(values_m), spread_m,
-                  math.hypot(factor * _OF_MEDIAN * spread_m / math.sqrt(count), step_m))
+    factor = quantile(count - 1.0) / SIGMAS_OF_LEVEL * _sigmas_of_mean(len(values_m))
+    return Median(statistics.median(values_m), spread_m, math.hypot(factor * spread_m / math.sqrt(count), step_m))
+
+
+def _sigmas_of_mean(count: int) -> float:
+    """Standard deviation of the median of independent normal values in that of their mean, within 2 % for any count.
+
+    The limit is sqrt(pi / 2); the median of two values is their mean.
+    """
+    return math.sqrt(math.pi * count / (2.0 * count + (math.pi - 2.0 if count % 2 else 2.0 * (math.pi - 2.0))))
 
 
 def _neighbours(values_m: Sequence[float]) -> float:
-    """Correlation of each figure with the one before it; 0 where nothing varies."""
+    """Correlation of each figure with the one before it, corrected for its bias; 0 if nothing varies.
+
+    n values underestimate it by (1 + 4 r) / n: Kendall, Note on bias in the estimation of autocorrelation, 1954.
+    """
     mean_m = statistics.fmean(values_m)
     off_m = [value_m - mean_m for value_m in values_m]
     total = sum(each * each for each in off_m)
-    return sum(first * second for first, second in zip(off_m, off_m[1:])) / total if total > 0.0 else 0.0
+    if not total:
+        return 0.0
+    found = sum(first * second for first, second in zip(off_m, off_m[1:])) / total
+    return found + (1.0 + 4.0 * max(found, 0.0)) / max(len(values_m), _FULL_CORRECTION)

@@ -29,7 +29,9 @@ class DigitalKeyParameters(ScenarioParameters):
                                          shown=KILOMETRES_PER_HOUR)
     stand_time_s: float = parameter(1.0, 0.0, 60.0, "s", "Standstill before the distance is read.")
     reading_time_s: float = parameter(5.0, 0.5, 55.0, "s", "How long the distance is read at each place.")
-    minimum_samples: int = parameter(3, 2, 1000, "", "Fewer reported distances at a place tell nothing.")
+    minimum_samples: int = parameter(
+        3, 2, 1000, "", "Minimum number of reported distances at a place, and of changes among them; at least 4 "
+                        "changes are needed in any case.")
     maximum_age_s: float = parameter(
         1.0, 0.2, 30.0, "s", "Longest time for which the newest reported distance may stand; a place where it is "
                              "older is invalid.")

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from ...distance_feed import Reported
+from ...estimation.ranging.changes import MIN_CHANGES, changed_values
 from ...estimation.ranging.median import Median, median_of
 from ...limits import DISTANCE_SIGMA
 from .parameters import DigitalKeyParameters
@@ -28,7 +29,7 @@ class Answer(enum.Enum):
     NONE = "none"           # too little was told
     STALE = "stale"         # what was told was old
     CLOCK = "clock"         # the feed's clock was set
-    CONSTANT = "constant"   # the same figure as at places that are farther or nearer
+    CONSTANT = "constant"   # it did not change, too rarely, or is the same at places that are farther or nearer
 
 
 @dataclass(frozen=True)
@@ -53,22 +54,38 @@ def read(heard: Sequence[Reported], window_s: tuple[float, float], parameters: D
         reason = f"The phone's distance was told {len(inside)} times within {duration_s:.1f} s; " \
                  f"{parameters.minimum_samples} times are needed."
         return Reading(Answer.NONE, figures_m, None, None, reason)
-    median = median_of(figures_m, parameters.resolution_m)
-    if not DISTANCE_SIGMA.allows(median.sigma_m):
+    jumps_s, delays_s = _by_clock(heard)
+    # A figure of known age may have been measured before the robot stood there.
+    values_m = changed_values([heard[index].distance_m for index in inside
+                               if heard[index].time_s - delays_s[index] > start_s])
+    median = median_of(values_m, parameters.resolution_m) if len(values_m) > 1 else None
+    if median is not None and not DISTANCE_SIGMA.allows(median.sigma_m):
         return Reading(Answer.NONE, figures_m, None, None,
                        f"The phone's distances scatter by {median.spread_m:.1f} m; their median is not known.")
-    jumps_s, delays_s = _by_clock(heard)
     jump_s = max((jumps_s[index] for index in inside), key=abs)
     if jump_s:
-        way = "forward" if jump_s > 0.0 else "back"
-        return Reading(Answer.CLOCK, figures_m, median, None,
-                       f"The clock of the phone's distance was set {way} by {abs(jump_s):.1f} s.")
+        return Reading(Answer.CLOCK, figures_m, median, None, _clock_reason(jump_s))
     age_s = _greatest_age(heard, delays_s, inside, window_s)
     if age_s > parameters.maximum_age_s:
         return Reading(Answer.STALE, figures_m, median, age_s,
                        f"The newest distance of the phone was {age_s:.1f} s old while it was read; allowed are "
                        f"{parameters.maximum_age_s:g} s.")
+    needed = max(parameters.minimum_samples, MIN_CHANGES)
+    if len(values_m) < needed:
+        return Reading(Answer.CONSTANT, figures_m, None, age_s, _unchanged_reason(len(values_m), needed, duration_s))
     return Reading(Answer.DISTANCE, figures_m, median, age_s)
+
+
+def _clock_reason(jump_s: float) -> str:
+    way = "forward" if jump_s > 0.0 else "back"
+    return f"The clock of the phone's distance was set {way} by {abs(jump_s):.1f} s."
+
+
+def _unchanged_reason(changes: int, needed: int, duration_s: float) -> str:
+    """A frozen feed, or a phone that measures too rarely for the time in which it is read."""
+    often = "" if not changes else " more than once" if changes == 1 else f" more than {changes} times"
+    return (f"The phone's distance did not change{often} within {duration_s:.1f} s; {needed} changes are needed. "
+            "Increase reading_time_s, or check the phone.")
 
 
 def _greatest_age(heard: Sequence[Reported], delays_s: Sequence[float], inside: Sequence[int],

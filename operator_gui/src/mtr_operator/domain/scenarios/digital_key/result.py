@@ -32,11 +32,13 @@ class DigitalKeyResult(LineResult):
     key_height_m: float = column("height of the phone above ground", "m")
     status: LineStatus = column("ok or invalid")
     answer: str = column("what came of the place: distance; none: too few figures; stale: old ones; clock: the feed's "
-                         "clock was set; constant: one figure at all distances; empty: the robot did not stand there "
-                         "undisturbed", default="")
+                         "clock was set; constant: it did not change, changed too rarely, or is one figure at all "
+                         "distances; empty: the robot did not stand there undisturbed", default="")
     samples: int = column("reported distances", default=0)
-    reported_m: OptionalFloat = column("median of the reported distances", "m", default=None)
-    reported_spread_m: OptionalFloat = column("standard deviation of the reported distances", "m", default=None)
+    reported_m: OptionalFloat = column("median of the reported distances, a repeated one counted once", "m",
+                                       default=None)
+    reported_spread_m: OptionalFloat = column("standard deviation of the reported distances, a repeated one counted "
+                                              "once", "m", default=None)
     reported_sigma_m: OptionalFloat = column("1 sigma of the median", "m", default=None)
     age_s: OptionalFloat = column("greatest age of the newest reported distance while it was read", "s", 3, None)
     reference_m: OptionalFloat = column("robot's distance of the phone from the reference", "m", default=None)

@@ -8,6 +8,12 @@ SENTENCES = (
                                   "phone_distance; add one to the profile, or name a feed (--phone-feed)."),
     QT_TRANSLATE_NOOP("Sentence", "Nothing tells the phone's distance any more: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The phone's distance was told {} times within {} s; {} times are needed."),
+    QT_TRANSLATE_NOOP("Sentence", "The phone's distance did not change within {} s; {} changes are needed. Increase "
+                                  "reading_time_s, or check the phone."),
+    QT_TRANSLATE_NOOP("Sentence", "The phone's distance did not change more than once within {} s; {} changes are "
+                                  "needed. Increase reading_time_s, or check the phone."),
+    QT_TRANSLATE_NOOP("Sentence", "The phone's distance did not change more than {} times within {} s; {} changes "
+                                  "are needed. Increase reading_time_s, or check the phone."),
     QT_TRANSLATE_NOOP("Sentence", "The phone's distances scatter by {} m; their median is not known."),
     QT_TRANSLATE_NOOP("Sentence", "The clock of the phone's distance was set forward by {} s."),
     QT_TRANSLATE_NOOP("Sentence", "The clock of the phone's distance was set back by {} s."),
@@ -69,7 +75,8 @@ PARAMETERS = (
     QT_TRANSLATE_NOOP("ParameterDoc", "Farthest places at which the distance is read."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Standstill before the distance is read."),
     QT_TRANSLATE_NOOP("ParameterDoc", "How long the distance is read at each place."),
-    QT_TRANSLATE_NOOP("ParameterDoc", "Fewer reported distances at a place tell nothing."),
+    QT_TRANSLATE_NOOP("ParameterDoc", "Minimum number of reported distances at a place, and of changes among "
+                                      "them; at least 4 changes are needed in any case."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Longest time for which the newest reported distance may stand; a place "
                                       "where it is older is invalid."),
     QT_TRANSLATE_NOOP("ParameterDoc", "Step of the reported distances."),
