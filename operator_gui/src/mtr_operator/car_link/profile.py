@@ -7,14 +7,14 @@ import pathlib
 from dataclasses import dataclass, field
 from typing import Any, Callable, Mapping, NamedTuple
 
-import cantools
-
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
+from .database.codec import SignalReader
+from .database.load import one_line
 from .further.declared import KEYS, SOURCES, Further, is_elsewhere, read_further
-from .further.entries import DRIVER_ONLY, FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file, one_line
+from .further.entries import DRIVER_ONLY, FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file
 from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, DeclaredOutput, read_output
 from .phone.address import FeedAddress
 from .phone.car_signal import KEY as PHONE
@@ -137,22 +137,25 @@ class CarProfile:
     def _driver(self, raw: int) -> str:
         return "driver" if raw in self.driver_only else ""
 
+    @functools.cached_property
+    def _reader(self) -> SignalReader:
+        named = (self.source_signal, self.alive_signal, self.command_signal, self.changed_signal)
+        return SignalReader(self.message, {*named, *(self.door_signals.values() or (self.signal,))} - {""})
+
     # The same few frames repeat for ever.
     @functools.lru_cache(maxsize=1024)  # noqa: B019
     def _decode_data(self, data: bytes) -> LockReading | None:
-        try:
-            values = self.message.decode(data, decode_choices=False, scaling=False)
-        except (cantools.database.DecodeError, ValueError):
-            return None
+        values = self._reader.values(data)
         state = self._state(values)
         if state is None:
             return None
         changed, source_raw = values.get(self.changed_signal), values.get(self.source_signal)
-        return state._replace(source=self.sources.get(source_raw, ""), alive=values.get(self.alive_signal),
+        return state._replace(source="" if source_raw is None else self.sources.get(source_raw, ""),
+                              alive=values.get(self.alive_signal),
                               commands=values.get(self.command_signal),
                               changed=None if changed is None else bool(changed), source_raw=source_raw)
 
-    def _state(self, values: Mapping[str, int]) -> LockReading | None:
+    def _state(self, values: Mapping[str, Any]) -> LockReading | None:
         """Of one signal, or of all doors together; None when the frame carries none."""
         if not self.door_signals:
             raw = values.get(self.signal)
@@ -182,18 +185,20 @@ def load_profile(name_or_path: str, databases: pathlib.Path | None = None) -> Ca
 def _sent(path: pathlib.Path, entries: Entries) -> CarProfile:
     """Of a Car that sends its state."""
     content = entries.content
-    states = entries.states(content["states"])
     message = entries.message(content["message"])
     names = _signal_names(entries, message)
+    signals = [message.get_signal_by_name(name) for name in names.values()]
+    states = entries.states_of(signals)
     cycle_time_s = entries.duration("cycle_time_s", (_MIN_CYCLE_S, _MAX_CYCLE_S))
     has_sources = "sources" in content
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message,
         signal=_AND.join(names.values()), door_signals=names if isinstance(content["signal"], dict) else {},
-        states=states, driver_only=_driver_only(content), cycle_time_s=cycle_time_s,
+        states=states, cycle_time_s=cycle_time_s,
+        driver_only=frozenset().union(*(entries.decoded(raw, signals) for raw in _driver_only(content))),
         sent_on_change=entries.flag("sent_on_change"),
         source_signal=entries.signal(message, content["source_signal"]) if has_sources else "",
-        sources=entries.words("sources", content["sources"], SOURCES) if has_sources else {},
+        sources=_sources(entries, message) if has_sources else {},
         **_witnesses(entries, message), **_common(entries, message, cycle_time_s))
 
 
@@ -223,6 +228,11 @@ def _witnesses(entries: Entries, message: Any) -> dict[str, Any]:
     content = entries.content
     return {key: entries.signal(message, content[key]) for key in _WITNESSES
             if key in content and not is_elsewhere(content[key])}
+
+
+def _sources(entries: Entries, message: Any) -> dict[int, str]:
+    signal = message.get_signal_by_name(entries.signal(message, entries.content["source_signal"]))
+    return entries.decoded_words("sources", entries.words("sources", entries.content["sources"], SOURCES), (signal,))
 
 
 def _signal_names(entries: Entries, message: Any) -> dict[str, str]:

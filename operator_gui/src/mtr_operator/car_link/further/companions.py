@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import collections
-from typing import Iterator, NamedTuple
+from typing import Iterator, Mapping, NamedTuple
 
-import cantools
-
+from ..database.codec import SignalReader
 from .declared import Further, MessageKey, Place
 
 # Of each signal; older ones than a change waits for belong to nothing.
@@ -28,7 +27,9 @@ class Companions:
 
     def __init__(self, further: Further):
         self._further = further
-        self._messages: dict[MessageKey, Place] = {place.key: place for place in further.places()}
+        self._readers: dict[MessageKey, list[SignalReader]] = collections.defaultdict(list)
+        for place in further.places():
+            self._readers[place.key].append(SignalReader(place.message, (place.signal,)))
         self._values: dict[tuple[MessageKey, str], collections.deque[tuple[float, int]]] = {
             (place.key, place.signal): collections.deque(maxlen=_KEPT) for place in further.places()}
         self._open: set[str] = set()
@@ -40,20 +41,17 @@ class Companions:
 
     def frame(self, key: MessageKey, data: bytes, local_s: float) -> list[str]:
         """Take a frame; sentences on what is not to be believed from now on."""
-        place = self._messages.get(key)
-        if place is None:
+        readers = self._readers.get(key)
+        if readers is None:
             return []
-        try:
-            values = place.message.decode(data, decode_choices=False, scaling=False)
-        except (cantools.database.DecodeError, ValueError):
-            return []
+        values = {name: value for reader in readers for name, value in reader.values(data).items()}
         doubts = [*self._steps(key, values), *self._opened(key, values)]
         for (of_message, signal), kept in self._values.items():
             if of_message == key and signal in values:
                 kept.append((local_s, values[signal]))
         return doubts
 
-    def _steps(self, key: MessageKey, values: dict[str, int]) -> Iterator[str]:
+    def _steps(self, key: MessageKey, values: Mapping[str, int]) -> Iterator[str]:
         """Counters that stand still or jump."""
         for place, is_alive in [*((each, False) for each in self._further.counters),
                                 *((each, True) for each in self._further.alive)]:
@@ -67,7 +65,7 @@ class Companions:
             elif is_alive and step == 0:
                 yield f"{_signal(place)} stands still at {now}."
 
-    def _opened(self, key: MessageKey, values: dict[str, int]) -> Iterator[str]:
+    def _opened(self, key: MessageKey, values: Mapping[str, int]) -> Iterator[str]:
         for door in self._further.doors:
             if door.place.key != key or door.place.signal not in values:
                 continue

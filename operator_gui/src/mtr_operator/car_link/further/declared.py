@@ -37,9 +37,14 @@ class Place:
         return self.bus, self.message.frame_id, self.message.is_extended_frame
 
     @property
+    def declared(self) -> Any:
+        """The signal (cantools')."""
+        return self.message.get_signal_by_name(self.signal)
+
+    @property
     def modulus(self) -> int:
         """How many values it has."""
-        return 1 << int(self.message.get_signal_by_name(self.signal).length)
+        return 1 << int(self.declared.length)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,13 +166,15 @@ class _Reader:
     def cause(self, table: Any) -> CauseSignal:
         """One of causes."""
         place = self.place("causes", table, _CAUSE_KEYS)
-        sources = self._entries.words("sources", table.get("sources"), SOURCES)
-        idle = self._values("causes", table, "idle", () if 0 in sources else (0,))
+        sources = self._entries.decoded_words(
+            "sources", self._entries.words("sources", table.get("sources"), SOURCES), (place.declared,))
+        idle = self._values("causes", table, "idle", () if 0 in sources else (0,), place)
         return CauseSignal(place, sources, idle - set(sources), bool(table.get("stays", False)))
 
     def door(self, name: str, table: Any) -> DoorSignal:
         """One of doors."""
-        return DoorSignal(name, self.place("doors", table, _DOOR_KEYS), self._values("doors", table, "open", (1,)))
+        place = self.place("doors", table, _DOOR_KEYS)
+        return DoorSignal(name, place, self._values("doors", table, "open", (1,), place))
 
     def whole(self, key: str, table: dict[str, Any], name: str) -> int | None:
         """A whole number, None when it is absent."""
@@ -176,8 +183,10 @@ class _Reader:
             raise self._entries.wrong(f"{key} has {name}: {value!r}; allowed is a whole number.")
         return value
 
-    def _values(self, key: str, table: dict[str, Any], name: str, default: tuple[int, ...]) -> frozenset[int]:
+    def _values(self, key: str, table: dict[str, Any], name: str, default: tuple[int, ...],
+                place: Place) -> frozenset[int]:
         values = table.get(name, list(default))
         if not isinstance(values, list) or not all(is_whole(value) for value in values):
             raise self._entries.wrong(f"{key} has {name}: {values!r}; allowed is a list of whole numbers.")
-        return frozenset(values)
+        return frozenset().union(*(self._entries.decoded(value, (place.declared,))
+                                   for value in values))

@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import os
 import pathlib
-import re
-from typing import Any, Mapping, Sequence
-
-import cantools
+from typing import Any, Iterable, Mapping, Sequence, TypeVar
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
 
-from .sizes import MAX_SIZE, too_large
+from ..database.car_database import CarDatabase
+from ..database.codec import as_decoded
+from ..database.load import load_database
 
-# Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
-_MAX_DATABASE_BYTES = 16 * 1024 * 1024
-# Of a library's sentence, characters.
-_MAX_SAID = 300
+Word = TypeVar("Word")
 # Of a text of a profile, which sentences quote: longer than any name, description or path to a database.
 MAX_TEXT = 1000
 # The bus of the profile's own database; further ones have names.
@@ -25,11 +21,6 @@ FIRST_BUS = ""
 # A state of some cars' signal: all but the driver's door are still locked.
 DRIVER_ONLY = "unlocked_driver"
 STATES = {**{state.value: state for state in LockState}, DRIVER_ONLY: LockState.UNLOCKED}
-
-
-# What public databases get wrong: names that begin with a digit, and tables of values without their end.
-_UNENDED = re.compile(r"^(VAL_ [^\n;]*\")[ \t\r]*$", re.MULTILINE)
-_DIGIT_FIRST = re.compile(r"^(\s*(?:BO_ \d+|SG_) )(\d)", re.MULTILINE)
 
 
 # Folder in which databases are looked for that do not lie beside their profiles, for every command and the window.
@@ -46,7 +37,7 @@ class Entries:
         elsewhere = os.environ.get(DATABASES_VARIABLE, "")
         self._folders = (databases, path.parent) if databases is not None else \
             (path.parent, *((pathlib.Path(elsewhere),) if elsewhere else ()))
-        self._databases: dict[str, Any] = {}
+        self._databases: dict[str, CarDatabase] = {}
 
     def wrong(self, text: str) -> ConnectionFailed:
         """What is wrong with the profile."""
@@ -55,8 +46,17 @@ class Entries:
     def states(self, table: Any) -> dict[int, LockState]:
         """Lock state of each raw value; one for locked and one for unlocked at least."""
         states = {raw: STATES[word] for raw, word in self.words("states", table, STATES).items()}
-        if not {LockState.LOCKED, LockState.UNLOCKED} <= set(states.values()):
+        if not _has_both(states):
             raise self.wrong("states must name a value for locked and one for unlocked.")
+        return states
+
+    def states_of(self, signals: Sequence[Any]) -> dict[int, LockState]:
+        """The entry states, with the raw values as they are decoded from the signals (cantools')."""
+        states = self.decoded_words("states", self.states(self.content["states"]), signals)
+        # Of the signals of several doors, some may have fewer values than the others.
+        if len(signals) == 1 and not _has_both(states):
+            raise self.wrong(f"states names values for locked and unlocked that the signal {signals[0].name} of "
+                             f"{signals[0].length} bits cannot carry.")
         return states
 
     def words(self, key: str, table: Any, allowed: Sequence[str] | Mapping[str, Any]) -> dict[int, str]:
@@ -96,7 +96,7 @@ class Entries:
         paths = [folder / name for folder in self._folders]
         return next((path for path in paths if is_file(path)), paths[0])
 
-    def database(self, bus: str = FIRST_BUS) -> Any:
+    def database(self, bus: str = FIRST_BUS) -> CarDatabase:
         """Of CAN messages; for one of another kind an empty one, in which no message is found."""
         if bus not in self._databases:
             self._databases[bus] = load_database(self.database_path(bus))
@@ -104,17 +104,30 @@ class Entries:
 
     def message(self, name: Any, bus: str = FIRST_BUS) -> Any:
         """A message of a bus' database."""
-        try:
-            return self.database(bus).get_message_by_name(str(name))
-        except KeyError:
-            raise ConnectionFailed(f"CAN database {self.database_path(bus)} has no message {name}.") from None
+        return self.database(bus).message(str(name))
 
     def signal(self, message: Any, name: Any, bus: str = FIRST_BUS) -> str:
         """A signal of a message."""
-        if str(name) not in (known.name for known in message.signals):
-            raise ConnectionFailed(f"Message {message.name} of CAN database {self.database_path(bus)} has no signal "
-                                   f"{name}.")
-        return str(name)
+        return self.database(bus).signal(message, str(name))
+
+    @staticmethod
+    def decoded(raw: int, signals: Iterable[Any]) -> frozenset[int]:
+        """A raw value that an entry lists, as it is decoded from signals (cantools'); empty when none can carry it."""
+        values = (as_decoded(signal, raw) for signal in signals)
+        return frozenset(value for value in values if value is not None)
+
+    def decoded_words(self, key: str, words: Mapping[int, Word], signals: Sequence[Any]) -> dict[int, Word]:
+        """A table of raw values, as they are decoded from signals."""
+        found: dict[int, Word] = {}
+        for raw, word in words.items():
+            for value in self.decoded(raw, signals):
+                if found.setdefault(value, word) != word:
+                    raise self.wrong(f"{key} has {raw} and {value}, which are the same bits, with two meanings.")
+        return found
+
+
+def _has_both(states: Mapping[int, LockState]) -> bool:
+    return {LockState.LOCKED, LockState.UNLOCKED} <= set(states.values())
 
 
 def is_file(path: pathlib.Path) -> bool:
@@ -139,41 +152,6 @@ def is_whole(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def one_line(error: Exception) -> str:
-    """What an exception of a library says, without a full stop; a damaged line is not quoted whole."""
-    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")[:_MAX_SAID]
-
-
 def _either(words: Sequence[str] | Mapping[str, Any]) -> str:
     *others, last = words
     return f"{', '.join(others)} or {last}"
-
-
-def _parsed(path: pathlib.Path) -> Any:
-    try:
-        return cantools.database.load_file(str(path), strict=False)
-    except cantools.database.errors.Error:
-        text = path.read_text(encoding="cp1252", errors="replace") if path.suffix.lower() == ".dbc" else ""
-        mended = _UNENDED.sub(r"\1 ;", _DIGIT_FIRST.sub(r"\1_\2", text))
-        if mended == text:
-            raise
-        return cantools.database.load_string(mended, "dbc", strict=False)
-
-
-def load_database(path: pathlib.Path) -> Any:
-    """A CAN database (cantools'); ConnectionFailed says why it cannot be read."""
-    try:
-        if path.stat().st_size > _MAX_DATABASE_BYTES:
-            raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
-                                   "leave the messages that the profile does not name out of it.")
-        size = too_large(path.read_text(encoding="cp1252", errors="replace"), path.suffix)
-        if size:
-            raise ConnectionFailed(f"CAN database {path} cannot be read: it says {size} where a place or a size of a "
-                                   f"message or signal stands; allowed is up to {MAX_SIZE}.")
-        database = _parsed(path)
-    except (OSError, UnicodeDecodeError, cantools.database.errors.Error) as error:
-        raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None
-    # The library's readers of some five formats raise whatever a damaged file leads them to.
-    except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
-        raise ConnectionFailed(f"CAN database {path} cannot be read: it is damaged.") from None
-    return database if isinstance(database, cantools.database.can.Database) else cantools.database.can.Database()

@@ -6,8 +6,10 @@ from typing import Any, Iterator, NamedTuple
 
 import can
 
+from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
 
+from ..database.codec import encode
 from ..phone.car_signal import PhoneSignal
 from ..profile import CarProfile
 from .declared import CauseSignal, MessageKey
@@ -59,10 +61,7 @@ class SpokenFrames:
             yield SpokenFrame(bus, _sent(message, self._data(message)))
 
     def _data(self, message: Any) -> bytes:
-        values = {signal.name: 0 for signal in message.signals}
-        wanted = dict(self._wanted(message))
-        values.update(_pages(message, wanted), **wanted)
-        return bytes(message.encode(values, scaling=False, strict=False))
+        return encode(message, dict(self._wanted(message)))
 
     def _wanted(self, message: Any) -> Iterator[tuple[str, int]]:
         profile, further = self._profile, self._profile.further
@@ -99,12 +98,9 @@ class SpokenFrames:
 
 def phone_frame(signal: PhoneSignal, distance_m: float) -> SpokenFrame:
     """The distance of a phone, in the nearest step of the Car's signal; all other signals are 0."""
-    message, name = signal.place.message, signal.place.signal
-    declared = message.get_signal_by_name(name)
-    raw = round((distance_m / signal.metres - declared.offset) / declared.scale)
-    values = {each.name: 0 for each in message.signals}
-    values.update(_pages(message, {name: raw}), **{name: raw})
-    return SpokenFrame(signal.place.bus, _sent(message, bytes(message.encode(values, scaling=False, strict=False))))
+    place = signal.place
+    raw = round((distance_m / signal.metres - place.declared.offset) / place.declared.scale)
+    return SpokenFrame(place.bus, _sent(place.message, encode(place.message, {place.signal: raw})))
 
 
 def _sent(message: Any, data: bytes) -> can.Message:
@@ -117,6 +113,9 @@ def state_raw(profile: CarProfile, is_locked: bool) -> int:
     """Value of a state; of all doors where there is one for the driver's alone."""
     wanted = LockState.LOCKED if is_locked else LockState.UNLOCKED
     raws = [raw for raw, state in profile.states.items() if state is wanted]
+    if not raws:
+        raise ConnectionFailed(f"Car profile {profile.name}: no signal can carry a value that states lists as "
+                               f"{wanted.value}.")
     return next((raw for raw in raws if raw not in profile.driver_only), raws[0])
 
 
@@ -126,9 +125,3 @@ def _raw_of(sources: dict[int, str], source: str, otherwise: int) -> int:
 
 def _other_than(values: frozenset[int]) -> int:
     return next(value for value in range(len(values) + 1) if value not in values)
-
-
-def _pages(message: Any, wanted: dict[str, int]) -> dict[str, int]:
-    """Values of multiplexers that have the page of each wanted signal sent."""
-    signals = [message.get_signal_by_name(name) for name in wanted]
-    return {signal.multiplexer_signal: signal.multiplexer_ids[0] for signal in signals if signal.multiplexer_ids}

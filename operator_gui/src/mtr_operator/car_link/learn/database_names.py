@@ -7,7 +7,8 @@ from typing import Any, Mapping, NamedTuple
 
 from mtr_operator.domain.ports import LockState
 
-from ..further.entries import load_database
+from ..database.codec import SignalReader
+from ..database.load import load_database
 from .bits import BITS_PER_BYTE
 from .counters import Field
 from .findings import Candidate
@@ -26,7 +27,8 @@ class DatabaseNames:
 
     def __init__(self, path: pathlib.Path):
         self.path = path
-        self._messages = {(each.frame_id, each.is_extended_frame): each for each in load_database(path).messages}
+        self._database = load_database(path)
+        self._messages = {(each.frame_id, each.is_extended_frame): each for each in self._database.messages}
 
     def named(self, candidate: Candidate) -> Named | None:
         """The signal that holds most of a candidate's bits, and was one value in each state; None without one."""
@@ -35,7 +37,8 @@ class DatabaseNames:
             return None
         bits = _bits(candidate.field)
         found = [(len(bits & bits_of(signal)), -signal.length, signal.name, values) for signal in message.signals
-                 if bits & bits_of(signal) and (values := _values(message, signal.name, candidate)) is not None]
+                 if bits & bits_of(signal) and self._database.is_usable(message, signal.name)
+                 and (values := _values(message, signal.name, candidate)) is not None]
         if not found:
             return None
         *_, name, values = max(found, key=lambda each: each[:2])
@@ -67,20 +70,11 @@ def _bits(field: Field) -> set[int]:
 
 def _values(message: Any, name: str, candidate: Candidate) -> dict[LockState, int] | None:
     """Of a signal, raw; None when it was several values in a state, or the same in both."""
-    found: dict[LockState, set[int]] = {}
+    reader, found = SignalReader(message, (name,)), dict[LockState, set[int]]()
     for state, data in candidate.data:
-        raw = _decoded(message, data).get(name)
+        raw = reader.values(data).get(name)
         if type(raw) is not int:
             return None
         found.setdefault(state, set()).add(raw)
     values = {state: raws.pop() for state, raws in found.items() if len(raws) == 1}
     return values if len(values) == len(found) == len(set(values.values())) == len(candidate.values) else None
-
-
-def _decoded(message: Any, data: bytes) -> Mapping[str, Any]:
-    try:
-        found: Mapping[str, Any] = message.decode(data, decode_choices=False, scaling=False, allow_truncated=True)
-        return found
-    # A page that is not in the database, or whatever else the library makes of foreign data.
-    except Exception:
-        return {}

@@ -138,7 +138,8 @@ def _ends(message: Message, stays: Sequence[Stay]) -> Iterator[tuple[LockState, 
     for stay in stays:
         end = bisect.bisect_right(times_s, stay.end_s)
         if end:
-            yield stay.state, message.samples[end - 1].value.to_bytes(message.length, "little")
+            newest = message.samples[end - 1]
+            yield stay.state, newest.value.to_bytes(newest.length, "little")
 
 
 def _values(parts: Sequence[Held], stays: Sequence[Stay], field: Field) -> dict[LockState, int]:

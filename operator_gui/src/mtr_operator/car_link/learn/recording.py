@@ -17,10 +17,11 @@ MAX_FRAMES = 1_000_000
 
 class Sample(NamedTuple):
     """One frame of a message: arrival on the laptop's monotonic clock in s, and its data as a number whose lowest byte
-    is the first one."""
+    is the first one; length: bytes of it."""
 
     time_s: float
     value: int
+    length: int
 
 
 class Stay(NamedTuple):
@@ -70,7 +71,8 @@ class Recording:
             if self.is_full:
                 return
             self._lengths[key] = max(self._lengths.get(key, 0), len(frame.data))
-            self._samples.setdefault(key, []).append(Sample(frame.arrival_s, int.from_bytes(frame.data, "little")))
+            self._samples.setdefault(key, []).append(Sample(
+                frame.arrival_s, int.from_bytes(frame.data, "little"), len(frame.data)))
 
     def messages(self) -> tuple[Message, ...]:
         """All messages by their identifiers."""

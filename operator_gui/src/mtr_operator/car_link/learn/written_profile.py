@@ -8,11 +8,11 @@ import pathlib
 import re
 from typing import Mapping, Sequence
 
-from mtr_operator.domain.errors import InvalidParameter, OutputError
+from mtr_operator.domain.errors import InvalidParameter, NothingLearned, OutputError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.storage.atomic import write_bytes
 
-from ..profile import load_profile
+from ..profile import CarProfile, load_profile
 from .counters import Field
 from .database_names import DatabaseNames, Named
 from .findings import Candidate, Findings
@@ -47,7 +47,17 @@ def write_profile(path: pathlib.Path, findings: Findings, names: DatabaseNames |
     else:
         lines = _named_entries(path.parent, names, named, best)
     write_bytes(path, _profile(lines, best, findings).encode("utf-8"))
-    load_profile(str(path))
+    _check(load_profile(str(path)), best)
+
+
+def _check(profile: CarProfile, best: Candidate) -> None:
+    """NothingLearned when a test would not understand the frames from which the profile was learned."""
+    decode = profile.decoder()
+    readings = [(state, decode(*best.id, data)) for state, data in best.data]
+    wrong = sum(reading is None or reading.state is not state for state, reading in readings)
+    if wrong:
+        raise NothingLearned(f"The profile {profile.name} was written, and does not understand {wrong} of the "
+                             f"{len(readings)} frames from which it was learned; learn again with more prompts.")
 
 
 def message_name(candidate: Candidate) -> str:

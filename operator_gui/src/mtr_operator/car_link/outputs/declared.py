@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import can
-import cantools
 
 from mtr_operator.domain.errors import ConnectionFailed
 
+from ..database.codec import encode
 from ..further.entries import Entries, is_whole
 
 HANDLE_KEY, EXTENDER_KEY = "handle_request", "extender_switch"
@@ -56,8 +56,7 @@ def _output(message: Any, signal: str, active: int, idle: int) -> DeclaredOutput
 
 
 def _data(message: Any, signal: str, value: int) -> bytes:
-    values = {each.name: 0 for each in message.signals}
     try:
-        return bytes(message.encode({**values, signal: value}, scaling=False, strict=False))
-    except (cantools.database.EncodeError, ValueError, OverflowError):
+        return encode(message, {signal: value})
+    except (ValueError, OverflowError):
         raise ConnectionFailed(f"Signal {signal} of message {message.name} cannot carry the value {value}.") from None

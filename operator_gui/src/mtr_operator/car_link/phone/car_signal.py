@@ -5,13 +5,12 @@ from __future__ import annotations
 import collections
 from dataclasses import dataclass
 
-import cantools
-
 from mtr_operator.domain.distance_feed import REPORTED, DistanceFeed, Reported
 from mtr_operator.domain.ports import Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from ..can_frame import CanFrame
+from ..database.codec import SignalReader
 from ..further.declared import Place
 from ..further.entries import FIRST_BUS, Entries, is_whole
 from .address import SERIAL, TCP, FeedAddress, feed_address, feed_at
@@ -57,7 +56,9 @@ def read_phone(entries: Entries) -> PhoneSignal | FeedAddress | None:
     none = table.get("no_distance", [])
     if not isinstance(none, list) or not all(is_whole(raw) for raw in none):
         raise entries.wrong(f"phone_distance has no_distance: {none!r}; allowed is a list of whole numbers.")
-    return PhoneSignal(Place(bus, message, name), _UNITS[unit], frozenset(none))
+    place = Place(bus, message, name)
+    return PhoneSignal(place, _UNITS[unit], frozenset().union(
+        *(entries.decoded(raw, (place.declared,)) for raw in none)))
 
 
 def _address(entries: Entries, text: str) -> FeedAddress:
@@ -85,6 +86,7 @@ class CarSignalFeed(DistanceFeed):
 
     def __init__(self, signal: PhoneSignal):
         self._signal = signal
+        self._reader = SignalReader(signal.place.message, (signal.place.signal,))
         self._waiting: collections.deque[float] = collections.deque(maxlen=_MAX_WAITING)
         self._refused = Refused()
 
@@ -101,15 +103,11 @@ class CarSignalFeed(DistanceFeed):
         place = self._signal.place
         if (frame.bus, frame.can_id, frame.is_extended) != place.key:
             return
-        try:
-            raw = place.message.decode(frame.data, decode_choices=False, scaling=False)
-            values = place.message.decode(frame.data, decode_choices=False)
+        raw = self._reader.values(frame.data).get(place.signal)
         # Too short, or another page of a multiplexed message.
-        except (cantools.database.DecodeError, ValueError):
+        if raw is None or raw in self._signal.no_distance:
             return
-        if place.signal not in raw or raw[place.signal] in self._signal.no_distance:
-            return
-        distance_m = float(values[place.signal]) * self._signal.metres
+        distance_m = float(place.declared.conversion.raw_to_scaled(raw, decode_choices=False)) * self._signal.metres
         wrong = REPORTED.violation(distance_m)
         if wrong:
             self._refused = Refused(self._refused.count + 1, f"{wrong[:1].upper()}{wrong[1:]}")

@@ -1,0 +1,90 @@
+"""A CAN database as a profile uses it: only the messages and signals that are named have to be right."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import pathlib
+from dataclasses import dataclass, field
+from typing import Any, Sequence
+
+from mtr_operator.domain.errors import ConnectionFailed
+
+from .codec import BITS_PER_BYTE, end_bit, pages
+
+
+@dataclass
+class Problems:
+    """Lines by the names of messages and signals, empty where they are not known; what is wrong with which."""
+
+    message_lines: dict[str, int] = field(default_factory=dict)
+    signal_lines: dict[tuple[str, str], int] = field(default_factory=dict)
+    messages: dict[str, str] = field(default_factory=dict)
+    signals: dict[tuple[str, str], str] = field(default_factory=dict)
+
+
+class CarDatabase:
+    """messages: cantools'."""
+
+    def __init__(self, path: pathlib.Path, messages: Sequence[Any], problems: Problems):
+        self.path = path
+        self.messages = messages
+        self._problems = problems
+
+    def message(self, name: str) -> Any:
+        """A message by its name; ConnectionFailed says what is wrong with it."""
+        problem = next((self._problems.messages[each] for each in _spellings(name)
+                        if each in self._problems.messages), "")
+        if problem:
+            raise ConnectionFailed(f"Message {name} of CAN database {self.path}"
+                                   f"{_line(self._problems.message_lines.get(name))} cannot be used: {problem}.")
+        for each in _spellings(name):
+            found = [message for message in self.messages if message.name == each]
+            if found:
+                return found[-1]
+        raise ConnectionFailed(f"CAN database {self.path} has no message {name}.")
+
+    def signal(self, message: Any, name: str) -> str:
+        """The name of a signal of a message as the database has it; ConnectionFailed says what is wrong with it."""
+        known = {signal.name: signal for signal in message.signals}
+        for each in _spellings(name):
+            problem = self._problems.signals.get((message.name, each), "")
+            if not problem and each not in known:
+                continue
+            problem = problem or _beyond(message, known[each]) or _without_page(message, each)
+            if not problem:
+                return each
+            raise ConnectionFailed(f"Signal {name} of message {message.name} of CAN database {self.path}"
+                                   f"{_line(self._problems.signal_lines.get((message.name, each)))} cannot be used: "
+                                   f"{problem}.")
+        raise ConnectionFailed(f"Message {message.name} of CAN database {self.path} has no signal {name}.")
+
+
+    def is_usable(self, message: Any, name: str) -> bool:
+        """True for a signal of a message that a profile can name."""
+        try:
+            return self.message(message.name) is message and self.signal(message, name) == name
+        except ConnectionFailed:
+            return False
+
+
+def _spellings(name: str) -> tuple[str, ...]:
+    """A name that begins with a digit is known with a line before it, see dbc_lines."""
+    return (name, f"_{name}") if name[:1].isdecimal() else (name,)
+
+
+def _line(number: int | None) -> str:
+    return "" if number is None else f", line {number},"
+
+
+def _beyond(message: Any, signal: Any) -> str:
+    end = end_bit(signal)
+    if end <= BITS_PER_BYTE * message.length:
+        return ""
+    return f"it ends at bit {end}, and the message has {BITS_PER_BYTE * message.length} bits"
+
+
+def _without_page(message: Any, name: str) -> str:
+    try:
+        pages(message, name)
+    except KeyError as error:
+        return f"its multiplexer {error.args[0]} is not in the message"
+    return ""

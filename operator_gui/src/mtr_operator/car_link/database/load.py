@@ -1,0 +1,74 @@
+"""Reads CAN databases of any kind that cantools reads; of a DBC what is wrong with one message costs no other."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import codecs
+import pathlib
+from typing import Any
+
+import cantools
+
+from mtr_operator.domain.errors import ConnectionFailed
+
+from ..further.sizes import MAX_SIZE, too_large
+from .car_database import CarDatabase, Problems
+from .dbc_lines import dbc_messages
+from .dbc_messages import built, problems
+
+# Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
+_MAX_DATABASE_BYTES = 16 * 1024 * 1024
+# Of a library's sentence, characters.
+_MAX_SAID = 300
+_DBC = ".dbc"
+_MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+
+def load_database(path: pathlib.Path) -> CarDatabase:
+    """ConnectionFailed says why a database cannot be read; a database of another kind than CAN has no message."""
+    try:
+        if path.stat().st_size > _MAX_DATABASE_BYTES:
+            raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
+                                   "leave the messages that the profile does not name out of it.")
+        text = decoded_text(path.read_bytes())
+        size = too_large(text, path.suffix)
+        if size:
+            raise ConnectionFailed(f"CAN database {path} cannot be read: it says {size} where a place or a size of a "
+                                   f"message or signal stands; allowed is up to {MAX_SIZE}.")
+        return _parsed(path, text)
+    except (OSError, UnicodeError, cantools.database.errors.Error) as error:
+        raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None
+    # The library's readers of some five formats raise whatever a damaged file leads them to.
+    except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
+        raise ConnectionFailed(f"CAN database {path} cannot be read: it is damaged.") from None
+
+
+def decoded_text(data: bytes) -> str:
+    """Text of a database or log: by the mark at its beginning, else UTF-8, else the encoding of Windows."""
+    encoding = next((name for mark, name in _MARKS.items() if data.startswith(mark)), "utf-8")
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
+
+
+def one_line(error: Exception) -> str:
+    """What an exception of a library says, without a full stop; a damaged line is not quoted whole."""
+    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")[:_MAX_SAID]
+
+
+def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
+    if path.suffix.lower() != _DBC:
+        return CarDatabase(path, _messages(cantools.database.load_file(str(path), strict=False)), Problems())
+    lines = dbc_messages(text)
+    try:
+        messages = _messages(cantools.database.load_file(str(path), strict=False))
+    # The library refuses a file as a whole, by whatever exception; then the messages count that can be used.
+    except Exception:
+        messages = built(lines)
+        if not messages:
+            raise
+    return CarDatabase(path, messages, problems(lines, messages))
+
+
+def _messages(database: Any) -> list[Any]:
+    return list(database.messages) if isinstance(database, cantools.database.can.Database) else []
