@@ -9,7 +9,7 @@ from shapely.geometry import Polygon
 
 from mtr_benchmarks.harness.lines import line
 from mtr_benchmarks.harness.rows import all_met
-from mtr_benchmarks.motion import encounters, latency, tip_over, tracking
+from mtr_benchmarks.motion import encounters, latency, posts, tip_over, tracking
 from mtr_benchmarks.motion.__main__ import PROMISED, report
 from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
 from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
@@ -99,6 +99,7 @@ def parts(**changed):
     """Figures of all parts, as they must be but for what has changed."""
     found = {
         "tracking": tracked(),
+        "posts": posts.PostsFigures(0.02, 1.0, {"0.2 m/s, 0.65 m": 0.01}),
         "encounters": encounters.EncounterFigures(
             1000, 0, 0, 1, 900, [], {"arc, rear": "0 of 9"}, 7, 2, 98, 0.1, [], []),
         "tip_over": tip_over.TipOverFigures(1.0, {"start": 1.0}, [60.0], {}),
@@ -125,7 +126,7 @@ def test_parts_that_were_not_run_have_no_rows():
     ("time_ratio_p95", 1.15, True), ("time_ratio_p95", 1.151, False), ("encounters", 999, False),
     ("contacts_while_moving", 1, False), ("tip_margin_n", 0.0, False), ("stop_latency_p99_ms", math.nan, False),
     ("time_ratio_median", 99.0, True), ("not_reached", ["pair 7: REFUSED There is no way."], False),
-    ("contacts_with_car", 1, False)])
+    ("contacts_with_car", 1, False), ("over_speed_limit_mps", 0.021, False), ("post_ways_driven", 0.9, False)])
 def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
     rows = report(parts(**{key: value})).rows
     assert all_met(rows) == is_good
@@ -153,3 +154,17 @@ def test_one_pair_that_was_not_driven_or_touched_the_car_fails_the_table():
         found = tracking.figures([fine] * 199 + [bad]).rows()
         assert [row.requirement for row in found if not row.is_met] == [name]
     assert not all_met(tracking.figures([fine] * 120 + [refused] * 80).rows()[:2])
+
+
+def test_robot_that_two_posts_have_slowed_keeps_its_speed_limit():
+    end = posts.drive(posts.PostsDrive(0.7, 0.75))
+    assert end.slowed and end.arrived
+    assert end.over_mps <= posts.OVER_LIMIT.must
+
+
+def test_way_that_was_not_slowed_or_not_driven_to_its_end_proves_nothing():
+    fine = posts.PostsEnd(0.01, slowed=True, arrived=True)
+    ways = [posts.PostsDrive(0.2, 0.65), posts.PostsDrive(0.3, 0.65)]
+    assert all_met(posts.figures(ways, [fine, fine]).rows())
+    for bad in (fine._replace(slowed=False), fine._replace(arrived=False), fine._replace(over_mps=0.03)):
+        assert not all_met(posts.figures(ways, [fine, bad]).rows())

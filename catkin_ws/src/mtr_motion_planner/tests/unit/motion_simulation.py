@@ -46,7 +46,7 @@ class SimulatedRobot:
         self.ticks = 0
         self.goal = NO_GOAL
         self.max_speed = 0.5
-        self.least_clearance = math.inf
+        self.least_clearance, self.fastest_mps = math.inf, 0.0
         self.outputs: List[PlannerOutput] = []
         self.poses: List[Pose2] = []
         self._queue = deque([(0.0, 0.0)], maxlen=2)
@@ -119,6 +119,7 @@ class SimulatedRobot:
                                     - self.slip.curve_slip_s2 * self.speed * abs(self.yaw_rate))
             self.pose = self.pose @ Pose2(self.speed * dt, side * dt, self.yaw_rate * dt)
         self.poses.append(self.pose)
+        self.fastest_mps = max(self.fastest_mps, abs(self.speed))
         self.least_clearance = min(self.least_clearance, self.clearance())
 
     def clearance(self) -> float:

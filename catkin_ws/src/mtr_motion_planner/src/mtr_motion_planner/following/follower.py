@@ -52,7 +52,7 @@ class Follower:
     def __init__(self, plan: Plan, parameters: MotionParameters, speed: float):
         self.plan = plan
         self._parameters, self._speed = parameters, speed
-        self._index, self._time_s = 0, 0.0
+        self._index, self._time_s, self._pace = 0, 0.0, 1.0
         self._part: Optional[PlanPart] = plan.parts[0] if plan.parts else None
         self._waited_s = 0.0
         self._cannot_go_on = False
@@ -117,7 +117,9 @@ class Follower:
         now = self.reference()
         if self._is_over() and self._has_settled(pose, robot):
             return FollowerOutput(Velocity(), 0.0, finished=True)
-        return FollowerOutput(tracked(now, self.reference(DELAY_S), pose), self.remaining_m)
+        tracking = tracked(now, self.reference(DELAY_S), pose, self._speed)
+        self._pace = tracking.pace
+        return FollowerOutput(tracking.velocity, self.remaining_m)
 
     def _advance(self, part: PlanPart, pose: Pose2, robot: RobotState, passed_s: float) -> None:
         now = self.reference()
@@ -130,7 +132,7 @@ class Follower:
                                  else (robot.speed_mps, now.linear_mps))
             self._cannot_go_on = not self._retime(part, now.way - lag, min(abs(measured), abs(planned)))
         elif lag <= limit:
-            self._time_s += passed_s
+            self._time_s += self._pace * passed_s
         self._begin_parts_that_are_due()
 
     def _begin_parts_that_are_due(self) -> None:

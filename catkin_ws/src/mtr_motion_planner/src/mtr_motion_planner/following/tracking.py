@@ -40,12 +40,29 @@ def deviation(reference: Reference, pose: Pose2) -> Pose2:
     return pose.inverse() @ reference.pose
 
 
-def tracked(reference: Reference, ahead: Reference, pose: Pose2) -> Velocity:
-    """Velocity that follows the reference; ahead is the reference DELAY_S later."""
+@dataclass(frozen=True)
+class Tracking:
+    """Velocity that follows the reference.
+
+    Attributes:
+        pace: share of its own speed at which the reference moves on. Below 1 the robot lags and the speed limit keeps
+            it from catching up, so the reference waits.
+    """
+
+    velocity: Velocity
+    pace: float = 1.0
+
+
+def tracked(reference: Reference, ahead: Reference, pose: Pose2, limit_mps: float) -> Tracking:
+    """Velocity that follows the reference; ahead is the reference DELAY_S later.
+
+    The commanded speed never exceeds limit_mps, unless the reference itself is still braking to it.
+    """
     error = deviation(reference, pose)
     speed = ahead.linear_mps
+    bound = max(limit_mps, abs(speed))
     if speed == 0.0 and ahead.angular_radps == 0.0:
-        return _at_rest(error)
+        return Tracking(_at_rest(error, min(FEEDBACK_MPS, bound)))
     along = _clamp(ALONG_GAIN_PER_S * error.x, FEEDBACK_MPS)
     length = max(OFFSET_LENGTH_M, 2.0 * abs(speed) / MAX_HEADING_GAIN_PER_S)
     gain = max(HEADING_GAIN_PER_S, 2.0 * abs(speed) / length)
@@ -53,11 +70,13 @@ def tracked(reference: Reference, ahead: Reference, pose: Pose2) -> Velocity:
     turning = _clamp(gain * error.heading + speed * offset, FEEDBACK_RADPS)
     linear = speed * math.cos(error.heading) + along
     # A robot that is ahead of its reference waits for it; it does not go back.
-    return Velocity(linear if linear * speed >= 0.0 else 0.0, ahead.angular_radps + turning)
+    linear = linear if linear * speed >= 0.0 else 0.0
+    pace = min(1.0, bound / abs(linear)) if linear else 1.0
+    return Tracking(Velocity(pace * linear, ahead.angular_radps + turning), pace)
 
 
-def _at_rest(error: Pose2) -> Velocity:
-    along = 0.0 if abs(error.x) < DEAD_M else _clamp(ALONG_GAIN_PER_S * error.x, FEEDBACK_MPS)
+def _at_rest(error: Pose2, limit_mps: float) -> Velocity:
+    along = 0.0 if abs(error.x) < DEAD_M else _clamp(ALONG_GAIN_PER_S * error.x, limit_mps)
     turning = 0.0 if abs(error.heading) < DEAD_RAD else _clamp(HEADING_GAIN_PER_S * error.heading, FEEDBACK_RADPS)
     return Velocity(along, turning)
 
