@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import os
 import pathlib
-from typing import Callable, Mapping
+from typing import BinaryIO, Callable, Mapping
 
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import now, written
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.storage.lock import at_rest
+from mtr_operator.storage.store import check_newest
 
 from .container import SUFFIX, Source, size_of, write_container
 from .contents import Tested, as_json, contents_of
-from .manifest import MANIFEST, SIGNATURE, FileEntry, Manifest, entry_of_path, sha256_of
+from .manifest import MANIFEST, SIGNATURE, FileEntry, Manifest, sha256_of
 from .station_key import Link, Station
+from .verification import content_problems
 
 
 def bundle_path(path: pathlib.Path) -> pathlib.Path:
@@ -39,31 +42,28 @@ def write_bundle(target: pathlib.Path, path: pathlib.Path, scenario: AnyScenario
                  watch: BundleWatch | None = None) -> Manifest:
     """Bundle of the test with this progress file; profile: name or path of the Car's. Its report is made anew.
 
-    OutputError when it cannot be written: then nothing of it is left, and the chain is as it was.
+    InUse when an application is measuring the test, or has measured more of it than this progress holds. OutputError
+    when the bundle cannot be written: then nothing of it is left, and the chain is as it was.
     """
     station, watch = station or Station(), watch or BundleWatch()
-    contents = contents_of(Tested(path, scenario, progress, assessment, profile), station.name)
-    for name, reason in contents.left_out.items():
-        watch.left_out(name, reason)
-    with station.signing():
-        return _signed(target, contents.sources, station, watch)
+    with at_rest(path):
+        check_newest(path, progress)
+        contents = contents_of(Tested(path, scenario, progress, assessment, profile), station.name)
+        for name, reason in contents.left_out.items():
+            watch.left_out(name, reason)
+        with station.signing():
+            return _signed(target, contents.sources, station, watch)
 
 
 def _signed(target: pathlib.Path, sources: Mapping[str, Source], station: Station, watch: BundleWatch) -> Manifest:
-    newest = station.newest
     try:
-        # Each byte is read twice: for its manifest, and for the container.
+        # Each byte is read twice: as it is written, and as it is verified.
         half = _Half(watch.done, sum(map(size_of, sources.values())))
-        manifest = Manifest(written(now()), station.name, station.key, 1 if newest is None else newest.number + 1,
-                            "" if newest is None else newest.manifest,
-                            {name: _entry(source, half) for name, source in sources.items()})
-        content = manifest.content()
-        signature = {"algorithm": "Ed25519", "key": station.key, "signature": station.sign(content)}
-        _write(target, {MANIFEST: content, SIGNATURE: as_json(signature), **sources}, half)
+        manifest = _written(target, sources, station, half)
     except OSError as error:
         raise OutputError(f"The bundle {target} cannot be written: {error.strerror or error}.") from None
     try:
-        station.append(Link(manifest.number, target.name, sha256_of(content)))
+        station.append(Link(manifest.number, target.name, sha256_of(manifest.content())))
     except OutputError:
         # The next bundle would have its number, too.
         target.unlink(missing_ok=True)
@@ -84,20 +84,36 @@ class _Half:
         self._told(min(self._read / self._whole, 1.0))
 
 
-def _write(target: pathlib.Path, sources: Mapping[str, Source], half: _Half) -> None:
+def _written(target: pathlib.Path, sources: Mapping[str, Source], station: Station, half: _Half) -> Manifest:
+    """Write the bundle, and put it in its place once all of it was read back as it was signed."""
     temporary = target.with_name(f".{target.name}.part")
     try:
         with open(temporary, "wb") as file:
-            write_container(file, sources, half.read)
+            manifest = _write(file, sources, station, half)
             file.flush()
             os.fsync(file.fileno())
+        problems = content_problems(temporary, half.read)
+        if problems:
+            raise OutputError(f"The bundle {target} was not written as it was signed: {problems[0]} Check the disk, "
+                              "and write it again.")
         os.replace(temporary, target)
     except BaseException:
         temporary.unlink(missing_ok=True)
         raise
+    return manifest
 
 
-def _entry(source: Source, half: _Half) -> FileEntry:
-    entry = FileEntry(len(source), sha256_of(source)) if isinstance(source, bytes) else entry_of_path(source)
-    half.read(entry.size)
-    return entry
+def _write(file: BinaryIO, sources: Mapping[str, Source], station: Station, half: _Half) -> Manifest:
+    """The manifest comes last: it has the digests of what was written."""
+    newest = station.newest
+    number, before = (1, "") if newest is None else (newest.number + 1, newest.manifest)
+    manifests: list[Manifest] = []
+
+    def signed(entries: Mapping[str, FileEntry]) -> dict[str, bytes]:
+        manifests.append(Manifest(written(now()), station.name, station.key, number, before, entries))
+        content = manifests[0].content()
+        signature = {"algorithm": "Ed25519", "key": station.key, "signature": station.sign(content)}
+        return {MANIFEST: content, SIGNATURE: as_json(signature)}
+
+    write_container(file, sources, half.read, signed)
+    return manifests[0]

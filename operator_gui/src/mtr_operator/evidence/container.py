@@ -2,11 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import io
 import pathlib
 import shutil
 import zipfile
 from typing import BinaryIO, Callable, Iterable, Mapping, Union
+
+from .manifest import FileEntry, copied_entry
 
 SUFFIX = ".mtr.zip"
 # Nothing of the time of writing or of the computer is in it; nothing is compressed, for logs and pictures are already.
@@ -23,20 +26,30 @@ def size_of(source: Source) -> int:
     return len(source) if isinstance(source, bytes) else source.stat().st_size
 
 
-def write_container(file: BinaryIO, sources: Mapping[str, Source],
-                    done: Callable[[int], None] = lambda _: None) -> None:
-    """A zip of these files, by their paths in it; OSError when one cannot be read or written. done is told the bytes of
-    each that is in it."""
+def write_container(file: BinaryIO, sources: Mapping[str, Source], done: Callable[[int], None] = lambda _: None,
+                    last: Callable[[Mapping[str, FileEntry]], Mapping[str, bytes]] = lambda _: {}) -> None:
+    """Write a zip of these files, by their paths in it; OSError when one cannot be read or written.
+
+    done: receives the size of each of them once it is written. last: returns the files behind them, from the size and
+    digest of what was written.
+    """
+    entries: dict[str, FileEntry] = {}
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as container:
         for name, source in sources.items():
-            info = _info(name, size_of(source))
-            with container.open(info, "w") as target:
-                if isinstance(source, bytes):
-                    target.write(source)
-                else:
-                    with open(source, "rb") as read:
-                        shutil.copyfileobj(read, target, _BLOCK)
-            done(info.file_size)
+            entries[name] = _add(container, name, source)
+            done(entries[name].size)
+        for name, content in last(entries).items():
+            _add(container, name, content)
+
+
+def _add(container: zipfile.ZipFile, name: str, source: Source) -> FileEntry:
+    """The source is read once, so that nobody who writes it meanwhile makes its digest differ from its content."""
+    with contextlib.closing(_opened(source)) as read, container.open(_info(name, size_of(source)), "w") as target:
+        return copied_entry(read, target.write)
+
+
+def _opened(source: Source) -> BinaryIO:
+    return io.BytesIO(source) if isinstance(source, bytes) else open(source, "rb")
 
 
 def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: BinaryIO) -> None:

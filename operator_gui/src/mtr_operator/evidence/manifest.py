@@ -6,7 +6,7 @@ import hashlib
 import json
 import pathlib
 from dataclasses import dataclass
-from typing import Any, BinaryIO, Mapping
+from typing import Any, BinaryIO, Callable, Mapping
 
 FORMAT, VERSION = "mtr evidence bundle", 1
 MANIFEST, SIGNATURE = "manifest.json", "manifest.sig"
@@ -68,8 +68,14 @@ def sha256_of(content: bytes) -> str:
 
 def entry_of(file: BinaryIO) -> FileEntry:
     """Of a file from where it stands to its end."""
+    return copied_entry(file, lambda _: None)
+
+
+def copied_entry(file: BinaryIO, write: Callable[[bytes], object]) -> FileEntry:
+    """Pass a file, from where it stands to its end, to write; return the entry of the passed bytes."""
     digest, size = hashlib.sha256(), 0
     while block := file.read(_BLOCK):
+        write(block)
         digest.update(block)
         size += len(block)
     return FileEntry(size, digest.hexdigest())

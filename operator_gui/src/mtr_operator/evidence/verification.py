@@ -65,6 +65,19 @@ def verify_bundle(path: pathlib.Path) -> Verification:
         return Verification(problems=(f"{path} is torn, or no bundle: its list of files cannot be read.",))
 
 
+def content_problems(path: pathlib.Path, done: Callable[[int], None]) -> Sequence[str]:
+    """What is not as it was signed in the files of a bundle that was just written; OSError when it cannot be read.
+
+    done: receives the size of each file once it was read, in bytes.
+    """
+    with zipfile.ZipFile(path) as container:
+        def entry(name: str) -> FileEntry:
+            found = _member(container, name)
+            done(found.size)
+            return found
+        return _verified(container.namelist(), lambda name: _start_of(container, name), entry).problems
+
+
 def is_newer(path: pathlib.Path) -> bool:
     """True for a bundle of a later version of this format, whose manifest cannot be read here."""
     with contextlib.suppress(OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile, zlib.error,

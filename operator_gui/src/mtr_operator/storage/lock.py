@@ -6,6 +6,7 @@ import contextlib
 import os
 import pathlib
 import sys
+from typing import Iterator
 
 from mtr_operator.domain.errors import InUse, OutputError
 
@@ -15,10 +16,14 @@ _MAX_OWNER_BYTES = 32
 
 
 class Lock:
-    """Context in which this application alone writes the test; InUse when another one does, and says which."""
+    """Context in which this application alone writes the test; InUse when another one does, and says which.
 
-    def __init__(self, path: pathlib.Path):
+    is_shared: nobody writes it, and others may hold it so at the same time; on Windows they may not.
+    """
+
+    def __init__(self, path: pathlib.Path, *, is_shared: bool = False):
         self._path = _lock_of(path)
+        self._is_shared = is_shared
         self._descriptor: int | None = None
 
     def __enter__(self) -> Lock:
@@ -29,22 +34,24 @@ class Lock:
         except OSError as error:
             raise OutputError(f"The folder {self._path.parent} cannot be locked against other applications: "
                               f"{error.strerror or error}.") from None
-        raise InUse(self._sentence())
+        raise InUse(self.sentence)
 
     def __exit__(self, *_: object) -> None:
         descriptor, self._descriptor = self._descriptor, None
         if descriptor is not None:
-            # First, so that who locks the file after this finds that it is not the one in the folder.
+            # First, so that who locks the file after this finds that it is not the one in the folder. The last one of
+            # those that share it does so.
             with contextlib.suppress(OSError):
-                self._path.unlink()
+                if not self._is_shared or _lock(descriptor):
+                    self._path.unlink()
             os.close(descriptor)
 
     def _take(self) -> bool:
         """True when it is ours; False when the file was not the one in the folder any more."""
         descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o644)
         try:
-            if not _lock(descriptor):
-                raise InUse(self._sentence())
+            if not _lock(descriptor, self._is_shared):
+                raise InUse(self.sentence)
             if self._is_in_folder(descriptor):
                 os.ftruncate(descriptor, 0)
                 os.write(descriptor, str(os.getpid()).encode("ascii"))
@@ -61,7 +68,9 @@ class Lock:
         except FileNotFoundError:
             return False
 
-    def _sentence(self) -> str:
+    @property
+    def sentence(self) -> str:
+        """Who writes the test, and what to do."""
         try:
             owner = self._path.read_bytes()[:_MAX_OWNER_BYTES].decode("ascii", "replace").strip()
         except OSError:
@@ -69,6 +78,24 @@ class Lock:
         process = f" (process {owner})" if owner.isdigit() else ""
         return (f"Another application{process} is measuring the test in the folder {self._path.parent}; end it there "
                 "first, or choose another folder.")
+
+
+@contextlib.contextmanager
+def at_rest(path: pathlib.Path) -> Iterator[None]:
+    """Context in which no application writes the test with this progress file; InUse when one does.
+
+    A folder in which nothing can be written, such as an archive, has no lock: there its lock file decides.
+    """
+    lock = Lock(path, is_shared=True)
+    with contextlib.ExitStack() as held:
+        try:
+            held.enter_context(lock)
+        except InUse:
+            raise
+        except OutputError:
+            if is_held(path):
+                raise InUse(lock.sentence) from None
+        yield
 
 
 def is_held(path: pathlib.Path) -> bool:
@@ -86,7 +113,7 @@ if sys.platform == "win32":
     # Behind what is written, for Windows lets nobody read what is locked.
     _LOCKED_BYTE = 1024
 
-    def _lock(descriptor: int) -> bool:
+    def _lock(descriptor: int, is_shared: bool = False) -> bool:
         os.lseek(descriptor, _LOCKED_BYTE, os.SEEK_SET)
         try:
             msvcrt.locking(descriptor, msvcrt.LK_NBLCK, 1)
@@ -98,9 +125,9 @@ if sys.platform == "win32":
 else:
     import fcntl
 
-    def _lock(descriptor: int) -> bool:
+    def _lock(descriptor: int, is_shared: bool = False) -> bool:
         try:
-            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            fcntl.flock(descriptor, (fcntl.LOCK_SH if is_shared else fcntl.LOCK_EX) | fcntl.LOCK_NB)
         except BlockingIOError:
             return False
         return True

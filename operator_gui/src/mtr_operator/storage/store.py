@@ -112,19 +112,28 @@ class Store(Journal):
         return recovered
 
     def _check(self, there: JournalMark | None) -> None:
-        mine = self._progress.kept
-        if there is None:
-            return
-        if mine is None or mine.id != there.id:
-            raise InUse(f"The files of {self.path} belong to another test; choose another folder.")
-        if mine.entries < there.entries:
-            raise InUse(f"The test in {self.path} was gone on with since it was opened here; open it again.")
+        _check_mark(self.path, self._progress.kept, there)
 
     def _stamp(self) -> tuple[int, int, int] | None:
         with contextlib.suppress(OSError):
             found = os.stat(self.path)
             return found.st_ino, found.st_size, found.st_mtime_ns
         return None
+
+
+def check_newest(path: pathlib.Path, progress: Progress) -> None:
+    """InUse when the files hold more of the test than this progress, or another one."""
+    for there in (journal_of(path).mark, journal_mark(path)):
+        _check_mark(path, progress.kept, there)
+
+
+def _check_mark(path: pathlib.Path, mine: JournalMark | None, there: JournalMark | None) -> None:
+    if there is None:
+        return
+    if mine is None or mine.id != there.id:
+        raise InUse(f"The files of {path} belong to another test; choose another folder.")
+    if mine.entries < there.entries:
+        raise InUse(f"The test in {path} was gone on with since it was opened here; open it again.")
 
 
 def _copy_aside(path: pathlib.Path) -> None:

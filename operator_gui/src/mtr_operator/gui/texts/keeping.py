@@ -80,6 +80,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "{} was added."),
     QT_TRANSLATE_NOOP("Sentence", "A file is in it twice."),
     QT_TRANSLATE_NOOP("Sentence", "The bundle {} cannot be written: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The bundle {} was not written as it was signed: {} Check the disk, and write it "
+                                  "again."),
     QT_TRANSLATE_NOOP("Sentence", "The bundle was given up, for the window closes."),
     QT_TRANSLATE_NOOP("Sentence", "The chain of bundles in {} is damaged; move that file elsewhere to begin a new "
                                   "chain."),

@@ -6357,6 +6357,11 @@
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
+        <source>The bundle {} was not written as it was signed: {} Check the disk, and write it again.</source>
+        <translation>Balík {} není zapsán tak, jak byl podepsán: {} Zkontrolujte disk a zapište jej znovu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
         <source>The bundle {} cannot be written: {}.</source>
         <translation>Balíček {} nelze zapsat: {}.</translation>
     </message>
