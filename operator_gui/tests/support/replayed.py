@@ -13,11 +13,11 @@ from mtr_operator.storage.progress_file import save_progress
 from mtr_operator.storage.recorded.recording import Recording
 
 
-def recorded(folder, scenario, parameters, profile):
+def recorded(folder, scenario, parameters, profile, log_format="blf"):
     """Its progress; the recording lies beside it in the folder."""
     progress = Progress(scenario.name, parameters.to_mapping(), session_record(now(), "substitute", profile))
     spoken = SpokenCar(FakeRobotLink(1), f"{folder}", profile=profile)
-    recording = Recording(folder / "progress.json")
+    recording = Recording(folder / "progress.json", log_format)
     spoken.connect()
     spoken.car.connect()
     try:

@@ -238,3 +238,23 @@ def test_run_that_measured_nothing_leaves_no_recording(tmp_path):
         spoken.car.close()
         spoken.close()
     assert list(pathlib.Path(tmp_path).iterdir()) == []
+
+
+TWO_BUSES = """BO_ 1281 CAUSE: 12 Body
+ SG_ BY : 0|4@1+ (1,0) [0|15] "" Body
+"""
+
+
+@pytest.mark.parametrize(("log_format", "length"), [("blf", 12), ("asc", 12), ("trc", 8), ("asc", 8), ("blf", 8)])
+def test_replay_of_two_buses_gives_the_same_distances_from_each_format(tmp_path, capsys, log_format, length):
+    path = pathlib.Path(profile(tmp_path))
+    (tmp_path / "body.dbc").write_text('VERSION ""\nBU_: Body\n' + TWO_BUSES.replace("12 Body", f"{length} Body"))
+    begin, _, _ = path.read_text().replace("source_signal: LastCommandSource", "buses: {body: body.dbc}\ncauses:") \
+        .partition("sources:")
+    path.write_text(f"{begin}  - {{bus: body, message: CAUSE, signal: BY, sources: {{1: passive_entry}}}}")
+    scenario = SCENARIOS["autolock"]
+    chosen = scenario.parameters_type.from_mapping({**scenario.parameters_type.proposed(), **AUTOLOCK})
+    progress = recorded(tmp_path, scenario, chosen, str(path), log_format)
+    assert {result.unlock_cause for result in progress.results} == {"passive_entry"}
+    code, document = replayed(tmp_path, capsys)
+    assert code == 0 and document["is_unchanged"] and document["notices"] == []

@@ -181,7 +181,8 @@ class CanCarLink(CarLink, FrameSink):
 
     def log_to(self, path: pathlib.Path | None) -> None:
         """See CarLink."""
-        log = None if path is None else BusLog(path)
+        log = None if path is None else BusLog(path, is_fd=self._settings.data_bitrate_bps is not None
+                                               or self._further.is_fd)
         with self._changed:
             former = self._log.change(log)
         if former is not None:

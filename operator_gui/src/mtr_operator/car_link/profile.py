@@ -114,6 +114,12 @@ class CarProfile:
                          0.0 if self.sent_on_change else self.cycle_time_s, self.further.settles_s,
                          self.further.is_required)
 
+    @property
+    def identifiers(self) -> dict[str, tuple[int, bool]]:
+        """Identifier and whether it is an extended one, by the names of the messages of all buses."""
+        further = {place.message.name: place.key[1:] for place in self.further.places()}
+        return {**further, **{name: key for key, name in self.message_names.items()}}
+
     def modulus(self, signal: str) -> int:
         """How many values a counter has."""
         return 1 << int(self.message.get_signal_by_name(signal).length)

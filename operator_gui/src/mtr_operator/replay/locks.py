@@ -8,7 +8,8 @@ from typing import Iterator
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.clocks.stamp_kind import StampKind
 from mtr_operator.car_link.lock_watch import LockWatch
-from mtr_operator.car_link.log.read_log import LoggedFrame, ReadLog
+from mtr_operator.car_link.log.read_log import ReadLog
+from mtr_operator.car_link.log.text.lines import LoggedFrame
 from mtr_operator.car_link.profile import CarProfile
 from mtr_operator.domain.ports import BusMark, CarEvent
 from mtr_operator.storage.recorded.course_file import Moment

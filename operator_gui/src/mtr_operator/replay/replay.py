@@ -106,7 +106,7 @@ def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.
     path = log or run.log
     if path is None:
         raise CannotReplay(f"No log of the Car's bus belongs to {run.course}; there was no bus, or none was wanted.")
-    read = ReadLog(path)
+    read = ReadLog(path, profile.identifiers)
     locks = ReplayedLocks(profile, read, points.phone)
     points.follow(read_course(run.course), locks)
     notices = [read.notice] if read.notice else []

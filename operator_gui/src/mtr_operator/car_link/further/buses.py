@@ -58,6 +58,11 @@ class FurtherBuses:
         return {(settings.interface, settings.channel) for settings in used}
 
     @property
+    def is_fd(self) -> bool:
+        """True when one of them may carry CAN FD frames."""
+        return any(self._settings[name].data_bitrate_bps is not None for name in self._open)
+
+    @property
     def record(self) -> dict[str, str]:
         """How the adapter of each bus is opened, for the record of a test."""
         return {CAN_ADAPTER_OF_BUS.format(name): self._settings[name].text for name in self._open}

@@ -21,6 +21,9 @@ from mtr_operator.domain.errors import OutputError
 from ..can_frame import CanFrame
 
 FORMATS = ("blf", "asc", "trc", "mf4")
+# The library writes no CAN FD frame into these.
+_CLASSIC_ONLY = (".trc",)
+_NO_FD = "A CAN log of the format {} holds no CAN FD frame; choose blf or asc (--can-log-format)."
 # Of an hour at 500 kbit/s and full load BLF takes some 300 MB.
 DEFAULT_LIMIT_BYTES = 2 * 1024 ** 3
 # What a killed application loses is at most this much of a BLF, some hundred frames.
@@ -37,7 +40,10 @@ class BusLog:
         problem: why the log ends before the test does; empty while it goes on.
     """
 
-    def __init__(self, path: pathlib.Path, limit_bytes: int = DEFAULT_LIMIT_BYTES):
+    def __init__(self, path: pathlib.Path, limit_bytes: int = DEFAULT_LIMIT_BYTES, is_fd: bool = False):
+        """is_fd: the bus may carry CAN FD frames."""
+        if is_fd and path.suffix in _CLASSIC_ONLY:
+            raise OutputError(_NO_FD.format(path.suffix[1:]))
         self.path = path
         self.frames = 0
         self.origin_s = math.nan
@@ -86,6 +92,10 @@ class BusLog:
 
     def _write(self, message: can.Message) -> None:
         if self._writer is None:
+            return
+        if message.is_fd and self.path.suffix in _CLASSIC_ONLY:
+            self.problem = f"The CAN log {self.path} ends before the test: {_NO_FD.format(self.path.suffix[1:])}"
+            self._stop()
             return
         self._writer.on_message_received(message)
         self._written += 1

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import pathlib
-from typing import Callable, Iterator, Mapping
+from typing import Callable, Iterator, Mapping, Sequence
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
@@ -15,7 +15,8 @@ from ..can_frame import CanFrame
 from ..clocks.stamp_kind import StampKind
 from ..lock_watch import LockWatch
 from ..profile import CarProfile, load_profile
-from .read_log import LoggedFrame, ReadLog
+from .read_log import ReadLog
+from .text.lines import LoggedFrame
 
 # For so long a jump of the log's time is told, and the end of a gap: longer than a Status takes to be looked at.
 _TOLD_S = 1.0
@@ -23,7 +24,7 @@ _NOT_CONNECTED = "The CAN log is not open."
 
 
 class LogCarLink(CarLink):
-    """path: a log of any kind that python-can reads. profile: see CanCarLink.
+    """path: a log of any kind, see read_log. profile: see CanCarLink.
 
     What the Car does is that of the log, whatever the robot does: the log's first frame is at the first Status.
     """
@@ -45,7 +46,7 @@ class LogCarLink(CarLink):
         self._profile = profile = load_profile(self._profile_name)
         self._bus_of = profile.further.bus_of
         self._watch = LockWatch(self._profile)
-        self._log = ReadLog(self._path)
+        self._log = ReadLog(self._path, profile.identifiers)
         self._frames = iter(self._log)
         self._next = next(self._frames, None)
         self._begin_s = math.nan
@@ -86,6 +87,12 @@ class LogCarLink(CarLink):
     def facts(self) -> LockFacts:
         """See CarLink."""
         return LockFacts() if self._profile is None else self._profile.facts
+
+    @property
+    def notices(self) -> Sequence[str]:
+        """See CarLink: what is wrong with the log, as far as it has been read."""
+        notice = "" if self._log is None else self._log.notice
+        return (notice,) if notice else ()
 
     @property
     def refused(self) -> Refused:

@@ -1,39 +1,36 @@
-"""Reads logs of a CAN bus, of any kind that python-can reads, frame by frame."""
+"""Reads logs of a CAN bus, of whatever kind, frame by frame: the kind is told by the content."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import math
 import pathlib
-from typing import Iterator, NamedTuple
+from typing import Any, Iterable, Iterator
 
 import can
 from can.io.blf import FILE_HEADER_SIZE, BLFParseError, BLFReader
 
 from mtr_operator.domain.errors import ConnectionFailed
 
+from .text.lines import LoggedFrame, Names
+from .text.text_log import TextLog
+
+# Kinds that are no text, by how their files begin.
+_MAGIC = {".blf": b"LOGG", ".mf4": b"MDF ", ".db": b"SQLite format 3\0"}
 BLF_SUFFIX = ".blf"
-SUFFIXES = (BLF_SUFFIX, ".asc", ".trc", ".mf4", ".log", ".csv", ".db")
+SUFFIXES = (*_MAGIC, ".asc", ".trc", ".log", ".csv", ".crtd", ".txt", ".gz")
 # A live bus that is silent for half of it is a trouble; frames of several channels may be a little out of their order.
 _GAP_S, _DISORDER_S = 1.0, 0.1
+# So many frames may be out of their order without a word: those of several channels are.
+_FEW = 2
 # Of a log with many gaps the first ones suffice.
 _MAX_NOTES = 3
 # Each object of a BLF begins with this word, its header's length and version, and its own length; before it may be so
 # many bytes of padding.
 _OBJECT, _LENGTH_AT, _HEADER, _PADDED = b"LOBJ", 8, 16, 8
+# Of different messages of a log, so that any log takes little memory.
+_MAX_MESSAGES = 4096
 # Of a CAN FD frame, ISO 11898-1.
 _MAX_DATA_BYTES = 64
-
-
-class LoggedFrame(NamedTuple):
-    """time_s: by the log's clock, from any origin; a log says nothing of which clock that is. channel: of the log, 0
-    where it has none."""
-
-    time_s: float
-    can_id: int
-    is_extended: bool
-    data: bytes
-    is_fd: bool
-    channel: int = 0
 
 
 class _Blf(BLFReader):
@@ -52,60 +49,74 @@ class _Blf(BLFReader):
         yield from super()._parse_container(data)
 
 
-def _check(message: can.Message) -> None:
-    """ValueError or TypeError for what no bus has carried; the library's readers of texts believe any text."""
-    limit = 1 << (29 if message.is_extended_id else 11)
-    if not (math.isfinite(message.timestamp) and 0 <= message.arbitration_id < limit
-            and len(message.data) <= _MAX_DATA_BYTES):
-        raise ValueError(f"{message.arbitration_id:x}")
+def _check(frame: LoggedFrame) -> None:
+    """ValueError for what no bus has carried; the readers believe any number."""
+    limit = 1 << (29 if frame.is_extended else 11)
+    if not (math.isfinite(frame.time_s) and 0 <= frame.can_id < limit and len(frame.data) <= _MAX_DATA_BYTES):
+        raise ValueError(f"{frame.can_id:x}")
 
 
 class ReadLog:
     """Iterator over the data frames of a log, in its order. ConnectionFailed when it is none.
 
+    names: identifier and whether it is an extended one, by the name of a message, for logs that have names.
+
     Attributes:
         count: frames so far.
-        notice: sentences when the log is not whole, in its order; empty when it is.
-        newest: the newest of them, also beyond those that notice has. ending: why it ended too early; empty when it
-            did not, or has not ended yet.
+        newest: the newest gap or jump of its time, or why it ended too early. ending: why it ended too early; empty
+            when it did not, or has not ended yet.
     """
 
-    def __init__(self, path: pathlib.Path):
+    def __init__(self, path: pathlib.Path, names: Names | None = None):
         self.count = 0
-        self.notice = self.newest = self.ending = ""
-        self._notes = 0
+        self.newest = self.ending = ""
+        self._notes: list[str] = []
+        self._times = _Times()
         self._path = path
-        if path.suffix.lower() not in SUFFIXES:
-            raise ConnectionFailed(f"{path} is no CAN log; known are files that end in {', '.join(SUFFIXES)}.")
         try:
             self._size = path.stat().st_size
-            self._reader = _Blf(str(path)) if path.suffix.lower() == BLF_SUFFIX else can.LogReader(str(path))
+            self._reader = _reader(path, names or {})
         except OSError as error:
             raise ConnectionFailed(f"The CAN log {path} cannot be read: {error.strerror or error}.") from None
         except NotImplementedError:
             raise ConnectionFailed(f"The CAN log {path} needs the Python package asammdf, which is not installed.") \
                 from None
+        except ConnectionFailed:
+            raise
         # The library's readers raise whatever a damaged file leads them to.
         except Exception:
             raise ConnectionFailed(f"The CAN log {path} cannot be read: it is damaged or of another format.") from None
 
+    @property
+    def notice(self) -> str:
+        """Sentences when the log is not whole, in its order; empty when it is."""
+        told = [f"The CAN log {self._path} {each}." for each in (self._left_out(), *self._times.told) if each]
+        return " ".join([*self._notes[:_MAX_NOTES], *told])
+
+    def _left_out(self) -> str:
+        log = self._reader
+        if not isinstance(log, TextLog) or not log.left_out:
+            return ""
+        lines = "1 line that is" if log.left_out == 1 else f"{log.left_out} lines that are"
+        return f"has {lines} not understood and left out; {log.first}"
+
     def __iter__(self) -> Iterator[LoggedFrame]:
         last_s: float | None = None
         try:
-            for message in self._reader:
-                if message.is_error_frame or message.is_remote_frame:
-                    continue
-                _check(message)
+            for frame in _frames(self._reader):
+                _check(frame)
                 self.count += 1
-                self._look_at_time(message.timestamp, last_s)
-                last_s = message.timestamp
-                channel = message.channel if isinstance(message.channel, int) else 0
-                yield LoggedFrame(message.timestamp, message.arbitration_id, message.is_extended_id,
-                                  bytes(message.data), message.is_fd, channel)
+                self._look_at_time(frame.time_s, last_s)
+                self._times.frame(frame)
+                last_s = frame.time_s
+                yield frame
         except GeneratorExit:
             raise
         except Exception:
             self._end("is damaged")
+        damage = self._reader.damage if isinstance(self._reader, TextLog) else ""
+        if damage and not self.ending:
+            self._end("is damaged", f" ({damage})")
         if not self.count:
             raise ConnectionFailed(f"The CAN log {self._path} holds no frame.")
         if not self.ending and self._is_cut_off():
@@ -121,10 +132,8 @@ class ReadLog:
                        f"{self.count - 1} frames; what lies about it is not to be believed.")
 
     def _note(self, sentence: str) -> None:
-        self._notes += 1
         self.newest = sentence
-        if self._notes <= _MAX_NOTES:
-            self.notice = f"{self.notice} {sentence}".strip()
+        self._notes.append(sentence)
 
     def _is_cut_off(self) -> bool:
         # A BLF says at its beginning how long it is; one whose program was killed says nothing.
@@ -132,6 +141,69 @@ class ReadLog:
         return isinstance(reader, BLFReader) and (self._size < reader.file_size
                                                   or reader.file_size == FILE_HEADER_SIZE < self._size)
 
-    def _end(self, what: str) -> None:
-        self.ending = f"The CAN log {self._path} {what} after {self.count} frames; those are used."
+    def _end(self, what: str, why: str = "") -> None:
+        self.ending = f"The CAN log {self._path} {what} after {self.count} frames{why}; those are used."
         self._note(self.ending)
+
+
+class _Times:
+    """Frames whose times cannot be: earlier than the one before, or the same as that of the same message."""
+
+    def __init__(self) -> None:
+        self._backward = self._same = 0
+        self._worst_s = 0.0
+        self._last_s = -math.inf
+        self._of_message: dict[tuple[int, bool, int], float] = {}
+
+    def frame(self, frame: LoggedFrame) -> None:
+        """The next one."""
+        key = (frame.can_id, frame.is_extended, frame.channel)
+        if frame.time_s < self._last_s:
+            self._backward += 1
+            self._worst_s = max(self._worst_s, self._last_s - frame.time_s)
+        # Those of further buses are placed at the newest frame of the first, see LockWatch.
+        self._same += not frame.channel and frame.time_s == self._of_message.get(key)
+        self._last_s = frame.time_s
+        if len(self._of_message) < _MAX_MESSAGES or key in self._of_message:
+            self._of_message[key] = frame.time_s
+
+    @property
+    def told(self) -> Iterator[str]:
+        """What is said of the log."""
+        if self._backward > _FEW:
+            yield (f"has {self._backward} frames with an earlier time than the frame before, by up to "
+                   f"{self._worst_s:.3f} s")
+        if self._same:
+            yield f"has {self._same} frames with the same identifier and time as a frame before"
+
+
+def _reader(path: pathlib.Path, names: Names) -> Any:
+    with path.open("rb") as file:
+        begin = file.read(max(map(len, _MAGIC.values())))
+    suffix = path.suffix.lower()
+    kind = next((kind for kind, magic in _MAGIC.items() if begin.startswith(magic)), "")
+    if kind == BLF_SUFFIX:
+        return _Blf(str(path))
+    if kind == ".db":
+        return can.SqliteReader(str(path))
+    if kind == ".mf4":
+        return can.MF4Reader(str(path))
+    if suffix in _MAGIC:
+        raise ValueError(suffix)
+    try:
+        return TextLog(path, names)
+    except ConnectionFailed as error:
+        if suffix in SUFFIXES and begin:
+            raise
+        raise ConnectionFailed(f"{path} is no CAN log: {error}") from None
+
+
+def _frames(reader: Iterable[Any]) -> Iterator[LoggedFrame]:
+    """Data frames; those of the library count buses from 0."""
+    for each in reader:
+        if isinstance(each, LoggedFrame):
+            yield each
+        elif not (each.is_error_frame or each.is_remote_frame):
+            channel = each.channel if isinstance(each.channel, int) else 0
+            yield LoggedFrame(each.timestamp, each.arbitration_id, each.is_extended_id, bytes(each.data), each.is_fd,
+                              channel)

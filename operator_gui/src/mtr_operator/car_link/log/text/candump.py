@@ -1,0 +1,114 @@
+"""Logs of candump (can-utils): as it writes files, and as it shows frames on a console."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import datetime
+import math
+import re
+from typing import Sequence
+
+from .lines import (
+    Channels,
+    Line,
+    LineReader,
+    Read,
+    Unreadable,
+    WrongShape,
+    frame,
+    hex_bytes,
+    hex_id,
+    seconds,
+    some_bytes,
+)
+
+_ERROR_FLAG, _ID_MASK = 0x2000_0000, 0x1FFF_FFFF
+_STANDARD_DIGITS = 3
+_LOG = re.compile(r"\(([^()]*)\)\s+(\S+)\s+([0-9A-Fa-f]{1,8})#(\S*)(?:\s+[RT])?")
+_CONSOLE = re.compile(r"(?:\(([^()]*)\)\s+)?([A-Za-z][\w.-]*)\s+(?:[RT]X\s+[B-]\s+[E-]\s+)?([0-9A-Fa-f]{3,8})\s+"
+                      r"[\[{](\d{1,2})[\]}]\s*(.*)")
+_DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d) (\d\d:\d\d:\d\d)(\.\d+)?")
+# Steps from frame to frame begin with 0, and are not in ascending order.
+_MIN_FRAMES, _FALLING_SHARE = 4, 0.2
+
+
+class CandumpLog(LineReader):
+    """candump -l and -L."""
+
+    name = "candump"
+
+    def __init__(self) -> None:
+        self._channels = Channels()
+
+    def read(self, line: str) -> Read:
+        """See LineReader."""
+        match = _LOG.fullmatch(line)
+        if match is None:
+            raise WrongShape
+        time_text, name, id_text, rest = match.groups()
+        can_id = hex_id(id_text)
+        is_extended = len(id_text) > _STANDARD_DIGITS
+        if is_extended and can_id & _ERROR_FLAG:
+            return Line.NO_DATA
+        is_fd = rest.startswith("#")
+        if rest[:1] in ("R", "r"):
+            return Line.NO_DATA
+        # A digit of flags before the data of CAN FD; a data length code above 8 behind those of classic CAN.
+        data = hex_bytes((rest[2:] if is_fd else rest).split("_")[0].replace(".", ""))
+        return frame(seconds(time_text), can_id & _ID_MASK, is_extended, data, is_fd=is_fd,
+                     channel=self._channels.number(name))
+
+
+class CandumpConsole(LineReader):
+    """candump with times (-t a, A, d or z), kept as a file."""
+
+    name = "candump on a console"
+
+    def __init__(self) -> None:
+        self._channels = Channels()
+        self._are_steps = False
+        self._sum_s = 0.0
+
+    def prepare(self, lines: Sequence[str]) -> None:
+        """See LineReader: -t d and -t z look alike."""
+        texts = [match[1] for match in map(_CONSOLE.fullmatch, lines) if match and match[1]]
+        times_s = [time_s for time_s in map(_time_or_nan, texts) if math.isfinite(time_s)]
+        falling = sum(after <= before for before, after in zip(times_s, times_s[1:]))
+        self._are_steps = len(times_s) >= _MIN_FRAMES and times_s[0] == 0.0 and falling > _FALLING_SHARE * len(times_s)
+
+    def read(self, line: str) -> Read:
+        """See LineReader."""
+        match = _CONSOLE.fullmatch(line)
+        if match is None:
+            raise WrongShape
+        time_text, name, id_text, length, rest = match.groups()
+        if time_text is None:
+            raise Unreadable("has no time; record the bus with candump -l, or with -t a")
+        time_s = _time(time_text)
+        if self._are_steps:
+            self._sum_s += time_s
+            time_s = self._sum_s
+        can_id, is_extended = hex_id(id_text), len(id_text) > _STANDARD_DIGITS
+        if rest.startswith("remote request") or (is_extended and can_id & _ERROR_FLAG):
+            return Line.NO_DATA
+        # CAN FD has two digits.
+        return frame(time_s, can_id & _ID_MASK, is_extended, some_bytes(rest.split(), int(length)),
+                     is_fd=len(length) > 1, channel=self._channels.number(name))
+
+
+def _time_or_nan(text: str) -> float:
+    try:
+        return _time(text)
+    except Unreadable:
+        return math.nan
+
+
+def _time(text: str) -> float:
+    match = _DATE.fullmatch(text.strip())
+    if match is None:
+        return seconds(text)
+    year, month, day, clock, part = match.groups()
+    try:
+        moment = datetime.datetime.fromisoformat(f"{year}-{month}-{day}T{clock}")
+    except ValueError:
+        raise WrongShape from None
+    return moment.replace(tzinfo=datetime.timezone.utc).timestamp() + float(part or 0)

@@ -1,0 +1,144 @@
+"""What a reader makes of a line of a textual log, and what all readers share."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import re
+from abc import ABC, abstractmethod
+from enum import Enum
+from typing import Mapping, NamedTuple, Sequence, Union
+
+# Bytes of a CAN FD frame by its data length code, ISO 11898-1.
+_FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
+_CLASSIC_BYTES = 8
+MAX_STANDARD = 0x7FF
+
+# Identifier and whether it is an extended one, by the name of a message.
+Names = Mapping[str, "tuple[int, bool]"]
+
+
+class LoggedFrame(NamedTuple):
+    """time_s: by the log's clock, from any origin; a log says nothing of which clock that is. channel: number of the
+    bus, from 0; a log without channels has 0."""
+
+    time_s: float
+    can_id: int
+    is_extended: bool
+    data: bytes
+    is_fd: bool
+    channel: int = 0
+
+
+class Line(Enum):
+    """NOTHING: a comment, a header or an event. NO_DATA: a remote frame or an error frame."""
+
+    NOTHING = "nothing"
+    NO_DATA = "no data"
+
+
+class Unreadable(Exception):
+    """A line that is left out; the text says why."""
+
+
+class WrongShape(Unreadable):
+    """A line of another kind than those that the reader knows."""
+
+    def __init__(self) -> None:
+        super().__init__("is not understood")
+
+
+class Damaged(Exception):
+    """A frame that no bus has carried; the log ends before it."""
+
+
+class Ambiguous(Exception):
+    """A log that does not say what is needed; the text says what."""
+
+
+Read = Union[LoggedFrame, Line]
+
+
+class LineReader(ABC):
+    """Reads one kind of log, line by line in its order.
+
+    Attributes: name: of the kind, for sentences. is_recognized: its header was seen.
+    """
+
+    name = ""
+    is_recognized = False
+
+    @abstractmethod
+    def read(self, line: str) -> Read:
+        """What a line says, which is not empty; Unreadable or Damaged when it says nothing that is understood."""
+
+    def prepare(self, lines: Sequence[str]) -> None:  # noqa: B027, most kinds say in their header what they mean
+        """The first lines, before they are read, for a kind that does not say which unit or origin its times have."""
+
+
+class Channels:
+    """Numbers of buses by the names of their interfaces: can1, vcan1 and slcan1 are number 1."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[str, int] = {}
+        self._is_unnumbered = False
+
+    def number(self, name: str) -> int:
+        """Of an interface; Ambiguous when it cannot be told from another one."""
+        known = self._numbers.get(name)
+        if known is not None:
+            return known
+        match = re.fullmatch(r"[A-Za-z]*[-_.]?(\d{1,3})", name)
+        number = int(match[1]) if match else 0
+        self._is_unnumbered = self._is_unnumbered or match is None
+        self._numbers[name] = number
+        if len(self._numbers) > 1 and (self._is_unnumbered or len(set(self._numbers.values())) < len(self._numbers)):
+            names = " and ".join(self._numbers)
+            raise Ambiguous(f"names the buses {names}, and only names with different numbers, such as can0 and can1, "
+                            "say which is which")
+        return number
+
+
+def frame(time_s: float, can_id: int, is_extended: bool, data: bytes, *, is_fd: bool = False,
+          channel: int = 0) -> LoggedFrame:
+    """A frame; one of more than eight bytes is CAN FD."""
+    return LoggedFrame(time_s, can_id, is_extended, data, is_fd or len(data) > _CLASSIC_BYTES, channel)
+
+
+def seconds(text: str) -> float:
+    """A time, with a decimal point or comma."""
+    try:
+        return float(text.replace(",", "."))
+    except ValueError:
+        raise WrongShape from None
+
+
+def hex_id(text: str) -> int:
+    """An identifier in hexadecimal, with or without 0x."""
+    try:
+        return int(text, 16)
+    except ValueError:
+        raise WrongShape from None
+
+
+def hex_bytes(text: str) -> bytes:
+    """Data in hexadecimal, with blanks between the bytes or none."""
+    try:
+        return bytes.fromhex(text)
+    except ValueError:
+        raise Unreadable("has a byte that is no hexadecimal number") from None
+
+
+def some_bytes(words: Sequence[str], count: int, base: int = 16) -> bytes:
+    """The first words as data; what follows them is another column."""
+    if len(words) < count:
+        raise Unreadable(f"has {len(words)} bytes of data, and says {count}")
+    try:
+        return bytes(int(word, base) for word in words[:count])
+    except ValueError:
+        raise Unreadable("has a byte of data that is no number") from None
+
+
+def fd_length(code: int) -> int:
+    """Bytes of a data length code."""
+    if not 0 <= code < len(_FD_LENGTHS):
+        raise Unreadable(f"has the data length code {code}")
+    return int(_FD_LENGTHS[code])

@@ -1,0 +1,146 @@
+"""Tables of frames with commas, semicolons or tabs: those of SavvyCAN (GVRET), of python-can, and similar ones."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import base64
+import binascii
+import re
+import statistics
+from typing import Mapping, Sequence
+
+from .lines import (
+    MAX_STANDARD,
+    Damaged,
+    Line,
+    LineReader,
+    Read,
+    Unreadable,
+    WrongShape,
+    frame,
+    hex_bytes,
+    hex_id,
+    seconds,
+    some_bytes,
+)
+
+_TIME, _ID, _EXTENDED, _DIRECTION, _BUS, _LENGTH, _DATA = "time", "id", "extended", "dir", "bus", "length", "data"
+_REMOTE, _ERROR, _UNKNOWN = "remote", "error", ""
+# Names of columns in small letters, without what is no letter or digit.
+_COLUMNS = {
+    _TIME: ("timestamp", "time", "timeus", "timems", "times", "timestampus", "timestampms", "timestamps", "timeoffset",
+            "timeoffsetms", "timestampmicroseconds", "timestampmilliseconds", "timestampseconds", "abstime"),
+    _ID: ("id", "arbitrationid", "canid", "identifier", "messageid", "idhex", "arbid", "msgid"),
+    _EXTENDED: ("extended", "ext", "isextended", "ide", "extendedid"), _DIRECTION: ("dir", "direction", "rxtx"),
+    _BUS: ("bus", "channel", "chn", "busnumber"), _LENGTH: ("len", "length", "dlc", "datalength"),
+    _DATA: ("data", "databytes", "payload", "datahex"), _REMOTE: ("remote", "rtr"), _ERROR: ("error", "iserror")}
+_FIRST_BYTE = re.compile(r"(?:d|b|data|byte)_?[01]")
+_UNITS_S = {"us": 1e-6, "microseconds": 1e-6, "ms": 1e-3, "milliseconds": 1e-3, "s": 1.0, "seconds": 1.0}
+# Tables without a header, by their number of columns before the data.
+_WITHOUT_HEADER = ((_TIME, _ID, _EXTENDED, _DIRECTION, _BUS, _LENGTH), (_TIME, _ID, _EXTENDED, _BUS, _LENGTH))
+_BASE64 = ["timestamp", "arbitration_id", "extended", "remote", "error", "dlc", "data"]
+_TRUE = ("true", "1", "yes", "x", "ext")
+# No message of a car comes more often.
+_SHORTEST_CYCLE_S = 0.0005
+
+
+class Table(LineReader):
+    """With a header, or with SavvyCAN's columns without one."""
+
+    name = "table of SavvyCAN or python-can"
+
+    def __init__(self) -> None:
+        self._columns: Sequence[str] = ()
+        self._delimiter = ","
+        self._is_base64 = False
+        self._unit_s: float | None = None
+
+    def prepare(self, lines: Sequence[str]) -> None:
+        """See LineReader: whole numbers are microseconds, unless no bus could carry so many frames in them."""
+        head = next((line for line in lines if self._header(line)), "")
+        if not head:
+            self._guess(lines)
+        if not self._columns or self._unit_s is not None:
+            return
+        times: dict[str, list[float]] = {}
+        for line in lines:
+            values = self._values(line)
+            if _TIME in values and re.fullmatch(r"-?\d+", values[_TIME]):
+                times.setdefault(values.get(_ID, ""), []).append(float(values[_TIME]))
+        self._unit_s = unit_s(times) if times else 1.0
+
+    def _header(self, line: str) -> bool:
+        delimiter = max(",;\t", key=line.count)
+        words = [each.strip().strip('"') for each in line.split(delimiter)]
+        names = [re.sub(r"[^a-z0-9]", "", word.lower()) for word in words]
+        columns = [next((key for key, known in _COLUMNS.items() if name in known), _UNKNOWN) for name in names]
+        first = next((at for at, name in enumerate(names) if _FIRST_BYTE.fullmatch(name)), None)
+        if first is not None:
+            columns = [*columns[:first], _DATA]
+        if not {_TIME, _ID, _DATA} <= set(columns):
+            return False
+        self.is_recognized = True
+        self._columns, self._delimiter, self._is_base64 = columns, delimiter, words == _BASE64
+        unit = re.search(r"(us|ms|microseconds|milliseconds|seconds|(?<=[^a-z])s)$",
+                         re.sub(r"[^a-z]+", " ", words[columns.index(_TIME)].lower()).strip())
+        self._unit_s = _UNITS_S[unit[1]] if unit else None
+        return True
+
+    def _guess(self, lines: Sequence[str]) -> None:
+        for columns in _WITHOUT_HEADER:
+            for delimiter in ",;\t":
+                rows = [line.split(delimiter) for line in lines[:10]]
+                at = columns.index(_EXTENDED)
+                if rows and all(len(row) > len(columns) and row[at].strip().lower() in ("true", "false")
+                                and row[len(columns) - 1].strip().isdecimal() for row in rows):
+                    self._columns, self._delimiter = (*columns, _DATA), delimiter
+                    return
+
+    def _values(self, line: str) -> Mapping[str, str]:
+        words = line.split(self._delimiter, len(self._columns) - 1)
+        return {column: word.strip().strip('"') for column, word in zip(self._columns, words)}
+
+    def read(self, line: str) -> Read:
+        """See LineReader."""
+        if not self._columns:
+            raise WrongShape
+        if _is_header_again(line):
+            return Line.NOTHING
+        values = self._values(line)
+        if len(values) < len({*self._columns}) - 1 or _TIME not in values or _ID not in values:
+            raise Unreadable(f"has {line.count(self._delimiter) + 1} columns, and {len(self._columns)} are wanted")
+        time_s = seconds(values[_TIME]) * (self._unit_s or 1.0)
+        if values.get(_REMOTE) == "1" or values.get(_ERROR) == "1":
+            return Line.NO_DATA
+        can_id = hex_id(values[_ID])
+        is_extended = values[_EXTENDED].lower() in _TRUE if _EXTENDED in values else can_id > MAX_STANDARD
+        bus = values.get(_BUS, "")
+        channel = int(bus) if re.fullmatch(r"\d{1,3}", bus) else 0
+        return frame(time_s, can_id, is_extended, self._data(values), channel=channel)
+
+    def _data(self, values: Mapping[str, str]) -> bytes:
+        text, length = values.get(_DATA, ""), values.get(_LENGTH, "")
+        if self._is_base64:
+            try:
+                return base64.b64decode(text, validate=True)
+            except (binascii.Error, ValueError):
+                raise Damaged("has data that are not in base 64") from None
+        words = text.replace(self._delimiter, " ").split()
+        if length and not re.fullmatch(r"\d{1,2}", length):
+            raise Unreadable(f"has the length {length}")
+        if not length:
+            return hex_bytes("".join(words))
+        count = int(length)
+        return hex_bytes(words[0]) if len(words) == 1 and len(words[0]) == 2 * count else some_bytes(words, count)
+
+
+def _is_header_again(line: str) -> bool:
+    return bool(re.match(r"\"?time", line, re.IGNORECASE))
+
+
+def unit_s(times: Mapping[str, Sequence[float]]) -> float:
+    """Seconds of whole numbers that do not say what they count: microseconds, or milliseconds when messages would come
+    more often than any does. times: of each message."""
+    steps = [statistics.median(abs(after - before) for before, after in zip(each, each[1:]))
+             for each in times.values() if len(each) > 1]
+    cycle = statistics.median(steps) if steps else 0.0
+    return 1e-3 if 0.0 < cycle * 1e-6 < _SHORTEST_CYCLE_S else 1e-6

@@ -1,0 +1,166 @@
+"""Frames of a textual log of whatever kind, by its content; what is left out is counted."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import codecs
+import gzip
+import itertools
+import pathlib
+from typing import IO, Iterator, NamedTuple, Sequence, Tuple
+
+from mtr_operator.domain.errors import ConnectionFailed
+
+from .asc import Asc
+from .candump import CandumpConsole, CandumpLog
+from .lines import Ambiguous, Damaged, Line, LineReader, LoggedFrame, Names, Unreadable, WrongShape
+from .others import Busmaster, Crtd, TimeIdData
+from .tables import Table
+from .trc import CanHackerTrace, PcanTrace
+
+# Lines by which the kind of a log is told, and characters of the longest line.
+_HEAD, _LONGEST = 2000, 4096
+_QUOTED = 80
+_GZIP = b"\x1f\x8b"
+_MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+_BY_SUFFIX = {".asc": "ASC", ".trc": "PCAN trace", ".csv": "table of SavvyCAN or python-can", ".log": "candump"}
+
+
+Numbered = Tuple[int, str]
+
+
+class _Trial(NamedTuple):
+    """score: frames first. place: of the reader. first: what is wrong with the first line that is known and not read.
+    ambiguity: why the log cannot be used."""
+
+    score: tuple[int, int, bool, bool, int]
+    place: int
+    first: str = ""
+    ambiguity: str = ""
+
+
+def _readers(names: Names) -> list[LineReader]:
+    return [CandumpLog(), CandumpConsole(), Asc(names), PcanTrace(), CanHackerTrace(), Table(), Busmaster(), Crtd(),
+            TimeIdData()]
+
+
+def kinds() -> str:
+    """All that are read, for sentences."""
+    return ", ".join(reader.name for reader in _readers({}))
+
+
+class TextLog:
+    """Iterator over its frames. ConnectionFailed, or OSError, when it is none.
+
+    names: see Asc.
+
+    Attributes:
+        kind: of the log. left_out: lines that are not understood; first: what is wrong with the first of them.
+        without_data: remote and error frames. damage: why it ended early; empty when it did not.
+    """
+
+    def __init__(self, path: pathlib.Path, names: Names):
+        self.left_out = self.without_data = 0
+        self.first = self.damage = ""
+        self._path, self._names = path, names
+        with _opened(path) as file:
+            lines = enumerate(itertools.islice(_lines(file), _HEAD), 1)
+            self._head = [(number, text.strip()) for number, (text, _) in lines if text.strip()]
+        best = _best(self._head, names, path.suffix.lower())
+        if best.ambiguity:
+            raise ConnectionFailed(f"The CAN log {path} {best.ambiguity}.")
+        if not best.score[0]:
+            raise ConnectionFailed(_refusal(path, self._head, best.first))
+        self._place = best.place
+        self.kind = self._reader().name
+
+    def __iter__(self) -> Iterator[LoggedFrame]:
+        reader, lengths = self._reader(), dict[tuple[int, bool, int], int]()
+        with _opened(self._path) as file:
+            for number, (text, is_whole) in enumerate(_lines(file), 1):
+                line = text.strip()
+                try:
+                    read = reader.read(line) if line else Line.NOTHING
+                except Unreadable as error:
+                    self._leave_out(number, line, str(error))
+                    continue
+                except (Damaged, Ambiguous) as error:
+                    self.damage = _said(number, line, str(error))
+                    return
+                if isinstance(read, Line):
+                    self.without_data += read is Line.NO_DATA
+                    continue
+                key = (read.can_id, read.is_extended, read.channel)
+                if not is_whole and len(read.data) < lengths.get(key, 0):
+                    self._leave_out(number, line, "is cut off")
+                    continue
+                lengths[key] = len(read.data)
+                yield read
+
+    def _reader(self) -> LineReader:
+        reader = _readers(self._names)[self._place]
+        reader.prepare([line for _, line in self._head])
+        return reader
+
+    def _leave_out(self, number: int, line: str, reason: str) -> None:
+        self.left_out += 1
+        self.first = self.first or _said(number, line, reason)
+
+
+def _said(number: int, line: str, reason: str) -> str:
+    return f'line {number} {reason}: "{line[:_QUOTED]}"'
+
+
+def _best(head: Sequence[Numbered], names: Names, suffix: str) -> _Trial:
+    """Of the reader that understands most of the first lines."""
+    trials = [_tried(reader, at, head, suffix) for at, reader in enumerate(_readers(names))]
+    return max(trials, key=lambda trial: trial.score)
+
+
+def _tried(reader: LineReader, place: int, head: Sequence[Numbered], suffix: str) -> _Trial:
+    reader.prepare([line for _, line in head])
+    frames = known = 0
+    first = ""
+    for number, line in head:
+        try:
+            frames += isinstance(reader.read(line), LoggedFrame)
+        except WrongShape:
+            continue
+        except (Unreadable, Damaged) as error:
+            known += 1
+            first = first or _said(number, line, str(error))
+        except Ambiguous as error:
+            return _Trial((len(head), 0, True, True, -place), place, first, str(error))
+    return _Trial((frames, known, reader.is_recognized, _BY_SUFFIX.get(suffix) == reader.name, -place), place, first)
+
+
+def _refusal(path: pathlib.Path, head: Sequence[Numbered], first: str) -> str:
+    if first:
+        return f"The CAN log {path} holds no frame that is understood: {first}."
+    line = _said(*head[0], "is not understood") if head else "it is empty"
+    return f"The CAN log {path} holds no frame: {line}; read are {kinds()}, BLF, MF4 and python-can's databases."
+
+
+def _opened(path: pathlib.Path) -> IO[str]:
+    with path.open("rb") as file:
+        is_packed = file.read(len(_GZIP)) == _GZIP
+    if not is_packed:
+        with path.open("rb") as file:
+            encoding = _encoding(file.read(4))
+        return path.open(encoding=encoding, errors="replace")
+    with gzip.open(path) as packed:
+        encoding = _encoding(packed.read(4))
+    return gzip.open(path, "rt", encoding=encoding, errors="replace")
+
+
+def _encoding(begin: bytes) -> str:
+    marked = next((name for mark, name in _MARKS.items() if begin.startswith(mark)), "")
+    if marked:
+        return marked
+    # A letter of UTF-16 without its mark has a zero beside it.
+    return "utf-16-le" if begin[1:2] == b"\0" else "utf-16-be" if begin[:1] == b"\0" and len(begin) > 1 else "utf-8"
+
+
+def _lines(file: IO[str]) -> Iterator[tuple[str, bool]]:
+    """Lines, and whether each has its end."""
+    while line := file.readline(_LONGEST):
+        yield line, line.endswith("\n")
