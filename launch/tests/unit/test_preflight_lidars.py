@@ -109,6 +109,10 @@ def test_limit_of_the_newest_sweeps_age_is_that_of_drive_control():
     assert Setup().lidar_timeout_s == core.default_collision()["lidar_timeout_s"]
 
 
+def test_reaction_time_is_that_of_drive_control():
+    assert Setup().reaction_s == core.default_collision()["reaction_s"]
+
+
 def sweep(lidar, number):
     """All round there is something 5 m away; no two sweeps are the same."""
     count = beams(lidar)

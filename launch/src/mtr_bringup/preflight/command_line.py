@@ -35,6 +35,7 @@ from .kept_motion import findings_kept
 from .listening import Listener, setup_of_robot
 from .machine import Machine, machine_findings
 from .motion.judge import MotionJudge, is_finished
+from .motion.response import response_findings
 from .obedience import obedience_findings
 from .report import standing_findings, write
 from .wifi import own_stations, wifi_finding
@@ -152,7 +153,8 @@ def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup
     if mounts is None:
         return [bad(DESCRIPTION, names.ROBOT_DESCRIPTION, "Nothing was compared in motion, because it does not say "
                     "where the LiDARs are.")]
-    print(f"Drive the robot by hand, forward, back and a turn, within {DRIVE_S:.0f} s ...", flush=True)
+    print(f"Drive the robot by hand, forward, back and a turn, and release the dead-man button in motion, within "
+          f"{DRIVE_S:.0f} s ...", flush=True)
     # What stopped the wheels before is over.
     listener.drive_control.clear()
     judge, end_s = MotionJudge(mounts), time.monotonic() + DRIVE_S
@@ -160,7 +162,7 @@ def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup
     while time.monotonic() < end_s:
         time.sleep(JUDGE_EVERY_S)
         recording = listener.recording.copy()
-        found = judge.findings(recording)
+        found = judge.findings(recording) + response_findings(recording, setup.reaction_s)
         stopped = obedience_findings(listener.drive_control)
         if stopped:
             return stopped + [finding for finding in found if finding.is_bad and finding.check != NEEDS_MORE]

@@ -19,6 +19,8 @@ MAX_GAP_PERIODS, MIN_GAP_LIMIT_S = 3.0, 0.1
 MAX_AGE_S = 0.1
 # Drive control brakes when the first beam of a LiDAR's newest sweep is older: its lidar_timeout_s.
 LIDAR_TIMEOUT_S = 0.14
+# Drive control's default of this name.
+REACTION_S = 0.08
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,7 @@ class Setup:
         time_increment_s: from beam to beam, as the nodes take it where the scans do not say it; 0: they do not know.
         turn_rate_hz: of the LiDARs by the data sheet of their kind; where none is named, that of the simulated ones.
         lidar_timeout_s: drive control brakes when the first beam of the newest sweep is older.
+        reaction_s: that drive control assumes from a decision to braking wheels.
     """
 
     rear_lidar: bool = True
@@ -48,6 +51,7 @@ class Setup:
     lidar_timeout_s: float = LIDAR_TIMEOUT_S
     frames: Mapping[str, str] = field(default_factory=dict)
     written_folders: Sequence[str] = ()
+    reaction_s: float = REACTION_S
 
     @property
     def base_parameters(self) -> str:

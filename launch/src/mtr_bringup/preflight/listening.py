@@ -15,7 +15,7 @@ from mtr_core import names
 from mtr_msgs.msg import DriveStatus, FirmwareState
 
 from .expected import CONTROLLER_OWNER, Setup
-from .motion.recording import ImuSample, Recording, ScanSample, Sweep, WheelSample, scan_sample
+from .motion.recording import ImuSample, Recording, ScanSample, SentSample, Sweep, WheelSample, scan_sample
 from .records import RobotRecord, SaidTransform, ScanContent, TopicRecord
 from .topics import silent_topics
 
@@ -58,7 +58,8 @@ def setup_of_robot() -> Setup:
         float(rospy.get_param(names.LIDAR_TURN_RATE, default.turn_rate_hz)),
         float(drive.get("lidar_timeout_s", default.lidar_timeout_s)),
         {str(link): str(frame) for link, frame in rospy.get_param(names.ROBOT_FRAMES, {}).items()},
-        tuple(str(folder) for folder in rospy.get_param(names.WRITTEN_FOLDERS, ())))
+        tuple(str(folder) for folder in rospy.get_param(names.WRITTEN_FOLDERS, ())),
+        float(drive.get("reaction_s", default.reaction_s)))
 
 
 def publishers() -> Dict[str, Tuple[str, ...]]:
@@ -140,6 +141,7 @@ class Listener:
             keep(message)
 
     def _take_drive_status(self, message: Any) -> None:
+        self.recording.sent.append(SentSample(message.header.stamp.to_sec(), message.linear_mps))
         # Causes of it follow; the first one is what it says.
         for problem in message.problems[:1]:
             self.drive_control[problem.code] = problem.text

@@ -31,6 +31,13 @@ class WheelSample(NamedTuple):
         return abs(self.linear_mps) > STANDING_MPS or abs(self.angular_radps) > STANDING_RADPS
 
 
+class SentSample(NamedTuple):
+    """Forward velocity that drive control sent to the wheels."""
+
+    time_s: float
+    linear_mps: float
+
+
 class ImuSample(NamedTuple):
     """Turning rates about the IMU's axes, and specific force along them; every node takes z as up."""
 
@@ -47,17 +54,19 @@ class Recording:
     rear: List[ScanSample] = field(default_factory=list)
     wheels: List[WheelSample] = field(default_factory=list)
     imu: List[ImuSample] = field(default_factory=list)
+    sent: List[SentSample] = field(default_factory=list)
 
     def copy(self) -> "Recording":
         """As it is now, while more is added to this one."""
-        return Recording(list(self.front), list(self.rear), list(self.wheels), list(self.imu))
+        return Recording(list(self.front), list(self.rear), list(self.wheels), list(self.imu), list(self.sent))
 
     def until(self, time_s: float) -> "Recording":
         """What had come by this time."""
         return Recording([sample for sample in self.front if sample.time_s <= time_s],
                          [sample for sample in self.rear if sample.time_s <= time_s],
                          [sample for sample in self.wheels if sample.time_s <= time_s],
-                         [sample for sample in self.imu if sample.time_s <= time_s])
+                         [sample for sample in self.imu if sample.time_s <= time_s],
+                         [sample for sample in self.sent if sample.time_s <= time_s])
 
     def motion_s(self) -> float:
         """For so long the wheels have turned."""
