@@ -11,6 +11,7 @@ from .parameters import Parameters
 from .sent_statuses import SentStatuses
 from .session import REJECTIONS, CommandResult, ControlSession, SessionState
 from .status.builder import Confirmations, Identity, Report, status_bytes
+from .status.car_map import CarMap
 from .status.inputs import Inputs
 from .status.interventions import Interventions
 from .status.log_buffer import LogBuffer
@@ -36,7 +37,7 @@ class Dispatcher:
         self.rejected_messages = 0
         self.controller = ""
         self._recent, self._foreign = RecentNotices(), ForeignApplications()
-        self._sent, self._interventions = SentStatuses(), Interventions()
+        self._sent, self._interventions, self._car_map = SentStatuses(), Interventions(), CarMap()
 
     def receive(self, data: bytes, now_s: float, sender: Sender = ANYBODY) -> Tuple[Optional[CommandResult], str]:
         """Take one message of the link at a time of the steady clock.
@@ -94,7 +95,7 @@ class Dispatcher:
             self.rejected_messages, self.controller, self.log.due(),
             itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.steady_s),
                             self._recent.at(inputs.steady_s)),
-            self._parameters.lockstep_operator))
+            self._parameters.lockstep_operator, self._car_map.is_map_of(inputs.pose, inputs.car)))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
         """What a Status would confirm now; when it changes a Status is due at once."""

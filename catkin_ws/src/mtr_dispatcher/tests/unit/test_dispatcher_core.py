@@ -164,6 +164,44 @@ def test_pose_is_not_valid_before_localization_and_car_are(core, valid, car_stat
     assert not status(core, pose=LocalizedPose(valid=valid), car=CarEstimate(state=car_state)).state.pose_valid
 
 
+def located(**pose):
+    """Pose and Car in one map of revision 3, the Car by mapping order 8."""
+    return {"pose": LocalizedPose(valid=True, **{"x": 4.0, "map_revision": 3, **pose}),
+            "car": CarEstimate(state=CarEstimate.LOCATED, map_car_id=8, revision=2)}
+
+
+@pytest.mark.parametrize("revision", [0, 2, 4, 2 ** 32 - 1])
+def test_pose_in_another_map_than_the_cars_is_not_valid_and_has_no_place(core, revision):
+    assert status(core, **located()).state.pose_valid
+    state = status(core, **located(map_revision=revision)).state
+    assert not state.pose_valid and not state.HasField("x") and not state.HasField("position_sigma_m")
+    # A localization that was restarted may number its new map as the old one.
+    assert not status(core, **located()).state.pose_valid
+
+
+def test_pose_is_valid_again_when_the_car_was_mapped_again(core):
+    status(core, **located())
+    assert not status(core, **located(map_revision=4)).state.pose_valid
+    again = located(map_revision=4)
+    again["car"].map_car_id = 9
+    assert status(core, **again).state.pose_valid
+
+
+def test_correction_of_the_cars_frame_and_a_silent_part_leave_the_map(core):
+    corrected = located()
+    corrected["car"].revision = 3
+    assert status(core, **located()).state.pose_valid and status(core, **corrected).state.pose_valid
+    assert not status(core, pose=located()["pose"]).state.pose_valid
+    assert not status(core, car=located()["car"]).state.pose_valid
+    assert status(core, **located()).state.pose_valid
+
+
+def test_map_of_a_car_that_is_being_mapped_does_not_count(core):
+    collecting = {**located(map_revision=2), "car": CarEstimate(state=CarEstimate.COLLECTING, map_car_id=8)}
+    assert not status(core, **collecting).state.pose_valid
+    assert status(core, **located()).state.pose_valid
+
+
 def test_parts_that_are_silent_tell_nothing(core):
     message = status(core)
     assert not message.HasField("mode") and not message.state.pose_valid

@@ -43,7 +43,11 @@ class Confirmations(NamedTuple):
 
 
 class Report(NamedTuple):
-    """Everything else that goes into one Status."""
+    """Everything else that goes into one Status.
+
+    Attributes:
+        is_one_map: the robot's pose is in the map in which the Car was located.
+    """
 
     status_id: int
     fresh: Inputs
@@ -54,6 +58,7 @@ class Report(NamedTuple):
     log: Iterable[Entry]
     notices: Iterable[Notice]
     waits_for_answer: bool
+    is_one_map: bool
 
 
 def status_bytes(identity: Identity, report: Report) -> bytes:
@@ -69,7 +74,7 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
     if report.controller:
         status.controller_name = report.controller
     _add_mode(status, report.fresh.mode, report.confirmations.session_id)
-    _add_pose(status.state, report.fresh)
+    _add_pose(status.state, report.fresh, report.is_one_map)
     if report.fresh.drive is not None:
         status.motion_source = MOTION_SOURCES.get(report.fresh.drive.source, link.MOTION_SOURCE_UNSPECIFIED)
     _add_car(status.car, report.fresh.car)
@@ -112,7 +117,7 @@ def _add_mode(status: link.Status, mode: Optional[ModeFields], session_id: int) 
             status.waypoint_problems.extend(problem_messages(problem_of(mode.problems, mode.message)))
 
 
-def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
+def _add_pose(state: link.RobotState, fresh: Inputs, is_one_map: bool) -> None:
     pose = fresh.pose
     state.pose_valid = False
     if pose is None:
@@ -120,7 +125,8 @@ def _add_pose(state: link.RobotState, fresh: Inputs) -> None:
     state.stamp_s = pose.header.stamp.to_sec()
     if math.isfinite(pose.speed_mps) and math.isfinite(pose.yaw_rate_radps):
         state.speed, state.yaw_rate_radps = pose.speed_mps, pose.yaw_rate_radps
-    if fresh.car is None:
+    # Between two maps there is no place: the Car's coordinates of one mean nothing in the other.
+    if fresh.car is None or (fresh.car.state == CarState.LOCATED and not is_one_map):
         return
     found = _in_car(pose, fresh.car)
     if not (found.pose.is_finite() and math.isfinite(found.position_sigma_m)):

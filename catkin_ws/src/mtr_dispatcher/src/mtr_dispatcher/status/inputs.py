@@ -30,6 +30,7 @@ class PoseFields(Stamped, Protocol):
     covariance: Sequence[float]
     speed_mps: float
     yaw_rate_radps: float
+    map_revision: int
     message: str
     problems: Sequence[ProblemFields]
 
@@ -48,6 +49,7 @@ class CarFields(Stamped, Protocol):
     width_sigma: float
     outline_x: Sequence[float]
     outline_y: Sequence[float]
+    map_car_id: int
     revision: int
     correction_x: float
     correction_y: float
