@@ -76,6 +76,14 @@ FIRMWARE_ECHO = "/firmware/echo"
 FIRMWARE_STATE = "/firmware/state"
 FIRMWARE_HEALTH = "/firmware/health"
 
+# Orders that move wheels, lift or servos: each has one publisher. Drive control watches the base's own topic, and
+# /drive/lock, on which every owner of a lock publishes.
+MOTION_INPUTS = (JOY, DESIRED_STATE, ROBOT_MODE, PLANNER_VELOCITY, MANUAL_VELOCITY, MANUAL_LIFT, FIRMWARE_COMMAND,
+                 FIRMWARE_PRESS, FIRMWARE_CALIBRATE)
+# Messages on which these orders rest.
+MOTION_STATES = (LOCALIZED_POSE, CAR_ESTIMATE, CAR_CHECK, MAPPING_ORDER, SURFACE_MAP, MOTION_STATUS, DRIVE_STATUS,
+                 PERIPHERALS_STATE, FIRMWARE_STATE)
+
 # Of the node that injects faults, and in front of the topics that it passes on
 FAULT_INJECTION = "/fault_injection"
 INJECT_FAULT = "/fault_injection/inject"
