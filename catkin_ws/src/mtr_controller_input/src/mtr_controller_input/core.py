@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import NamedTuple, Optional, Sequence, Tuple
 
+from mtr_core.liveness import is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
 
 from . import problems
@@ -15,6 +16,10 @@ class Joy(NamedTuple):
 
     axes: Tuple[float, ...]
     buttons: Tuple[int, ...]
+
+
+# Age of a message whose driver sets no stamps.
+UNKNOWN_AGE_S = math.nan
 
 
 class Velocity(NamedTuple):
@@ -51,20 +56,38 @@ class Controller:
         self._stop = problems.NOT_RELEASED()
         self._release_since_s: Optional[float] = None
         self._lost = NO_PROBLEM
+        self._old_stamps = NO_PROBLEM
 
-    def take(self, joy: Joy, now_s: float) -> None:
-        """Next message of the controller's driver."""
-        if joy != self._joy:
-            self._changed_s = now_s
-        self._joy, self._heard_s = joy, now_s
+    def take(self, joy: Joy, now_s: float, age_s: float = UNKNOWN_AGE_S) -> None:
+        """Process the next message of the controller's driver.
+
+        age_s: from its stamp to its arrival. A recording that is played back is old; it may stop the robot, but
+        neither moves it nor releases anything.
+        """
         # Not at the next tick: a short press must not be missed.
         if _is_held(joy.buttons, self._parameters.e_stop_button):
             self._stop = problems.EMERGENCY_STOP()
+        if not math.isnan(age_s) and not is_fresh(age_s, self._parameters.silent_after_s):
+            self._old_stamps = problems.OLD_STAMPS(age_s=age_s)
+            return
+        if joy != self._joy:
+            self._changed_s = now_s
+        self._joy, self._heard_s = joy, now_s
+        self._old_stamps = NO_PROBLEM
 
-    def step(self, now_s: float, is_present: bool = True) -> Outcome:
-        """Decide at a tick; is_present: its device exists."""
+    def step(self, now_s: float, is_present: bool = True, intrusion: Problem = NO_PROBLEM) -> Outcome:
+        """Decide at a tick.
+
+        Args:
+            is_present: the controller's device exists.
+            intrusion: another node publishes on the driver's topic.
+        """
+        if intrusion:
+            # As after a lost controller: the robot stays locked until the buttons are seen released.
+            self._lost, self._release_since_s = problems.LOST(), None
+            return Outcome(lock_reason=intrusion)
         if self._joy is None:
-            return Outcome(lock_reason=problems.NOT_HEARD())
+            return Outcome(lock_reason=self._old_stamps or problems.NOT_HEARD())
         wanted = velocity(self._parameters, self._joy.axes, self._joy.buttons)
         self._watch(now_s, is_present, wanted, self._lift(self._joy.axes))
         self._watch_release(now_s, self._joy.buttons)
@@ -76,7 +99,7 @@ class Controller:
 
     def _watch(self, now_s: float, is_present: bool, wanted: Velocity, lift_mps: float) -> None:
         if not is_present or not 0.0 <= now_s - self._heard_s <= self._parameters.silent_after_s:
-            self._lost = problems.LOST()
+            self._lost = self._old_stamps or problems.LOST()
         elif _moves(wanted, lift_mps) and now_s - self._changed_s > self._parameters.frozen_after_s:
             self._lost = problems.FROZEN()
         elif not wanted.active:

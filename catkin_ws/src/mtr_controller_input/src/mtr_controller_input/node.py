@@ -2,45 +2,66 @@
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import os
-from typing import Deque, List, Tuple
+from typing import Deque, List, NamedTuple, Optional
 
 import rospy
 import sensor_msgs.msg
 
 from mtr_core import names, schedule
-from mtr_core.lockstep import StampedQueue, Ticker, clock, publisher, run_node
-from mtr_core.problems import NO_PROBLEM, messages_of
+from mtr_core.liveness import NS, Instant, steady_stamp_ns
+from mtr_core.lockstep import PublisherWatch, StampedQueue, Ticker, clock, publisher, run_node
+from mtr_core.problems import NO_PROBLEM, Problem, messages_of
 from mtr_core.quiet_log import QuietStart
-from mtr_msgs.msg import LiftCommand, MotionLock, Problem, VelocityCommand
+from mtr_msgs.msg import LiftCommand, MotionLock, VelocityCommand
+from mtr_msgs.msg import Problem as ProblemMessage
 
-from .core import RELEASED, Controller, Joy, Outcome
+from . import problems
+from .core import RELEASED, UNKNOWN_AGE_S, Controller, Joy, Outcome
 from .parameters import Parameters
 
-NS = 1e-9
 OWNER = "controller_input"
 KEPT = 100
 # A driver speaks in no slot of the schedule: within a period it has said something at any phase.
 LOCKSTEP_LAG_NS = schedule.CONTROLLER_INPUT.period_ns
 
 
-class ArrivedJoys:
-    """What the driver says, each message with the time at which it arrived.
+class ReceivedJoy(NamedTuple):
+    """A message of the driver.
 
-    A receiver whose clock is wrong must not keep an old deflection alive. On a clock that nobody sets: a controller in
-    the hand is not lost because the robot's clock was.
+    Attributes:
+        received_ns: on the steady clock.
+        age_s: at that time, by its stamp; NaN for a driver that sets none.
     """
 
-    def __init__(self) -> None:
-        self._messages: Deque[Tuple[int, sensor_msgs.msg.Joy]] = collections.deque(maxlen=KEPT)
+    received_ns: int
+    age_s: float
+    message: sensor_msgs.msg.Joy
+
+
+class ArrivedJoys:
+    """Messages of the permitted driver, each with the time at which it arrived.
+
+    Both times are on the steady clock, so that a controller is not lost when the robot's clock is set.
+    """
+
+    def __init__(self, watch: PublisherWatch) -> None:
+        self._watch = watch
+        self._before: Optional[Instant] = None
+        self._messages: Deque[ReceivedJoy] = collections.deque(maxlen=KEPT)
         self._subscriber = rospy.Subscriber(names.JOY, sensor_msgs.msg.Joy, self._take_in, queue_size=50,
                                             tcp_nodelay=True)
 
-    def take(self, _: int) -> List[Tuple[int, sensor_msgs.msg.Joy]]:
-        """Messages that have not been taken, oldest first, with their times in ns."""
+    def take(self, _: int) -> List[ReceivedJoy]:
+        """Return the messages since the last call, oldest first."""
         return [self._messages.popleft() for _ in range(len(self._messages))]
 
     def _take_in(self, message: sensor_msgs.msg.Joy) -> None:
-        self._messages.append((clock.steady_ns(), message))
+        if not self._watch.permits(names.JOY, message):
+            return
+        now, stamp_ns = clock.reading(), message.header.stamp.to_nsec()
+        age_s = (now.steady_ns - steady_stamp_ns(stamp_ns, now, self._before)) * NS if stamp_ns else UNKNOWN_AGE_S
+        self._before = now
+        self._messages.append(ReceivedJoy(now.steady_ns, age_s, message))
 
 
 class DueJoys:
@@ -52,9 +73,10 @@ class DueJoys:
     def __init__(self) -> None:
         self._queue = StampedQueue(names.JOY, sensor_msgs.msg.Joy, schedule.CONTROLLER_INPUT, LOCKSTEP_LAG_NS)
 
-    def take(self, tick_ns: int) -> List[Tuple[int, sensor_msgs.msg.Joy]]:
-        """Messages that are due and have not been taken, oldest first, with their times in ns."""
-        return [(message.header.stamp.to_nsec(), message) for message in self._queue.take(tick_ns)]
+    def take(self, tick_ns: int) -> List[ReceivedJoy]:
+        """Return the messages that are due since the last call, oldest first."""
+        stamped = ((message.header.stamp.to_nsec(), message) for message in self._queue.take(tick_ns))
+        return [ReceivedJoy(stamp_ns, (tick_ns - stamp_ns) * NS, message) for stamp_ns, message in stamped]
 
 
 class ControllerInputNode:
@@ -68,7 +90,8 @@ class ControllerInputNode:
         self._velocity = publisher(names.MANUAL_VELOCITY, VelocityCommand)
         self._lift = publisher(names.MANUAL_LIFT, LiftCommand)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
-        self._joys = DueJoys() if clock.is_lockstep() else ArrivedJoys()
+        self._watch = PublisherWatch({names.JOY: parameters.driver})
+        self._joys = DueJoys() if clock.is_lockstep() else ArrivedJoys(self._watch)
         self._ticker = Ticker(schedule.CONTROLLER_INPUT)
 
     def spin(self) -> None:
@@ -77,18 +100,22 @@ class ControllerInputNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
-        for taken_ns, joy in self._joys.take(tick):
-            self._core.take(Joy(tuple(joy.axes), tuple(joy.buttons)), taken_ns * NS)
+        for received_ns, age_s, joy in self._joys.take(tick):
+            self._core.take(Joy(tuple(joy.axes), tuple(joy.buttons)), received_ns * NS, age_s)
         device = self._parameters.device
-        outcome = self._core.step(clock.steady_at(tick) * NS, not device or os.path.exists(device))
+        outcome = self._core.step(clock.steady_at(tick) * NS, not device or os.path.exists(device), self._intrusion())
         self._publish(outcome, tick)
         self._log(outcome)
         self._before = outcome
 
+    def _intrusion(self) -> Problem:
+        intruder = self._watch.intruder
+        return problems.SECOND_PUBLISHER(**intruder._asdict()) if intruder else NO_PROBLEM
+
     def _publish(self, outcome: Outcome, tick: int) -> None:
         stamp = clock.stamp_of(tick)
         lock = MotionLock(owner=OWNER, engaged=bool(outcome.lock_reason), reason=outcome.lock_reason.text,
-                          problems=messages_of(outcome.lock_reason, Problem), emergency=True)
+                          problems=messages_of(outcome.lock_reason, ProblemMessage), emergency=True)
         lock.header.stamp = stamp
         self._lock.publish(lock)
         if outcome.velocity.active or self._before.velocity.active:

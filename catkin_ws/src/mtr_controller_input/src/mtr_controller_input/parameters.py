@@ -33,6 +33,7 @@ class Parameters(ParameterSet):
         frozen_after_s: a controller that drives and has not changed for so long is lost: no hand is that still, but a
             driver that repeats the last message of a lost controller is (joystick_drivers issue 92).
         release_after_s: see release_buttons.
+        driver: name of the node that publishes /joy; empty: whichever node does, as long as it is the only one.
         device: path of the controller's device, e.g. /dev/input/js0; when it disappears the controller is lost. Empty:
             not looked at.
     """
@@ -53,6 +54,7 @@ class Parameters(ParameterSet):
     silent_after_s: float = number(0.1, 0.08, 2.0, "s")
     frozen_after_s: float = number(2.0, 0.2, 60.0, "s")
     release_after_s: float = number(1.0, 0.2, 10.0, "s")
+    driver: str = ""
     device: str = ""
 
     def __post_init__(self) -> None:

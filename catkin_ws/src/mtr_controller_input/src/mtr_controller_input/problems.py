@@ -10,3 +10,9 @@ LOST = Sentence("controller_input.lost",
                 "The manual controller is lost; the robot stands until it is back and released.")
 FROZEN = Sentence("controller_input.frozen",
                   "The manual controller does not change any more; release it to go on.")
+OLD_STAMPS = Sentence("controller_input.old_stamps",
+                      "Messages of the manual controller are stamped {age_s:.1f} s before their arrival; they are "
+                      "ignored. Stop the playback of a recording, or correct the clock of the driver.")
+SECOND_PUBLISHER = Sentence("controller_input.second_publisher",
+                            "Node {node} also publishes on {topic}; the robot is locked. End that node; "
+                            "rosnode cleanup removes one that has died.")

@@ -7,6 +7,7 @@ import pytest
 from mtr_controller_input.core import RELEASED, Controller, Joy, Outcome, velocity
 from mtr_controller_input.parameters import Parameters
 from mtr_core.errors import ConfigurationError
+from mtr_core.problems import NO_PROBLEM, Problem
 
 PARAMETERS = Parameters()
 SLOW_BUTTON, FAST_BUTTON, E_STOP, SHARE, OPTIONS = 4, 5, 1, 8, 9
@@ -41,6 +42,16 @@ class Hand:
             self._wobble = 0.0 if still else 0.01 - self._wobble
             self.controller.take(Joy((*joy.axes[:2], self._wobble, *joy.axes[3:]), joy.buttons), self.now_s)
             outcome = self.controller.step(self.now_s)
+        return outcome
+
+    def play_back(self, joy, age_s, duration_s=1.0):
+        """The last outcome while a recording is played to the driver's released controller, twice as often."""
+        for _ in range(round(duration_s / TICK_S)):
+            self.hold(IDLE)
+            for _ in range(2):
+                self.controller.take(joy, self.now_s, age_s)
+            outcome = self.controller.step(self.now_s)
+            assert not outcome.velocity.active and not outcome.lift_mps
         return outcome
 
     def pull_the_plug(self, duration_s):
@@ -227,3 +238,56 @@ def test_deflection_of_the_dead_zone_counts():
 
 def test_button_beyond_the_last_one_is_released():
     assert velocity(PARAMETERS, sticks(1.0), (0,) * FAST_BUTTON) == RELEASED
+
+
+OLD_AGES_S = (0.11, 5.0, 86400.0, 1.8e9, -0.2, -3600.0)
+
+
+@pytest.mark.parametrize("age_s", OLD_AGES_S)
+@pytest.mark.parametrize("joy", [DRIVING, Joy(sticks(1.0, 1.0), FAST), Joy(sticks(lift=1.0), SLOW), RELEASING])
+def test_recording_that_is_played_back_moves_nothing_beside_the_driver(joy, age_s):
+    assert Hand().play_back(joy, age_s) == Outcome()
+
+
+@pytest.mark.parametrize("age_s", OLD_AGES_S)
+def test_recording_that_is_played_back_without_a_driver_neither_releases_nor_drives_and_is_named(age_s):
+    controller = Controller(PARAMETERS)
+    for joy in (RELEASING, DRIVING):
+        for tick in range(50):
+            controller.take(joy, tick * TICK_S, age_s)
+            outcome = controller.step(tick * TICK_S)
+            assert outcome.velocity == RELEASED and outcome.lock_reason.code == "controller_input.old_stamps"
+
+
+def test_driver_whose_stamps_become_old_is_lost_with_the_reason():
+    hand = Hand()
+    hand.hold(DRIVING, 1.0)
+    for _ in range(10):
+        hand.now_s += TICK_S
+        hand.controller.take(DRIVING, hand.now_s, 30.0)
+        outcome = hand.controller.step(hand.now_s)
+    assert outcome.velocity == RELEASED and outcome.lock_reason.code == "controller_input.old_stamps"
+    assert hand.hold(IDLE) == Outcome()
+
+
+def test_emergency_stop_counts_however_old_its_message_is():
+    hand = Hand()
+    hand.controller.take(Joy(sticks(), buttons(E_STOP)), hand.now_s, 3.0)
+    assert "emergency stop" in hand.hold(DRIVING, 1.0).lock_reason.text
+
+
+@pytest.mark.parametrize("age_s", [math.nan, 0.0, 0.05, PARAMETERS.silent_after_s, -0.02])
+def test_driver_without_stamps_or_with_true_ones_drives(age_s):
+    hand = Hand()
+    hand.now_s += TICK_S
+    hand.controller.take(DRIVING, hand.now_s, age_s)
+    assert hand.controller.step(hand.now_s).velocity.active
+
+
+def test_second_publisher_locks_and_nothing_moves_until_it_has_ended_and_the_buttons_were_released():
+    hand = Hand()
+    hand.hold(DRIVING, 0.4)
+    intrusion = Problem("controller_input.second_publisher", "Node /play_1 also publishes.")
+    assert hand.controller.step(hand.now_s, intrusion=intrusion) == Outcome(lock_reason=intrusion)
+    assert hand.hold(DRIVING).lock_reason and hand.hold(IDLE) == Outcome()
+    assert hand.controller.step(hand.now_s, intrusion=NO_PROBLEM) == Outcome()

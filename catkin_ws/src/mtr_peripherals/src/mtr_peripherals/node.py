@@ -10,8 +10,9 @@ from sensor_msgs.msg import BatteryState, JointState
 from mtr_core import names, schedule
 from mtr_core.crc import is_sound
 from mtr_core.liveness import NS, is_fresh, steady_stamp_ns
-from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_core.lockstep import ANY_NODE, PublisherWatch, Ticker, TickInput, clock, publisher, run_node
 from mtr_core.lockstep.samples import Samples
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.quiet_log import QuietStart
 from mtr_core.requests import PressReport
 from mtr_description.robot_description import described_robot
@@ -29,6 +30,7 @@ from mtr_msgs.msg import (
     RobotMode,
 )
 
+from . import problems
 from .conversions import (
     battery_charge,
     emergency_word,
@@ -92,6 +94,10 @@ class PeripheralsNode:
         self._state = publisher(names.PERIPHERALS_STATE, PeripheralsState)
         self._joints = publisher(names.JOINT_STATES, JointState)
         self._ticker = Ticker(schedule.PERIPHERALS)
+        self._watch = PublisherWatch({
+            **dict.fromkeys((names.DESIRED_STATE, names.ROBOT_MODE, names.MANUAL_LIFT, names.FIRMWARE_CALIBRATE,
+                             names.FIRMWARE_STATE), ANY_NODE),
+            **dict.fromkeys((names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS), rospy.get_name())})
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
             rospy.Subscriber(names.FIRMWARE_HEALTH, FirmwareHealth, self._take_health, queue_size=1),
@@ -122,9 +128,16 @@ class PeripheralsNode:
 
     def _decide(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
         with self._deciding:
-            outcome = self._core.step(replace(inputs, emergency=self._emergency.reason(now_ns)), report, now_ns)
+            stop = self._intrusion() or self._emergency.reason(now_ns)
+            outcome = self._core.step(replace(inputs, emergency=stop), report, now_ns)
             self._orders.send(outcome, now_ns)
         return outcome
+
+    def _intrusion(self) -> Problem:
+        intruder = self._watch.intruder
+        if intruder is None:
+            return NO_PROBLEM
+        return problems.EMERGENCY_STOP(cause=problems.SECOND_PUBLISHER(**intruder._asdict()))
 
     def _send(self, publisher: rospy.Publisher, message: object) -> None:
         publisher.publish(message)

@@ -18,6 +18,9 @@ EMERGENCY_NOT_HEARD = Sentence("peripherals.emergency_not_heard", "The emergency
 EMERGENCY_NOT_RELEASED = Sentence(
     "peripherals.emergency_not_released",
     "The emergency stop of {owner} was engaged when it fell silent; engage it and release it again.")
+SECOND_PUBLISHER = Sentence("peripherals.second_publisher",
+                            "Node {node} also publishes on {topic}. End that node; rosnode cleanup removes one that "
+                            "has died.")
 STOPPED = Sentence("peripherals.stopped", "The robot is stopped.")
 
 # The firmware

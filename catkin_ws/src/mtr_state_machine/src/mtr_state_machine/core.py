@@ -93,6 +93,8 @@ class StateMachine:
         return self._decision(seen, problem)
 
     def _problem(self, seen: Observation) -> Problem:
+        if seen.intrusion:
+            return seen.intrusion
         for part in Part:
             found = seen.part_problem(part, self._parameters.noticed_after_s)
             if found and not (part is Part.LOCALIZATION and self._awaits_position(seen)):

@@ -1,12 +1,14 @@
 """The state machine's node: wires the topics to the core."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
 from typing import Optional, Tuple
 
 import rospy
 
 from mtr_core import names, schedule
 from mtr_core.liveness import NS
-from mtr_core.lockstep import Ticker, TickInput, clock, publisher, run_node
+from mtr_core.lockstep import ANY_NODE, PublisherWatch, Ticker, TickInput, clock, publisher, run_node
+from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import NO_GOAL_ID, Goal, GoalId
 from mtr_core.states import State
 from mtr_msgs.msg import (
@@ -21,6 +23,7 @@ from mtr_msgs.msg import (
     RobotMode,
 )
 
+from . import problems
 from .conversions import lock_message, mode_message, observation
 from .core import Decision, StateMachine
 from .emergency import EmergencyWatch
@@ -51,6 +54,8 @@ class StateMachineNode:
                                        tcp_nodelay=True)
         self._mode = publisher(names.ROBOT_MODE, RobotMode)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
+        self._watch = PublisherWatch({**dict.fromkeys((*names.MOTION_INPUTS, *names.MOTION_STATES), ANY_NODE),
+                                      names.ROBOT_MODE: rospy.get_name()})
         self._ticker = Ticker(schedule.STATE_MACHINE, lambda text: rospy.logerr("%s", text))
 
     def spin(self) -> None:
@@ -61,12 +66,16 @@ class StateMachineNode:
     def _step(self, tick: int) -> None:
         messages = {part: topic.at(tick) for part, topic in self._inputs.items()}
         ages_s = {part: topic.age_s(tick) for part, topic in self._inputs.items()}
-        decision = self._core.step(observation(messages, self._check.at(tick), ages_s,
-                                               clock.steady_at(tick) * NS, self._emergency.now()))
+        seen = observation(messages, self._check.at(tick), ages_s, clock.steady_at(tick) * NS, self._emergency.now())
+        decision = self._core.step(replace(seen, intrusion=self._intrusion()))
         stamp = clock.stamp_of(tick)
         self._lock.publish(lock_message(decision, stamp))
         self._mode.publish(mode_message(decision, stamp))
         self._log(decision)
+
+    def _intrusion(self) -> Problem:
+        intruder = self._watch.intruder
+        return problems.SECOND_PUBLISHER(**intruder._asdict()) if intruder else NO_PROBLEM
 
     def _take_lock(self, message: MotionLock) -> None:
         if message.emergency:

@@ -74,6 +74,7 @@ class Observation:
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
         is_position_lost: localization looks for its place on the map, as opposed to one that lacks a sensor.
         firmware_resets: of the board of lift and servos, since its node's start.
+        intrusion: a second node publishes on a topic that moves the robot.
     """
 
     desired: DesiredState = DesiredState()
@@ -88,6 +89,7 @@ class Observation:
     emergency: Emergency = NO_EMERGENCY
     firmware_resets: int = 0
     now_s: float = 0.0
+    intrusion: Problem = NO_PROBLEM
 
     def is_silent(self, part: Part, silent_after_s: float) -> bool:
         """True for a part that has not reported either."""
@@ -104,4 +106,5 @@ class Observation:
     def only_position_is_lost(self, silent_after_s: float) -> bool:
         """Localization reports that it looks for its place on the map, and nothing else is wrong."""
         others = any(self.part_problem(part, silent_after_s) for part in Part if part is not Part.LOCALIZATION)
-        return not self.is_silent(Part.LOCALIZATION, silent_after_s) and self.is_position_lost and not others
+        return (not self.is_silent(Part.LOCALIZATION, silent_after_s) and self.is_position_lost and not others
+                and not self.intrusion)

@@ -5,6 +5,9 @@ from mtr_core.problems import Sentence
 # Parts of the robot
 PART_NOT_REPORTED = Sentence("state_machine.part_not_reported", "The {part} has not reported yet.")
 PART_SILENT = Sentence("state_machine.part_silent", "The {part} has been silent for {age_s:.1f} s.")
+SECOND_PUBLISHER = Sentence("state_machine.second_publisher",
+                            "Node {node} also publishes on {topic}; the robot is locked. End that node; "
+                            "rosnode cleanup removes one that has died.")
 LOCALIZATION_LOST = Sentence("state_machine.localization_lost", "Localization is lost.")
 LOCALIZATION_LOST_BECAUSE = Sentence("state_machine.localization_lost_because", "Localization is lost. {cause}")
 FIRMWARE_SILENT = Sentence("state_machine.firmware_silent", "The firmware of lift and buttons is silent.")

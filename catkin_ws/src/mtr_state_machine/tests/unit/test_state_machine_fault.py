@@ -8,7 +8,9 @@ from state_machine_seen import ALL_WELL, COLLECTING, LOCATED, LOOKING, LOST, ORD
 from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, NO_WAYPOINT
 from mtr_core.states import CarState, State
+from mtr_state_machine.core import StateMachine
 from mtr_state_machine.observation import Car, Part
+from mtr_state_machine.parameters import Parameters
 
 
 @pytest.mark.parametrize("part", Part)
@@ -130,3 +132,30 @@ def test_new_waypoint_given_while_a_part_has_failed_is_not_yet_another_attempt_t
                                  Car(CarState.FAILED)])
 def test_car_that_is_lost_without_a_reason_is_a_fault_that_says_what_to_do(following, car):
     assert "map the Car again" in following.step(seen(car=car)).message.text
+
+
+INTRUSION = Problem("state_machine.second_publisher", "Node /play_1 also publishes on /dispatcher/desired.")
+
+
+@pytest.mark.parametrize("also", [{}, {"complaint": LOST, "is_position_lost": True},
+                                  {"age_s": {**ALL_WELL, Part.DISPATCHER: 0.6}},
+                                  {"desired": replace(WANTS, map_car_id=5)}, {"desired": ORDERS_CHECK}],
+                         ids=["well", "position-lost", "dispatcher-silent", "map-ordered", "check-ordered"])
+def test_second_publisher_locks_the_robot_whatever_it_orders(following, also):
+    for now_s in (10.0, 11.0, 20.0):
+        decision = following.step(seen(car=LOCATED, now_s=now_s, intrusion=INTRUSION, **also))
+        assert decision.state is State.FAULT and decision.goal == NO_GOAL
+        assert decision.lock_reason == decision.message == INTRUSION
+    assert following.step(seen(car=LOCATED, now_s=21.0)).state is State.FOLLOWING_WAYPOINT
+
+
+def test_robot_is_held_after_a_second_publisher_until_it_is_told_to_resume():
+    machine = StateMachine(Parameters(resume_by_operator=True, silent_after_s=5.0))
+    for car in (COLLECTING, LOCATED):
+        machine.step(seen(car=car))
+    held = machine.step(seen(car=LOCATED))
+    resumed = machine.step(seen(car=LOCATED, desired=replace(WANTS, resume_hold_id=held.hold_id)))
+    assert resumed.goal != NO_GOAL
+    machine.step(seen(car=LOCATED, intrusion=INTRUSION))
+    decision = machine.step(seen(car=LOCATED))
+    assert decision.hold_id and decision.message.cause == INTRUSION and decision.goal == NO_GOAL

@@ -15,10 +15,11 @@ from mtr_state_machine.parameters import Parameters
 def lock(monkeypatch):
     """Gives the node a motion lock; says what it then knows of emergency stops."""
     callbacks = {}
-    for name in ("TickInput", "publisher", "Ticker"):
+    for name in ("TickInput", "publisher", "Ticker", "PublisherWatch"):
         monkeypatch.setattr(node, name, lambda *_, **__: None)
     monkeypatch.setattr(node, "rospy", SimpleNamespace(
-        Subscriber=lambda topic, kind, callback, **_: callbacks.__setitem__(topic, callback)))
+        Subscriber=lambda topic, kind, callback, **_: callbacks.__setitem__(topic, callback),
+        get_name=lambda: "/state_machine"))
     made = node.StateMachineNode(Parameters())
 
     def take(owner, engaged, emergency):
