@@ -72,7 +72,7 @@ def recording_files() -> Iterator[pathlib.Path]:
     """Profiles of a recording and the comparison with its replay, without the files that read, play and
     record bags."""
     files = (TOP / "launch" / "src" / "mtr_bringup" / "recording").rglob("*.py")
-    of_ros = ("command_line.py", "bags.py", "motion.py", "player.py")
+    of_ros = ("command_line.py", "bags.py", "motion.py", "player.py", "relay.py")
     yield from (path for path in sorted(files) if path.name not in of_ros)
 
 

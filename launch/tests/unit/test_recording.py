@@ -17,7 +17,19 @@ from mtr_bringup.recording import listening, mcap_file
 from mtr_bringup.recording.bags import decisions_in, messages_in
 from mtr_bringup.recording.command_line import compare, parsed, run, written_as_mcap
 from mtr_bringup.recording.decisions import CarSeen, Decisions, differences
-from mtr_bringup.recording.profiles import FULL, PROFILES, REPLAYED, SMALL, CannotRecord, check_room, command_of
+from mtr_bringup.recording.profiles import (
+    FULL,
+    ORDERS,
+    PROFILES,
+    RECORDED,
+    REPLAYED,
+    SMALL,
+    CannotRecord,
+    check_room,
+    command_of,
+    recorded_name,
+)
+from mtr_bringup.recording.relay import TYPES
 from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
@@ -27,8 +39,8 @@ LAUNCH = pathlib.Path(__file__).resolve().parents[2]
 LAYOUT = json.loads((LAUNCH / "foxglove" / "robot.json").read_text(encoding="utf-8"))
 # Messages of the topics of which the layout shows single fields.
 SHOWN = {names.ROBOT_MODE: RobotMode, names.MOTION_STATUS: MotionStatus, names.CAR_ESTIMATE: CarEstimate,
-         names.LOCALIZED_POSE: LocalizedPose, names.PLANNER_VELOCITY: VelocityCommand, names.WHEEL_COMMAND: Twist,
-         names.PERIPHERALS_STATE: PeripheralsState}
+         names.LOCALIZED_POSE: LocalizedPose, recorded_name(names.PLANNER_VELOCITY): VelocityCommand,
+         recorded_name(names.WHEEL_COMMAND): Twist, names.PERIPHERALS_STATE: PeripheralsState}
 OWN_OUTPUTS = {names.ROBOT_MODE, names.MOTION_LOCK, names.LOCALIZED_POSE, names.CAR_ESTIMATE, names.CAR_CHECK,
                names.MAPPING_ORDER, names.SURFACE_MAP, "/tf"}
 
@@ -46,10 +58,24 @@ def test_replay_plays_the_inputs_and_nothing_that_its_nodes_say_themselves():
 def test_command_keeps_the_newest_within_the_limit():
     command = command_of("small", pathlib.Path("/data/small_1"), 400.0, lambda topic: topic.replace("/joy", "/pad"))
     assert command[:3] == ["rosrun", "rosbag", "record"]
-    assert command[-len(SMALL):] == ["/pad" if topic == "/joy" else topic for topic in SMALL]
+    assert [topic.replace(RECORDED, "") for topic in command[-len(SMALL):]] == [
+        "/pad" if topic == "/joy" else topic for topic in SMALL]
     size, parts = (int(next(word.partition("=")[2] for word in command if word.startswith(option)))
                    for option in ("--size", "--max-splits"))
     assert size * parts == 400
+
+
+@pytest.mark.parametrize("profile", PROFILES)
+def test_no_profile_records_an_order_under_its_own_name(profile):
+    recorded = command_of(profile, pathlib.Path("/data/1"), 400.0, lambda topic: topic)
+    assert not set(ORDERS) & set(recorded) and {recorded_name(names.JOY), recorded_name(names.WHEEL_COMMAND)} <= set(
+        recorded)
+    # What stays under its own name is refused by its stamp.
+    assert set(recorded) & set(names.MOTION_INPUTS) <= {names.DESIRED_STATE, names.ROBOT_MODE}
+
+
+def test_every_order_is_relayed_and_none_is_replayed():
+    assert set(TYPES) == set(ORDERS) <= set(FULL) and not set(ORDERS) & set(REPLAYED)
 
 
 def test_recording_that_does_not_fit_is_refused_with_what_to_do():
@@ -199,13 +225,14 @@ def test_layout_has_a_configuration_for_each_panel():
 
 
 def test_layout_shows_what_is_recorded():
+    full = set(command_of("full", pathlib.Path("/data/1"), 400.0, lambda topic: topic))
     for config in LAYOUT["configById"].values():
-        assert set(config.get("topics", ())) <= set(FULL)
+        assert set(config.get("topics", ())) <= full
         paths = [each["value"] for each in config.get("paths", ())]
         paths += [config[key] for key in ("topicToRender", "topicPath") if key in config]
         for path in paths:
             topic, _, fields = path.partition(".")
-            assert topic in FULL
+            assert topic in full
             message = SHOWN[topic]() if fields else None
             for field in filter(None, fields.split(".")):
                 message = getattr(message, field)

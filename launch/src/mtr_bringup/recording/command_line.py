@@ -32,6 +32,7 @@ from .listening import is_listening
 from .mcap_file import check_mcap, write_mcap
 from .player import RECORDED_IN_LOCKSTEP, Player
 from .profiles import DEFAULT_LIMIT_MB, MAX_LIMIT_MB, MIN_LIMIT_MB, PROFILES, CannotRecord, check_room, command_of
+from .relay import relay_orders
 
 CANNOT = 2
 MIN_RATE, MAX_RATE = 0.05, 20.0
@@ -58,9 +59,12 @@ def record(arguments: Optional[List[str]] = None) -> int:
         return CANNOT
     mapped = rospy.names.load_mappings(given)
     command = command_of(options.profile, prefix, options.limit, lambda topic: mapped.get(topic, topic))
-    recorder = f"record_{os.getpid()}"
-    status = run([*command, f"__name:={recorder}"], lambda: is_listening(f"/{recorder}"),
+    recorder, relay = f"record_{os.getpid()}", f"record_relay_{os.getpid()}"
+    rospy.init_node(relay, argv=[], disable_signals=True, disable_rostime=True)
+    relay_orders(options.profile, lambda topic: mapped.get(topic, topic))
+    status = run([*command, f"__name:={recorder}"], lambda: is_listening(f"/{relay}") and is_listening(f"/{recorder}"),
                  f"Recording {prefix}_*.bag, the newest {options.limit:.0f} MB; Ctrl-C ends it.")
+    rospy.signal_shutdown("the recording has ended")
     return status or (written_as_mcap(prefix) if options.mcap else 0)
 
 

@@ -20,6 +20,11 @@ FULL: Tuple[str, ...] = (
     names.FIRMWARE_STATE, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS, names.FIRMWARE_HEALTH, names.JOINT_STATES,
     names.MANUAL_LIFT)
 PROFILES: Dict[str, Tuple[str, ...]] = {"small": SMALL, "full": FULL}
+# Orders that are recorded under RECORDED: nodes and base act on some of these whatever their age, and a bag that is
+# played on a robot must not move it.
+ORDERS: Tuple[str, ...] = (names.JOY, names.WHEEL_COMMAND, names.PLANNER_VELOCITY, names.MANUAL_VELOCITY,
+                           names.MANUAL_LIFT, names.MOTION_LOCK, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS)
+RECORDED = "/recorded"
 # What replay.launch plays: sensors, and what others told localization, Car locator and state machine. Never the outputs
 # of these: the recorded mode ends the survey when the recorded Car was found, which the replay's need not be by then.
 REPLAYED: Tuple[str, ...] = (names.FRONT_SCAN, names.REAR_SCAN, names.IMU_DATA, names.WHEEL_ODOMETRY, names.NAVSAT_FIX,
@@ -47,6 +52,11 @@ def check_room(folder: pathlib.Path, limit_mb: float, free_bytes: float) -> None
                            f"{needed_mb:.0f} MB. Make room, or record less (--limit).")
 
 
+def recorded_name(topic: str) -> str:
+    """Topic under which the messages of an order are recorded. topic: as it is named on this robot."""
+    return f"{RECORDED}{topic}"
+
+
 def command_of(profile: str, prefix: pathlib.Path, limit_mb: float, resolve: Callable[[str], str]) -> List[str]:
     """rosbag's command: it keeps the newest limit_mb, in files PREFIX_0.bag, PREFIX_1.bag, ...
 
@@ -54,7 +64,8 @@ def command_of(profile: str, prefix: pathlib.Path, limit_mb: float, resolve: Cal
         resolve: name of a topic on this robot, which may be another than in the simulation.
     """
     part_mb = max(1, round(limit_mb / PARTS))
+    topics = [recorded_name(resolve(topic)) if topic in ORDERS else resolve(topic) for topic in PROFILES[profile]]
     # Not the command rosbag: it passes Ctrl-C on and then ends with a traceback.
     # Without --tcpnodelay a message waits up to 40 ms for the next one.
     return ["rosrun", "rosbag", "record", "--lz4", "--tcpnodelay", "--repeat-latched", "--split", f"--size={part_mb}",
-            f"--max-splits={PARTS}", f"--output-name={prefix}", *(resolve(topic) for topic in PROFILES[profile])]
+            f"--max-splits={PARTS}", f"--output-name={prefix}", *topics]
