@@ -10,6 +10,7 @@ import math
 
 from mtr_operator.domain.ports import LockState
 
+from .further.counting import CountWatch
 from .profile import CarProfile, LockReading
 
 # A state that was seen in fewer frames than this is a glitch, whatever the cycle.
@@ -31,6 +32,8 @@ class FrameJudge:
         self._known: LockState | None = None
         self._since_s = -math.inf
         self._frames = _MIN_FRAMES
+        self._counts = {name: CountWatch(profile.counts(name), name == profile.alive_signal)
+                        for name in (profile.alive_signal, profile.command_signal) if name}
 
     def judge(self, reading: LockReading, local_s: float) -> str:
         """Why this frame is doubtful, read at a time of the clock that stamps the frames; empty when it is not."""
@@ -64,7 +67,7 @@ class FrameJudge:
         if last.alive is None or reading.alive is None:
             return ""
         name = self._profile.alive_signal
-        step = (reading.alive - last.alive) % self._profile.modulus(name)
+        step = self._counts[name].step(last.alive, reading.alive)
         if step == 0:
             self.is_repeated = True
             return f"The signal {name} of the Car's lock message stands still at {reading.alive}."
@@ -81,8 +84,8 @@ class FrameJudge:
         if last.commands is None or reading.commands is None:
             return ""
         name = self._profile.command_signal
-        step = (reading.commands - last.commands) % self._profile.modulus(name)
-        if step > 1:
+        step = self._counts[name].step(last.commands, reading.commands)
+        if step is None:
             return (f"The signal {name} of the Car's lock message went from {last.commands} to {reading.commands}.")
         if is_change and step == 0 and last.state is not LockState.UNKNOWN:
             return f"The Car was {reading.state.value} on its bus, and {name} counted no command."

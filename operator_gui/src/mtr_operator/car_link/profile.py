@@ -13,7 +13,8 @@ from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 from .database.codec import SignalReader
 from .database.load import one_line
-from .further.declared import KEYS, SOURCES, Further, is_elsewhere, read_further
+from .further.counting import CountRange, count_range
+from .further.declared import KEYS, SOURCES, VALUES_OF, Further, is_elsewhere, read_further
 from .further.entries import DRIVER_ONLY, FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file
 from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, DeclaredOutput, read_output
 from .phone.address import FeedAddress
@@ -28,7 +29,8 @@ _REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
 # A state that is asked for has no message; its database may be there for what the Car sends besides.
 _REQUIRED_OF_POLL = ("uds_poll", "states")
 _WITNESSES = ("alive_signal", "command_signal", "changed_signal")
-_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, "min_state_s", "relock_after_s",
+_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, *VALUES_OF.values(),
+             "min_state_s", "relock_after_s",
              HANDLE_KEY, EXTENDER_KEY, *KEYS, "uds_poll", PHONE)
 # Motors of door locks need some tenths of a second; a state that is over sooner was none.
 _MIN_STATE_S = 0.1
@@ -79,6 +81,7 @@ class CarProfile:
     driver_only: raw values with which all but the driver's door are locked.
     further: what other messages tell. poll: how the state is asked for, None when the Car sends it.
     phone: what tells the distance of a phone, None without it.
+    count_ranges: of counters in the message of the state, by their names.
     """
 
     name: str
@@ -103,6 +106,7 @@ class CarProfile:
     poll: UdsPoll | None = None
     phone: PhoneSignal | FeedAddress | None = None
     extender_output: DeclaredOutput | None = None
+    count_ranges: Mapping[str, CountRange] = field(default_factory=dict)
 
     @property
     def facts(self) -> LockFacts:
@@ -120,9 +124,10 @@ class CarProfile:
         further = {place.message.name: place.key[1:] for place in self.further.places()}
         return {**further, **{name: key for key, name in self.message_names.items()}}
 
-    def modulus(self, signal: str) -> int:
-        """How many values a counter has."""
-        return 1 << int(self.message.get_signal_by_name(signal).length)
+    def counts(self, signal: str) -> CountRange:
+        """The values that a counter of the state's message counts through."""
+        length = self.message.get_signal_by_name(signal).length
+        return self.count_ranges.get(signal, CountRange(0, (1 << length) - 1, length))
 
     def is_message(self, can_id: int, is_extended: bool) -> bool:
         """True for frames of the message of the state."""
@@ -232,8 +237,11 @@ def _common(entries: Entries, message: Any, cycle_time_s: float) -> dict[str, An
 def _witnesses(entries: Entries, message: Any) -> dict[str, Any]:
     """Of the state's own message."""
     content = entries.content
-    return {key: entries.signal(message, content[key]) for key in _WITNESSES
-            if key in content and not is_elsewhere(content[key])}
+    names = {key: entries.signal(message, content[key]) for key in _WITNESSES
+             if key in content and not is_elsewhere(content[key])}
+    ranges = {names[key]: count_range(entries, values, content.get(values), message.get_signal_by_name(names[key]))
+              for key, values in VALUES_OF.items() if key in names}
+    return {**names, "count_ranges": ranges}
 
 
 def _sources(entries: Entries, message: Any) -> dict[int, str]:
@@ -304,6 +312,13 @@ def _read(path: pathlib.Path) -> dict[str, Any]:
     for key in _REQUIRED_OF_POLL if "uds_poll" in content else _REQUIRED:
         if key not in content:
             raise ConnectionFailed(f"Car profile {path} lacks the entry {key}.")
+    _check_pairs(path, content)
+    return content
+
+
+def _check_pairs(path: pathlib.Path, content: Mapping[str, Any]) -> None:
+    for key, values in VALUES_OF.items():
+        if values in content and key not in content:
+            raise ConnectionFailed(f"Car profile {path}: {values} belongs to {key}, which is missing.")
     if ("source_signal" in content) != ("sources" in content):
         raise ConnectionFailed(f"Car profile {path}: source_signal and sources belong together; give both or none.")
-    return content

@@ -6,6 +6,7 @@ import collections
 from typing import Iterator, Mapping, NamedTuple
 
 from ..database.codec import SignalReader
+from .counting import CountWatch
 from .declared import Further, MessageKey, Place
 
 # Of each signal; older ones than a change waits for belong to nothing.
@@ -32,6 +33,9 @@ class Companions:
             self._readers[place.key].append(SignalReader(place.message, (place.signal,)))
         self._values: dict[tuple[MessageKey, str], collections.deque[tuple[float, int]]] = {
             (place.key, place.signal): collections.deque(maxlen=_KEPT) for place in further.places()}
+        self._counters = [*((place, False) for place in further.counters), *((place, True) for place in further.alive)]
+        self._watches = {(place.key, place.signal): CountWatch(place.counts, is_alive)
+                         for place, is_alive in self._counters}
         self._open: set[str] = set()
 
     def restart(self) -> None:
@@ -53,14 +57,13 @@ class Companions:
 
     def _steps(self, key: MessageKey, values: Mapping[str, int]) -> Iterator[str]:
         """Counters that stand still or jump."""
-        for place, is_alive in [*((each, False) for each in self._further.counters),
-                                *((each, True) for each in self._further.alive)]:
+        for place, is_alive in self._counters:
             kept = self._values[place.key, place.signal]
             if place.key != key or place.signal not in values or not kept:
                 continue
             before, now = kept[-1][1], values[place.signal]
-            step = (now - before) % place.modulus
-            if step > 1:
+            step = self._watches[place.key, place.signal].step(before, now)
+            if step is None:
                 yield f"{_signal(place)} went from {before} to {now}."
             elif is_alive and step == 0:
                 yield f"{_signal(place)} stands still at {now}."

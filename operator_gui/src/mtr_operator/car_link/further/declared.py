@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, Iterator
 
 from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY
 
+from .counting import CountRange, count_range
 from .entries import FIRST_BUS, Entries, is_whole
 
 SOURCES = (PASSIVE_ENTRY, KEY_BUTTON, HANDLE)
@@ -17,19 +18,22 @@ _MAX_WITHIN_S = 10.0
 _CAUSE_KEYS = {"bus", "message", "signal", "sources", "idle", "stays"}
 _DOOR_KEYS = {"bus", "message", "signal", "open"}
 _KEY_KEYS = {"bus", "message", "signal", "under_test"}
-_PLACE_KEYS = {"bus", "message", "signal"}
+_COUNTER_KEYS = {"bus", "message", "signal", "values"}
 KEYS = ("buses", "causes", "cause_within_s", "cause_required", "doors", "key_number")
 
 MessageKey = tuple[str, int, bool]
+# Entries of a profile with the values of its counters, by the entry with the counter.
+VALUES_OF = {"alive_signal": "alive_values", "command_signal": "command_values"}
 
 
 @dataclass(frozen=True, eq=False)
 class Place:
-    """A signal of a message (cantools') of a bus."""
+    """A signal of a message (cantools') of a bus. values: of a counter."""
 
     bus: str
     message: Any
     signal: str
+    values: CountRange | None = None
 
     @property
     def key(self) -> MessageKey:
@@ -42,9 +46,9 @@ class Place:
         return self.message.get_signal_by_name(self.signal)
 
     @property
-    def modulus(self) -> int:
-        """How many values it has."""
-        return 1 << int(self.declared.length)
+    def counts(self) -> CountRange:
+        """Of a counter: the values that it counts through."""
+        return self.values or CountRange(0, (1 << self.declared.length) - 1, self.declared.length)
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +165,11 @@ class _Reader:
     def elsewhere(self, key: str) -> tuple[Place, ...]:
         """Of a counter that is not in the state's message."""
         table = self._entries.content.get(key)
-        return (self.place(key, table, _PLACE_KEYS),) if is_elsewhere(table) else ()
+        if not isinstance(table, dict):
+            return ()
+        place = self.place(key, table, _COUNTER_KEYS)
+        values = table.get("values", self._entries.content.get(VALUES_OF[key]))
+        return (replace(place, values=count_range(self._entries, VALUES_OF[key], values, place.declared)),)
 
     def cause(self, table: Any) -> CauseSignal:
         """One of causes."""

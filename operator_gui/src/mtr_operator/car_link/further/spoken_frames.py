@@ -70,7 +70,7 @@ class SpokenFrames:
         for place, count in [*((each, self._cycles) for each in further.alive),
                              *((each, self._changes) for each in further.counters)]:
             if place.message is message:
-                yield place.signal, count % place.modulus
+                yield place.signal, place.counts.value(count)
         for door in further.doors:
             if door.place.message is message:
                 yield door.place.signal, _other_than(door.open)
@@ -85,7 +85,7 @@ class SpokenFrames:
         raw = state_raw(profile, self.is_locked)
         yield from ((signal, raw) for signal in (profile.door_signals.values() or (profile.signal,)))
         counts = {profile.alive_signal: self._cycles, profile.command_signal: self._changes}
-        yield from ((name, count % profile.modulus(name)) for name, count in counts.items() if name)
+        yield from ((name, profile.counts(name).value(count)) for name, count in counts.items() if name)
         if profile.changed_signal:
             yield profile.changed_signal, int(self._shown > 0)
         if profile.source_signal:

@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import NamedTuple, Sequence
+import collections
+from typing import Iterator, NamedTuple, Sequence
 
+from ..further.counting import CountRange, CountWatch
 from .bits import BITS_PER_BYTE, Held, field_of
 from .recording import Message
 
@@ -11,6 +13,8 @@ from .recording import Message
 _MIN_WIDTH = 2
 # Lost frames make a counter jump.
 _MIN_SHARE = 0.9
+# Times that a counter begins again at a value, before that counts as its end.
+_MIN_WRAPS = 2
 # Frames of which the rest was seen before, so that the same check sum had to follow.
 _MIN_REPEATS = 16
 # More of them say nothing new, and take time.
@@ -33,12 +37,21 @@ class Field(NamedTuple):
         return self.start <= bit < self.start + self.width
 
 
-def frame_counter(message: Message) -> Field | None:
+class FrameCounter(NamedTuple):
+    """field: the bits. values: lowest and highest, of a counter that begins again before all its bits are set or not
+    with 0; None for any other."""
+
+    field: Field
+    values: tuple[int, int] | None = None
+
+
+def frame_counter(message: Message) -> FrameCounter | None:
     """The bits that count the frames of a message; None when none do."""
     values = [sample.value for sample in message.samples[:_MAX_FRAMES]]
     if len(values) < _MIN_FRAMES or not message.length:
         return None
-    share, _, best = max((_share(values, field), field.width, field) for field in _fields(message.length))
+    found = [each for field in _fields(message.length) for each in _shares(values, field)]
+    share, *_, best = max(found, key=lambda each: each[:3])
     return best if share >= _MIN_SHARE else None
 
 
@@ -65,11 +78,16 @@ def _fields(length: int) -> list[Field]:
             for low in range(BITS_PER_BYTE - _MIN_WIDTH + 1) for width in range(_MIN_WIDTH, BITS_PER_BYTE - low + 1)]
 
 
-def _share(values: Sequence[int], field: Field) -> float:
-    """Part of the frames that go on by one from the frame before."""
-    modulus, start, width = 1 << field.width, field.start, field.width
-    parts = [field_of(value, start, width) for value in values]
-    return sum((now - before) % modulus == 1 for before, now in zip(parts, parts[1:])) / (len(parts) - 1)
+def _shares(values: Sequence[int], field: Field) -> Iterator[tuple[float, int, bool, FrameCounter]]:
+    """Part of the frames that go on by one from the frame before, width, whether through all values, and counter."""
+    parts = [field_of(value, field.start, field.width) for value in values]
+    steps = collections.Counter(zip(parts, parts[1:]))
+    counted = sum(number for (before, now), number in steps.items() if now == before + 1)
+    low, high, most = min(parts), max(parts), (1 << field.width) - 1
+    yield (counted + steps[most, 0]) / (len(parts) - 1), field.width, True, FrameCounter(field)
+    # The highest bit is one of the counter's, and what begins again did so more than once.
+    if (low, high) != (0, most) and low <= 1 and high > most >> 1 and steps[high, low] >= _MIN_WRAPS:
+        yield (counted + steps[high, low]) / (len(parts) - 1), field.width, False, FrameCounter(field, (low, high))
 
 
 def _counts_stays(parts: Sequence[Held], field: Field) -> bool:
@@ -77,7 +95,8 @@ def _counts_stays(parts: Sequence[Held], field: Field) -> bool:
     if any(part.still & mask != mask for part in parts):
         return False
     values = [field_of(part.value, *field) for part in parts]
-    return all((now - before) % (1 << field.width) == 1 for before, now in zip(values, values[1:]))
+    watch = CountWatch(CountRange(0, (1 << field.width) - 1, field.width), may_learn=False)
+    return all(watch.step(before, now) == 1 for before, now in zip(values, values[1:]))
 
 
 def _is_check_sum(message: Message, byte: int) -> bool:

@@ -44,12 +44,15 @@ class DatabaseNames:
         *_, name, values = max(found, key=lambda each: each[:2])
         return Named(message.name, name, values)
 
-    def counter(self, candidate: Candidate, field: Field | None) -> str:
-        """Name of the signal that is these bits of the candidate's message, and no others; empty without one."""
-        if field is None:
+    def counter(self, candidate: Candidate, least: Field | None, most: Field | None) -> str:
+        """Name of the signal of the candidate's message that is the first of these bits at least, and the others at
+        most; empty without one."""
+        if least is None or most is None:
             return ""
-        return next((signal.name for signal in self._messages[candidate.id].signals
-                     if bits_of(signal) == _bits(field)), "")
+        message = self._messages[candidate.id]
+        return next((signal.name for signal in message.signals
+                     if _bits(least) <= bits_of(signal) <= _bits(most) and min(bits_of(signal)) == least.start
+                     and self._database.is_usable(message, signal.name)), "")
 
 
 def bits_of(signal: Any) -> set[int]:

@@ -33,6 +33,7 @@ class Candidate:
     followed: stays in which they were as in all others of that state. extra: further changes between the stays.
     lag_s: after the earliest candidate's change, middle of all prompts; None when it cannot be told.
     is_cyclic: the message comes often enough for a profile. on_change: it is also sent at once.
+    counter_values: lowest and highest value of counter, None for all that its bits have.
     counter, changes_counter: bits of the same message that count its frames, and the changes; None when none do.
     sum_byte: number of the byte that is a check sum, None when none is. data: of the message at the end of each stay.
     """
@@ -48,6 +49,7 @@ class Candidate:
     is_cyclic: bool = True
     on_change: bool = False
     counter: Field | None = None
+    counter_values: tuple[int, int] | None = None
     changes_counter: Field | None = None
     sum_byte: int | None = None
     data: tuple[tuple[LockState, bytes], ...] = ()
@@ -122,13 +124,15 @@ def _candidates(message: Message, parts: Sequence[Held], stays: Sequence[Stay]) 
     if not fields:
         return
     cycle_s = _cycle(message)
-    counter, data = frame_counter(message), tuple(_ends(message, stays))
+    counted, data = frame_counter(message), tuple(_ends(message, stays))
+    counter, counter_values = (None, None) if counted is None else counted
     for field, followed in fields:
         values = _values(parts, stays, field)
         moves = changes(message.samples, *field)
         yield Candidate(message.id, message.length, field, values, followed, max(len(moves) - len(stays), 0), cycle_s,
                         is_cyclic=cycle_s <= _MAX_CYCLE_S and _is_in_each(message, stays),
                         on_change=_is_sent_on_change(message, moves, cycle_s), counter=counter,
+                        counter_values=counter_values,
                         changes_counter=counting, sum_byte=check_sum(message, counter), data=data)
 
 

@@ -13,12 +13,14 @@ from mtr_operator.domain.ports import LockState
 from mtr_operator.storage.atomic import write_bytes
 
 from ..profile import CarProfile, load_profile
+from .bits import field_of
 from .counters import Field
 from .database_names import DatabaseNames, Named
 from .findings import Candidate, Findings
 
 _NAME = re.compile(r"[A-Za-z0-9_\-]+\.yaml")
 _EXTENDED_BIT = 0x8000_0000
+_MIN_COUNTER_BITS = 2
 _SIGNAL, _ALIVE, _CHANGES = "LockState", "AliveCounter", "ChangeCounter"
 
 
@@ -67,8 +69,9 @@ def message_name(candidate: Candidate) -> str:
 
 def _database(best: Candidate) -> str:
     can_id, is_extended = best.id
-    fields = {_SIGNAL: best.field, _ALIVE: best.counter, _CHANGES: best.changes_counter}
-    signals = [_signal(name, field) for name, field in fields.items() if field is not None]
+    fields = {_SIGNAL: best.field, _ALIVE: best.counter, _CHANGES: _moving(best)}
+    limits = {_ALIVE: best.counter_values}
+    signals = [_signal(name, field, limits.get(name)) for name, field in fields.items() if field is not None]
     head = ['VERSION ""', "", "NS_ :", "", "BS_:", "", "BU_: Car Tester", "",
             f"BO_ {can_id | (_EXTENDED_BIT if is_extended else 0)} {message_name(best)}: {best.length} Car"]
     values = " ".join(f'{raw} "{state.value}"' for state, raw in sorted(best.values.items(), key=lambda item: item[1]))
@@ -76,8 +79,19 @@ def _database(best: Candidate) -> str:
     return "\n".join([*head, *signals, *tail])
 
 
-def _signal(name: str, field: Field) -> str:
-    return f' SG_ {name} : {field.start}|{field.width}@1+ (1,0) [0|{(1 << field.width) - 1}] "" Tester'
+def _signal(name: str, field: Field, values: tuple[int, int] | None) -> str:
+    low, high = values or (0, (1 << field.width) - 1)
+    return f' SG_ {name} : {field.start}|{field.width}@1+ (1,0) [{low}|{high}] "" Tester'
+
+
+def _moving(best: Candidate) -> Field | None:
+    """The counter of changes without its highest bits that never changed: they may be no part of it."""
+    field = best.changes_counter
+    if field is None:
+        return None
+    values = [field_of(int.from_bytes(data, "little"), *field) for _, data in best.data]
+    width = max((value ^ values[0]).bit_length() for value in values)
+    return Field(field.start, max(width, _MIN_COUNTER_BITS))
 
 
 def _profile(entries: Sequence[str], best: Candidate, findings: Findings) -> str:
@@ -91,7 +105,7 @@ def _profile(entries: Sequence[str], best: Candidate, findings: Findings) -> str
 
 def _own_entries(database: str, best: Candidate) -> list[str]:
     lines = [f"database: {database}", f"message: {message_name(best)}", f"signal: {_SIGNAL}", *_states(best.values)]
-    lines += [f"alive_signal: {_ALIVE}"] if best.counter else []
+    lines += [f"alive_signal: {_ALIVE}", *_alive_values(best)] if best.counter else []
     lines += [f"command_signal: {_CHANGES}"] if best.changes_counter else []
     return lines
 
@@ -100,9 +114,15 @@ def _named_entries(folder: pathlib.Path, names: DatabaseNames, named: Named, bes
     """Of a database that is there already; a name may be a word that YAML takes for something else."""
     lines = [f"database: {json.dumps(_path_from(folder, names.path), ensure_ascii=False)}",
              f"message: {json.dumps(named.message)}", f"signal: {json.dumps(named.signal)}", *_states(named.values)]
-    counters = {"alive_signal": best.counter, "command_signal": best.changes_counter}
-    lines += [f"{key}: {json.dumps(name)}" for key, field in counters.items() if (name := names.counter(best, field))]
-    return lines
+    moving = _moving(best)
+    alive = names.counter(best, best.counter, best.counter)
+    changes = names.counter(best, moving, best.changes_counter)
+    lines += [f"alive_signal: {json.dumps(alive)}", *_alive_values(best)] if alive else []
+    return [*lines, f"command_signal: {json.dumps(changes)}"] if changes else lines
+
+
+def _alive_values(best: Candidate) -> list[str]:
+    return [] if best.counter_values is None else [f"alive_values: {list(best.counter_values)}"]
 
 
 def _states(values: Mapping[LockState, int]) -> list[str]:
