@@ -123,7 +123,7 @@ restart() {
 install_packages() {
   [[ $staging ]] && return
   apt-get update -qq
-  apt-get install -y -qq --no-install-recommends build-essential iw python3-catkin-tools python3-rosdep python3-spake2 \
+  apt-get install -y -qq --no-install-recommends build-essential iw nftables python3-catkin-tools python3-rosdep python3-spake2 \
     chrony >/dev/null
   [[ -d /etc/ros/rosdep/sources.list.d ]] || rosdep init
   rosdep update --rosdistro noetic >/dev/null
@@ -234,6 +234,19 @@ write_hotspot() {
   nmcli connection load "$file" >/dev/null
 }
 
+# What NetworkManager forwards for its shared networks is dropped, from now on and before it at each start: the Wi-Fi leads to the robot
+# and no farther. Without these rules no access point is begun.
+close_forwarding() {
+  command -v nft >/dev/null || fail "nft is missing; install nftables, without which the Wi-Fi would lead to the LiDARs."
+  put 644 mtr-hotspot.nft "$staging/etc/mtr/mtr-hotspot.nft"
+  put 644 mtr-hotspot.dnsmasq "$staging/etc/NetworkManager/dnsmasq-shared.d/mtr-hotspot.conf"
+  put 644 mtr-hotspot.service "$staging/etc/systemd/system/mtr-hotspot.service"
+  [[ ! $staging ]] || return 0
+  systemctl daemon-reload
+  systemctl enable --quiet mtr-hotspot
+  systemctl restart mtr-hotspot || fail "The rules against forwarding could not be loaded; no access point was begun."
+}
+
 # Where no country is known no access point may begin to send at 5 GHz; the setting holds after a new start, too.
 set_country() {
   [[ $country ]] || return 0
@@ -252,6 +265,7 @@ hotspot() {
   former=$(nmcli -t -f NAME,UUID connection show | sed -n 's/^mtr-hotspot://p')
   uuid=$(cat /proc/sys/kernel/random/uuid)
   file=$staging/etc/NetworkManager/system-connections/mtr-hotspot-$uuid.nmconnection
+  close_forwarding
   set_country
   for band in a bg; do
     write_hotspot "$uuid" $band "$name" "$password" "$file"

@@ -3,6 +3,8 @@
 import configparser
 import os
 import pathlib
+import re
+import shutil
 import subprocess
 
 import pytest
@@ -19,7 +21,11 @@ case $* in
   "connection up "*) band=$(sed -n s/^band=//p "$LOADED"); [[ " $REFUSED " != *" $band "* ]] ;;
 esac
 """
+NFT = '#!/bin/sh\nexit 0\n'
 IW = '#!/bin/sh\necho "iw $*" >>"$TOLD"\n'
+
+
+HERE = pathlib.Path(__file__).resolve().parents[2] / "setup" / "robot"
 
 
 class Network:
@@ -33,13 +39,14 @@ class Network:
     def __init__(self, folder):
         self.folder = folder
         self.told = ""
-        for name, text in {"nmcli": NMCLI, "iw": IW}.items():
+        for name, text in {"nmcli": NMCLI, "iw": IW, "nft": NFT}.items():
             (folder / name).write_text(text, encoding="ascii")
             (folder / name).chmod(0o755)
 
-    def hotspot(self, *words, typed="", refused="", state="disconnected"):
-        """The finished command."""
-        environment = dict(os.environ, PATH=f"{self.folder}:{os.environ['PATH']}", TOLD=str(self.folder / "told"),
+    def hotspot(self, *words, typed="", refused="", state="disconnected", path=None):
+        """The finished command. path: of its programs; by default those of this machine behind the network's."""
+        path = path or f"{self.folder}:{os.environ['PATH']}"
+        environment = dict(os.environ, PATH=path, TOLD=str(self.folder / "told"),
                            LOADED=str(self.folder / "loaded"), REFUSED=refused, STATE=state)
         done = subprocess.run([SCRIPT, "hotspot", *words, "--staging", str(self.folder / "disk")], check=False,
                               input=typed, text=True, capture_output=True, env=environment)
@@ -122,3 +129,81 @@ def test_a_word_that_is_no_country_is_refused(network, country):
 def test_without_wifi_in_network_manager_it_names_netplan(network):
     done = network.hotspot("Robot", "12345678", state="unmanaged")
     assert done.returncode == 2 and "netplan" in done.stderr and not network.files()
+
+
+def test_the_way_to_other_networks_is_closed_before_the_access_point_is_begun(network):
+    assert network.hotspot("Robot", "12345678").returncode == 0
+    disk, units = network.folder / "disk", network.folder / "disk" / "etc" / "systemd" / "system"
+    rules = (disk / "etc" / "mtr" / "mtr-hotspot.nft").read_text(encoding="ascii")
+    assert rules == (HERE / "mtr-hotspot.nft").read_text(encoding="ascii")
+    # At each start of the robot: NetworkManager does not begin without them.
+    unit = (units / "mtr-hotspot.service").read_text(encoding="ascii")
+    assert "RequiredBy=NetworkManager.service" in unit and re.search(r"^Before=.*NetworkManager.service", unit, re.M)
+    assert f"-f {pathlib.Path('/etc/mtr/mtr-hotspot.nft')}" in unit
+
+
+def test_laptops_are_offered_neither_a_route_nor_names(network):
+    network.hotspot("Robot", "12345678")
+    offered = network.folder / "disk" / "etc" / "NetworkManager" / "dnsmasq-shared.d" / "mtr-hotspot.conf"
+    lines = offered.read_text(encoding="ascii").splitlines()
+    assert {"port=0", "dhcp-option=option:router", "dhcp-option=option:dns-server"} <= set(lines)
+
+
+def test_without_nft_no_access_point_is_begun(network):
+    (network.folder / "nft").unlink()
+    needed = ("bash", "cat", "dirname", "grep", "sed", "mkdir", "install", "mv", "od", "tr")
+    for program in needed:
+        (network.folder / program).symlink_to(shutil.which(program))
+    done = network.hotspot("Robot", "12345678", path=str(network.folder))
+    assert done.returncode == 2 and "install nftables" in done.stderr
+    assert "connection up" not in network.told and not network.files()
+
+
+# Laptop, robot and LiDAR have a network each; $RULES are those of the robot, $WIFI is its interface to the laptop.
+FORWARDS = """
+set -e
+for name in laptop lidar; do ip netns add $name; done
+trap 'for name in laptop lidar; do ip netns delete $name; done' EXIT
+ip link add "$WIFI" type veth peer name eth0 netns laptop
+ip link add lan0 type veth peer name eth0 netns lidar
+ip address add 10.42.0.1/24 dev "$WIFI" && ip link set "$WIFI" up
+ip address add 192.168.131.1/24 dev lan0 && ip link set lan0 up
+ip -n laptop address add 10.42.0.9/24 dev eth0 && ip -n laptop link set eth0 up
+ip -n lidar address add 192.168.131.20/24 dev eth0 && ip -n lidar link set eth0 up
+ip -n laptop route add default via 10.42.0.1 && ip -n lidar route add default via 192.168.131.1
+echo 1 >/proc/sys/net/ipv4/ip_forward
+nft -f "$RULES" && nft -f "$RULES"
+nft -f - <<<'table ip shared { chain forward { type filter hook forward priority 0; policy accept; accept; }; }'
+# A port on which nobody listens refuses at once where the way is open.
+try() {
+  local status=0
+  ip netns exec "$1" timeout 2 bash -c "</dev/tcp/$2/9" 2>/dev/null || status=$?
+  [[ $status == 124 ]] && echo "$1 does not reach $2" || echo "$1 reaches $2"
+}
+try laptop 10.42.0.1
+try laptop 192.168.131.20
+try lidar 10.42.0.9
+"""
+
+
+def reached(wifi):
+    """Who reaches whom, in a network namespace of its own; skips where this machine cannot make one."""
+    if not all(map(shutil.which, ("nft", "ip", "unshare"))):
+        pytest.skip("nft, ip or unshare is missing")
+    script = f"mount -t tmpfs none /run && mkdir -p /run/netns && {FORWARDS}"
+    done = subprocess.run(["unshare", "--net", "--mount", "bash", "-c", script], text=True, capture_output=True,
+                          check=False, env=dict(os.environ, RULES=str(HERE / "mtr-hotspot.nft"), WIFI=wifi))
+    if done.returncode and "reach" not in done.stdout:
+        pytest.skip(f"no network namespaces: {done.stderr.strip()}")
+    return done.stdout.splitlines()
+
+
+@pytest.mark.parametrize("wifi", ["wlan0", "wlp2s0", "wlx00c0ca"])
+def test_laptop_in_the_wifi_reaches_the_robot_and_not_the_lidar(wifi):
+    assert reached(wifi) == ["laptop reaches 10.42.0.1", "laptop does not reach 192.168.131.20",
+                                       "lidar does not reach 10.42.0.9"]
+
+
+def test_rules_leave_other_networks_alone():
+    # Shows that the robot would forward, and that the case above can fail.
+    assert "laptop reaches 192.168.131.20" in reached("eth9")
