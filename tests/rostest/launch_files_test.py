@@ -73,6 +73,11 @@ class LaunchFiles(unittest.TestCase):
         self.assertFalse([node.name for node in chosen.nodes if "ROS_IP" in dict(node.env_args)])
         self.assertIs(chosen.params["/graph_watch/open_graph"].value, True)
 
+    def test_every_node_of_a_robot_waits_for_its_name(self):
+        for arguments in ([], ["joy:=evdev", "base_guard:=true", "fault_injection:=true"]):
+            for node in load("robot.launch", arguments).nodes:
+                self.assertEqual(node.launch_prefix, "python3 -m mtr_bringup.name_guard", node.name)
+
     def test_base_guard_has_the_limits_of_the_shipped_base(self):  # A2
         guarded = load("robot.launch", ["base_guard:=true"])
         self.assertEqual(set(get_node_list(guarded)), NODES["robot.launch"] | {"/base_guard"})
