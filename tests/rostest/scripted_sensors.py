@@ -87,7 +87,8 @@ def open_ground() -> Tuple[Speaker, Speaker, WheelsSpeaker, ImuSpeaker, Speaker]
     return (LidarSpeaker(names.FRONT_SCAN, clear_scan(names.FRONT_LIDAR), schedule.LIDAR),
             LidarSpeaker(names.REAR_SCAN, clear_scan(names.REAR_LIDAR), schedule.LIDAR),
             wheels, ImuSpeaker(wheels),
-            Speaker(names.PERIPHERALS_STATE, PeripheralsState(alive=True, key_height_m=0.35), schedule.PERIPHERALS))
+            Speaker(names.PERIPHERALS_STATE, PeripheralsState(alive=True, key_height_m=0.35, battery=1.0),
+                    schedule.PERIPHERALS))
 
 
 def clear_scan(frame: str) -> LaserScan:

@@ -89,7 +89,7 @@ class Waypoints(unittest.TestCase):
         speakers = [ScriptedRobot(), Speaker(names.CAR_ESTIMATE, located_car(), schedule.CAR_LOCATOR),
                     Speaker(names.CAR_CHECK, CarCheck(), schedule.CAR_LOCATOR),
                     Speaker(names.DRIVE_STATUS, DriveStatus(), schedule.DRIVE_CONTROL),
-                    Speaker(names.PERIPHERALS_STATE, PeripheralsState(alive=True), schedule.PERIPHERALS)]
+                    Speaker(names.PERIPHERALS_STATE, PeripheralsState(alive=True, battery=1.0), schedule.PERIPHERALS)]
         cls.motion = Listener(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER)
         cls.mode = Listener(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         cls.time = ScriptedTime(["/dispatcher", "/state_machine", "/motion_planner"], speakers, [cls.motion, cls.mode])

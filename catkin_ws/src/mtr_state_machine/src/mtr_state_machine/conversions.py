@@ -1,5 +1,6 @@
 """ROS messages to the observation, and the decision to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from typing import Any, Dict, Optional
 
 from genpy import Time
@@ -37,7 +38,8 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
         age_s=age_s, complaint=complaint,
         is_position_lost=_is_position_lost(arrived.get(Part.LOCALIZATION, LocalizedPose())),
         drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())), emergency=emergency,
-        firmware_resets=arrived[Part.PERIPHERALS].firmware_resets if Part.PERIPHERALS in arrived else 0, now_s=now_s)
+        firmware_resets=arrived[Part.PERIPHERALS].firmware_resets if Part.PERIPHERALS in arrived else 0, now_s=now_s,
+        battery=arrived[Part.PERIPHERALS].battery if Part.PERIPHERALS in arrived else math.nan)
 
 
 def car(message: CarEstimate) -> Car:

@@ -10,6 +10,10 @@ from . import problems
 from .observation import Observation
 
 MICROSECONDS_PER_S = 1e6
+# A battery under load recovers a little when the robot stops; only a charged one is empty for the first time again.
+RECHARGED = 0.05
+# A load step or a corrupt message is shorter.
+EMPTY_FOR_S = 10.0
 
 
 class Hold:
@@ -20,10 +24,13 @@ class Hold:
         reason: its sentence.
     """
 
-    def __init__(self, is_wanted: bool, longest_pause_s: float):
+    def __init__(self, is_wanted: bool, longest_pause_s: float, empty_battery: float):
         """is_wanted: false for a robot near which nobody comes, such as a simulated one. longest_pause_s: between two
-        updates; after a longer one nobody knows what happened meanwhile.
+        updates; after a longer one nobody knows what happened meanwhile. empty_battery: charge below which the robot
+        is held once.
         """
+        self._empty_battery, self._was_held_empty = empty_battery, False
+        self._empty_since_s = math.inf
         self._is_wanted, self._longest_pause_s = is_wanted, longest_pause_s
         self._updated_s = math.nan
         self._newest_id = self.id = 0
@@ -55,6 +62,18 @@ class Hold:
             self.begin(problems.HELD_BOARD(), seen)
         elif pause_s > self._longest_pause_s:
             self.begin(problems.HELD_PAUSE(pause_s=pause_s), seen)
+        else:
+            self._watch_battery(seen)
+
+    def _watch_battery(self, seen: Observation) -> None:
+        # An unknown charge is no reason: it is NaN, which is below nothing.
+        is_empty = seen.battery < self._empty_battery
+        self._empty_since_s = min(self._empty_since_s, seen.now_s) if is_empty else math.inf
+        if seen.battery >= self._empty_battery + RECHARGED:
+            self._was_held_empty = False
+        if seen.now_s - self._empty_since_s >= EMPTY_FOR_S and not self._was_held_empty and is_ordered(seen):
+            self._was_held_empty = True
+            self.begin(problems.HELD_BATTERY(percent=100.0 * seen.battery), seen)
 
     def begin(self, reason: Problem, seen: Observation, was_ordered: bool = False) -> None:
         """Hold the robot from now on, when an order could move it. was_ordered: one will be there again by itself."""

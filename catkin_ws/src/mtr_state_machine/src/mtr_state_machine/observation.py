@@ -74,6 +74,7 @@ class Observation:
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
         is_position_lost: localization looks for its place on the map, as opposed to one that lacks a sensor.
         firmware_resets: of the board of lift and servos, since its node's start.
+        battery: charge from 0 to 1, NaN when it is unknown.
         intrusion: a second node publishes on a topic that moves the robot.
     """
 
@@ -89,6 +90,7 @@ class Observation:
     emergency: Emergency = NO_EMERGENCY
     firmware_resets: int = 0
     now_s: float = 0.0
+    battery: float = math.nan
     intrusion: Problem = NO_PROBLEM
 
     def is_silent(self, part: Part, silent_after_s: float) -> bool:

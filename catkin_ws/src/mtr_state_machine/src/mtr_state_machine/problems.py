@@ -33,6 +33,9 @@ HELD_EMERGENCY = Sentence("state_machine.held_emergency",
                           "The robot stands after an emergency stop until the Operator has it go on.")
 HELD_BOARD = Sentence("state_machine.held_board",
                       "The board of lift and servos started again; the robot stands until the Operator has it go on.")
+HELD_BATTERY = Sentence("state_machine.held_battery",
+                        "The battery is at {percent:.0f} %; the robot is on hold. Charge it, or resume to finish what "
+                        "is under way.")
 HELD_START = Sentence("state_machine.held_start",
                       "The robot's state machine started anew; the robot stands until the Operator has it go on.")
 HELD_PAUSE = Sentence(

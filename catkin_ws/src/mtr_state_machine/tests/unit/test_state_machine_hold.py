@@ -1,5 +1,6 @@
 """After a fault, an emergency stop, an obstacle or manual driving the robot goes on by the Operator's word. A8, A9b"""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import replace
 
 import pytest
@@ -9,6 +10,7 @@ from mtr_core.problems import Problem
 from mtr_core.requests import NO_GOAL, DesiredState, GoalReport, Waypoint
 from mtr_core.states import CarState, Result, State
 from mtr_state_machine.core import StateMachine
+from mtr_state_machine.hold import EMPTY_FOR_S
 from mtr_state_machine.observation import Car, Drive, Emergency, Observation, Part
 from mtr_state_machine.parameters import Parameters
 
@@ -250,3 +252,45 @@ def test_map_that_comes_by_its_old_number_again_is_another_one(robot, revisions)
     for revision in revisions[1:]:
         robot.step(map_revision=revision)
     assert robot.machine.state is State.FAULT and "map the Car again" in robot.decision.message.text
+
+
+def emptied(robot, charge, duration_s=EMPTY_FOR_S + 0.2):
+    """The decision after the battery has had this charge for so long."""
+    for _ in range(round(duration_s / 0.1)):
+        robot.step(battery=charge)
+    return robot.decision
+
+
+@pytest.mark.parametrize("charge", [0.099, 0.05, 0.0])
+def test_battery_that_is_nearly_empty_holds_the_robot_once(robot, charge):
+    assert not emptied(robot, 0.11).hold_id
+    held = emptied(robot, charge)
+    assert held.hold_id and robot.step().goal == NO_GOAL and "battery" in robot.decision.message.text
+    robot.step(desired=replace(WANTS, resume_hold_id=held.hold_id))
+    # The last metres to the charger are driven without another hold, although the charge goes up and down.
+    for later in (charge, 0.11, 0.14, 0.09, 0.01):
+        assert not emptied(robot, later).hold_id and robot.decision.goal != NO_GOAL
+
+
+def test_charged_battery_that_gets_empty_again_holds_again(robot):
+    first = emptied(robot, 0.05).hold_id
+    robot.step(desired=replace(WANTS, resume_hold_id=first))
+    robot.step(battery=0.9)
+    assert emptied(robot, 0.05).hold_id > first
+
+
+@pytest.mark.parametrize("charge", [math.nan, 1.0, 0.1, 0.2])
+def test_battery_that_is_unknown_or_charged_holds_nobody(robot, charge):
+    assert not emptied(robot, charge).hold_id
+
+
+def test_corrupt_charges_and_load_steps_hold_nobody(robot):
+    for charge in (0.0, 0.5, 0.05, math.nan) * 5:
+        assert not emptied(robot, charge, 0.9 * EMPTY_FOR_S).hold_id
+
+
+def test_empty_battery_holds_when_the_robot_is_ordered_and_not_before():
+    robot = Robot()
+    assert not emptied(robot, 0.05).hold_id
+    robot.step(desired=WANTS, car=COLLECTING)
+    assert robot.decision.hold_id and robot.decision.goal == NO_GOAL

@@ -112,7 +112,7 @@ class DriveControlFeed:
                 for topic, frame in self._scans:
                     self._publish(topic, sweep(frame))
             if turn % 5 == 0:
-                self._publish(self._peripherals, PeripheralsState(alive=True, key_height_m=1.0))
+                self._publish(self._peripherals, PeripheralsState(alive=True, key_height_m=1.0, battery=1.0))
                 self._lock(0)
                 self._lock(1)
 
