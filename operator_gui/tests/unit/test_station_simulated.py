@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import dataclasses
 from argparse import Namespace
 
 import pytest
@@ -122,9 +123,9 @@ def test_simulated_robot_continues_from_link_to_link_with_a_session_of_its_own_e
 
 def starts():
     """Makers of a virtual robot that begins with a clock of its own."""
-    options = Namespace(simulated_robot=True, seed=1)
+    options = Namespace(simulated_robot=True, seed=1, continued="progress.json")
     return {"window": lambda: LinkOpener(0.0).robot(CONNECTION.robot)._robot,
-            "command line": lambda: robot_link(options)._robot,
+            "command line that continues": lambda: robot_link(options)._robot,
             "server": lambda: RobotSubstitute(None, seed=1)._robot}
 
 
@@ -134,8 +135,12 @@ def test_each_start_of_a_virtual_robot_has_an_id_of_its_own(start):
 
 
 def test_each_start_is_the_same_robot_but_for_its_id():
-    first, second = (robot_link(Namespace(simulated_robot=True, seed=3))._robot.pose for _ in range(2))
-    assert first == second == FakeRobotLink(3)._robot.pose
+    options = Namespace(simulated_robot=True, seed=3, continued=None)
+    begun, again = (robot_link(options)._robot.status() for _ in range(2))
+    options.continued = "progress.json"
+    later = robot_link(options)._robot.status()
+    assert begun == again == FakeRobotLink(3)._robot.status()
+    assert dataclasses.replace(later, robot_session_id=begun.robot_session_id) == begun != later
 
 
 CAR = CarDimensions(4.5, 1.8, 0.01, 0.01)

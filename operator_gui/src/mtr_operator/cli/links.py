@@ -16,7 +16,10 @@ def robot_link(options: argparse.Namespace, is_real_time: bool = False) -> Robot
     if options.simulated_robot:
         from mtr_operator.robot_link.fake import FakeRobotLink
         from mtr_operator.robot_link.virtual.robot import VirtualRobot
-        return FakeRobotLink(time_factor=float(is_real_time), robot=VirtualRobot.started(options.seed))
+        # The same seed gives the same record; a test that is continued has met the robot of its seed before.
+        is_begun = getattr(options, "continued", None) is None
+        start = VirtualRobot if is_begun else VirtualRobot.started
+        return FakeRobotLink(time_factor=float(is_real_time), robot=start(options.seed))
     return LinkOpener().robot(RobotChoice(options.robot, options.subscriber_port, options.publisher_port,
                                           bool(options.unencrypted)))
 
