@@ -5,10 +5,12 @@ import argparse
 import cantools
 import pytest
 
+from mtr_operator.car_link.adapter import AdapterSettings
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.learn.command_line import learn_by
 from mtr_operator.car_link.learn.database_names import bits_of
+from mtr_operator.car_link.learn.listener import Listener
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
 from mtr_operator.cli.commands import run_command
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, NothingLearned
@@ -26,7 +28,7 @@ class Bench:
         self._obeys, self._lines = obeys, lines
         self._message = DemoLockMessage()
         self._heard = None
-        self.stopped = 0
+        self.stopped, self.is_dead = 0, False
         self.options = argparse.Namespace(prompts=4, database=database)
 
     def listen(self, heard):
@@ -43,6 +45,8 @@ class Bench:
         end_s = self.now_s + duration_s
         while self.now_s < end_s:
             self.now_s += CYCLE_S
+            if self.is_dead:
+                continue
             self._heard(CanFrame(0x320, False, self._message.next(), self.now_s))
 
     def readline(self):
@@ -72,6 +76,34 @@ def test_profile_is_written_and_said(tmp_path, capsys):
     assert "320" in told.out and "4/4" in told.out
     assert load_profile(str(tmp_path / "golf.yaml")).signal == "LockState"
     assert bench.stopped == 1
+
+
+def test_dead_bus_is_told_before_the_first_prompt(tmp_path, capsys):
+    bench = Bench()
+    bench.is_dead = True
+    with pytest.raises(NothingLearned, match="Nothing came over the bus in 5 s; check bit rate"):
+        bench.learn(tmp_path / "golf.yaml")
+    told = capsys.readouterr()
+    assert "Listening for 5 s" in told.err and "1/4" not in told.err and told.out == ""
+    assert bench.now_s < 106.0 and bench.stopped == 1
+
+
+def test_bus_with_error_frames_alone_is_a_wrong_bit_rate():
+    heard = []
+    listener = Listener(AdapterSettings("virtual", "dead", 250_000), heard.append)
+    for _ in range(30):
+        assert len(heard) == 0
+        listener.error_frame()
+    assert "not one frame at 250000 bit/s: the bit rate is another one" in listener.problem
+    listener.frame(CanFrame(0x320, False, b"", 0.0))
+    assert listener.problem == "" and len(heard) == 1
+
+
+def test_rate_of_the_frames_is_said_before_the_first_prompt(tmp_path, capsys):
+    bench = Bench()
+    bench._message.is_locked = False
+    bench.learn(tmp_path / "golf.yaml")
+    assert "Listening for 5 s; leave the Car alone.\n50 frames a second.\n1/4" in capsys.readouterr().err
 
 
 def learned_with(database, folder):

@@ -1,5 +1,6 @@
 """A test is recorded with the whole bus, and its distances follow anew from log, poses and profile."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import pathlib
 import shutil
 import zipfile
@@ -9,6 +10,7 @@ import pytest
 from replayed import recorded, replayed
 
 from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.fake_message import DemoLockMessage
 from mtr_operator.car_link.log.bus_log import BusLog
 from mtr_operator.car_link.log.log_car import LogCarLink
 from mtr_operator.car_link.log.read_log import ReadLog
@@ -258,3 +260,52 @@ def test_replay_of_two_buses_gives_the_same_distances_from_each_format(tmp_path,
     assert {result.unlock_cause for result in progress.results} == {"passive_entry"}
     code, document = replayed(tmp_path, capsys)
     assert code == 0 and document["is_unchanged"] and document["notices"] == []
+
+
+@pytest.fixture(name="played", scope="module")
+def played_fixture(tmp_path_factory):
+    """Folder of a test that played a log, of the log and of the profile, which the record names relatively."""
+    folder = tmp_path_factory.mktemp("played")
+    path, message, now_s = folder / "bus.log", DemoLockMessage(), 0.0
+    with path.open("w") as log:
+        for index in range(12_000):
+            message.is_locked = index // 60 % 2 == 0
+            now_s += 0.2
+            log.write(f"({1.7e9 + now_s:.6f}) can0 320#{message.next().hex()}\n")
+    parameters = folder / "autolock.yaml"
+    parameters.write_text("\n".join(f"{name}: {str(value).lower()}" for name, value in AUTOLOCK.items()))
+    profile(folder)
+    with contextlib.chdir(folder):
+        main(["run", "autolock", "--params", "autolock.yaml", "--out", "test", "--simulated-robot", "--can-log",
+              "bus.log", "--car-profile", "mended.yaml"])
+    return folder
+
+
+def test_test_that_played_a_log_is_replayed_with_it_from_any_folder(played, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    code, document = replayed(played / "test", capsys, "--can-log", str(played / "bus.log"))
+    assert document["is_unchanged"] and code == 0
+    assert document["measurements"] > 0
+
+
+def test_test_that_played_a_log_asks_for_it(played, capsys):
+    assert main(["replay", str(played / "test")]) == 2
+    assert "The test played the CAN log bus.log, which is not kept with it; name that log" in capsys.readouterr().err
+
+
+def test_profile_that_a_record_names_relatively_is_missed_with_a_sentence(played, capsys, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    shutil.copytree(played / "test", tmp_path / "elsewhere" / "test")
+    assert main(["replay", str(tmp_path / "elsewhere" / "test"), "--can-log", str(played / "bus.log")]) == 2
+    assert "names its car profile as mended.yaml, which is neither in this folder nor above" in capsys.readouterr().err
+
+
+def test_log_beside_a_test_without_one_has_no_times_of_the_test(played, capsys, tmp_path):
+    folder = tmp_path / "test"
+    shutil.copytree(played / "test", folder)
+    profile(tmp_path)
+    (folder / "progress.journal").unlink()
+    record = folder / "progress.json"
+    record.write_text(record.read_text().replace("none: the log bus.log was played", "slcan, 500000 bit/s"))
+    assert main(["replay", str(folder), "--can-log", str(played / "bus.log")]) == 2
+    assert "its times cannot be brought together with the test's" in capsys.readouterr().err

@@ -7,6 +7,8 @@ import math
 from .adapter import AdapterSettings
 from .can_frame import CanFrame
 
+# So many error frames without a frame are no accident.
+_ENOUGH_ERRORS = 20
 # Robot time for which an error frame, or a frame that was lost, makes the bus a suspect one.
 _EFFECT_S = 1.0
 _LOST = ("The CAN adapter has lost frames: they were not read in time; end other programs, or use an adapter with more "
@@ -65,6 +67,14 @@ class BusTrouble:
     def _error_sentence(self) -> str:
         if self._has_frames:
             return f"The CAN bus has errors ({self._error_frames} error frames); check bit rate, plug and termination."
+        return self._without_frames()
+
+    @property
+    def no_frame(self) -> str:
+        """A sentence when there were error frames enough, and not one frame; empty else."""
+        return self._without_frames() if self._error_frames >= _ENOUGH_ERRORS and not self._has_frames else ""
+
+    def _without_frames(self) -> str:
         return (f"The CAN bus brings error frames ({self._error_frames}) and not one frame at "
                 f"{self._settings.bitrate_bps} bit/s: the bit rate is another one, or the bus carries CAN FD.")
 

@@ -6,6 +6,7 @@ import pathlib
 from dataclasses import dataclass
 from typing import Iterator, Sequence
 
+from mtr_operator.car_link.log.log_car import played_log
 from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.car_link.profile import CarProfile
 from mtr_operator.domain.geometry.ray import Ray
@@ -90,7 +91,8 @@ def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Prog
     lines = scenario.lines(parameters, progress.car)
     rays: dict[int, Ray] = {} if scenario.name in _WITHOUT_RAYS else {line.number: line.ray for line in lines}
     points = Points(rays, progress.car, replayed_phone(parameters, progress, profile))
-    found = [_follow(points, run, profile, log) for run in runs]
+    played = played_log(progress.session)
+    found = [_follow(points, run, profile, log, played) for run in runs]
     notices = [notice for each, _ in found for notice in each]
     recorded, now = results_anew(scenario, parameters, progress, points.attempts)
     missing = [result.number for result in progress.results if result.number not in
@@ -101,15 +103,22 @@ def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Prog
                         all(is_whole for _, is_whole in found))
 
 
-def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.Path | None) -> tuple[list[str], bool]:
-    """Notices on its log, and whether that tells the whole run."""
+def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.Path | None,
+            played: str) -> tuple[list[str], bool]:
+    """Notices on its log, and whether that tells the whole run. played: see played_log."""
     path = log or run.log
+    if path is None and played:
+        raise CannotReplay(f"The test played the CAN log {played}, which is not kept with it; name that log "
+                           "(--can-log).")
     if path is None:
         raise CannotReplay(f"No log of the Car's bus belongs to {run.course}; there was no bus, or none was wanted.")
     read = ReadLog(path, profile.identifiers)
-    locks = ReplayedLocks(profile, read, points.phone)
+    locks = ReplayedLocks(profile, read, points.phone, is_played=bool(played))
     points.follow(read_course(run.course), locks)
     notices = [read.notice] if read.notice else []
+    if not (locks.has_marks or played):
+        raise CannotReplay(f"The test has kept no log of the Car's bus, so that nothing says when the frames of {path} "
+                           "came: its times cannot be brought together with the test's.")
     if not locks.has_state:
         notices.append(f"The CAN log {path} tells no state of message {profile.message.name} (id "
                        f"0x{profile.message.frame_id:X}): it is of another car or bus, or the profile is.")

@@ -33,5 +33,16 @@ def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.P
     if not name:
         raise CannotReplay(f"The test in {path} does not say which car profile it had; name one (--car-profile).")
     recording = folder or recording_folder(path)
-    name = profile_name or kept_profile(path, name)
+    name = profile_name or _found(kept_profile(path, name), path)
     return scenario, replay(scenario, parameters, progress, recording, load_profile(name), log=log)
+
+
+def _found(name: str, path: pathlib.Path) -> str:
+    """The profile as a record names it; a path that was relative is looked for from the test's folder upwards, too."""
+    if not name.endswith(".yaml") or pathlib.Path(name).is_absolute() or pathlib.Path(name).is_file():
+        return name
+    found = next((folder / name for folder in path.resolve().parents if (folder / name).is_file()), None)
+    if found is None:
+        raise CannotReplay(f"The test names its car profile as {name}, which is neither in this folder nor above the "
+                           "test's; name its file (--car-profile).")
+    return str(found)

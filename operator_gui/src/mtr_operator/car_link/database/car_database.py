@@ -34,8 +34,8 @@ class CarDatabase:
         problem = next((self._problems.messages[each] for each in _spellings(name)
                         if each in self._problems.messages), "")
         if problem:
-            raise ConnectionFailed(f"Message {name} of CAN database {self.path}"
-                                   f"{_line(self._problems.message_lines.get(name))} cannot be used: {problem}.")
+            place = f"{self.path}{_line(self._problems.message_lines.get(name))}"
+            raise ConnectionFailed(f"Message {name} of CAN database {place} cannot be used: {problem}.")
         for each in _spellings(name):
             found = [message for message in self.messages if message.name == each]
             if found:
@@ -52,8 +52,8 @@ class CarDatabase:
             problem = problem or _beyond(message, known[each]) or _without_page(message, each)
             if not problem:
                 return each
-            raise ConnectionFailed(f"Signal {name} of message {message.name} of CAN database {self.path}"
-                                   f"{_line(self._problems.signal_lines.get((message.name, each)))} cannot be used: "
+            place = f"{self.path}{_line(self._problems.signal_lines.get((message.name, each)))}"
+            raise ConnectionFailed(f"Signal {name} of message {message.name} of CAN database {place} cannot be used: "
                                    f"{problem}.")
         raise ConnectionFailed(f"Message {message.name} of CAN database {self.path} has no signal {name}.")
 

@@ -61,6 +61,8 @@ def _listen(learning: Learning, stdin: TextIO, wait: Callable[[float], None]) ->
     while (stage := learning.tick()) is not Stage.COMPLETE:
         if stage is Stage.REST and before is not stage:
             _say(f"Listening for {REST_S:.0f} s; leave the Car alone.")
+        if before is Stage.REST and stage is Stage.ASKED:
+            _say(f"{session.recording.count / REST_S:.0f} frames a second.")
         before = stage
         if stage is not Stage.ASKED:
             wait(_POLL_S)

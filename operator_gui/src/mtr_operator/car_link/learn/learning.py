@@ -6,12 +6,12 @@ import threading
 import time
 from typing import Callable
 
-from mtr_operator.domain.errors import ConnectionFailed, OperatorError
+from mtr_operator.domain.errors import ConnectionFailed, NothingLearned, OperatorError
 
 from ..can_frame import CanFrame
 from .findings import Findings, findings_of
 from .listener import Listener
-from .session import DEFAULT_PROMPTS, LearnSession, Stage
+from .session import DEFAULT_PROMPTS, REST_S, LearnSession, Stage
 
 # Makes what listens; it is given what takes each frame.
 Listen = Callable[[Callable[[CanFrame], None]], Listener]
@@ -37,12 +37,17 @@ class Learning:
         self._opening.start()
 
     def tick(self) -> Stage:
-        """Time has passed; the stage at hand. ConnectionFailed when the adapter cannot be used, or not any more."""
+        """Time has passed; the stage at hand. ConnectionFailed when the adapter cannot be used, or not any more;
+        NothingLearned when not one frame has come while the Car was left alone."""
         if self._failure is not None:
             raise self._failure
         if self._listener.problem:
             raise ConnectionFailed(self._listener.problem)
-        return self.session.tick(self._clock())
+        before, stage = self.session.stage, self.session.tick(self._clock())
+        if before is Stage.REST and stage is Stage.ASKED and not self.session.recording.count:
+            raise NothingLearned(f"Nothing came over the bus in {REST_S:.0f} s; check bit rate, plug and whether the "
+                                 "Car is awake.")
+        return stage
 
     def done(self) -> None:
         """The person says that the Car is as it was asked for."""

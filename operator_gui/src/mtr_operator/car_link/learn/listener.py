@@ -6,6 +6,7 @@ import time
 from typing import Callable
 
 from ..adapter import AdapterSettings, open_adapter
+from ..bus_trouble import BusTrouble
 from ..can_frame import CanFrame
 from ..reader import CanReader, FrameSink
 
@@ -18,6 +19,7 @@ class Listener(FrameSink):
                  clock: Callable[[], float] = time.monotonic):
         self._heard = heard
         self._fault = ""
+        self._trouble = BusTrouble(settings)
         self._reader = CanReader(lambda: open_adapter(settings), self, settings.interface, clock)
 
     def start(self) -> None:
@@ -31,14 +33,16 @@ class Listener(FrameSink):
     @property
     def problem(self) -> str:
         """What is wrong with the adapter now, one sentence; empty when nothing is."""
-        return self._fault
+        return self._fault or self._trouble.no_frame
 
     def frame(self, frame: CanFrame) -> None:
         """See FrameSink."""
+        self._trouble.frame(frame)
         self._heard(frame)
 
     def error_frame(self) -> None:
-        """See FrameSink: one alone says nothing, and many are told as a fault of the controller."""
+        """See FrameSink: some alone say nothing, and many without a frame are a wrong bit rate."""
+        self._trouble.error_frame()
 
     def frames_lost(self) -> None:
         """See FrameSink: what follows the locks is seen in the frames that came."""

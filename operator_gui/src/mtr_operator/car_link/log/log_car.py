@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import pathlib
-from typing import Callable, Iterator, Mapping, Sequence
+from typing import Iterator, Mapping, Sequence
 
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
@@ -20,7 +20,21 @@ from .text.lines import LoggedFrame
 
 # For so long a jump of the log's time is told, and the end of a gap: longer than a Status takes to be looked at.
 _TOLD_S = 1.0
+_PLAYED = "none: the log {} was played"
 _NOT_CONNECTED = "The CAN log is not open."
+
+
+def played_log(session: Mapping[str, str]) -> str:
+    """Name of the log that a test played in place of a bus, by its record; empty when it played none."""
+    begin, end = _PLAYED.split("{}")
+    adapter = session.get(CAN_ADAPTER, "")
+    return adapter[len(begin):-len(end)] if adapter.startswith(begin) and adapter.endswith(end) else ""
+
+
+def played_frame(frame: LoggedFrame, begin_s: float, profile: CarProfile) -> CanFrame:
+    """A frame of a log whose times begin at begin_s of the robot's clock, which times frames and Statuses alike."""
+    return CanFrame(frame.can_id, frame.is_extended, frame.data, begin_s + frame.time_s, kind=StampKind.ARRIVAL,
+                    is_fd=frame.is_fd, bus=profile.further.bus_of(frame.channel))
 
 
 class LogCarLink(CarLink):
@@ -36,7 +50,6 @@ class LogCarLink(CarLink):
         self._watch: LockWatch | None = None
         self._log: ReadLog | None = None
         self._frames: Iterator[LoggedFrame] = iter(())
-        self._bus_of: Callable[[int], str] = str
         self._next: LoggedFrame | None = None
         self._begin_s = self._stamp_s = math.nan
         self._noted, self._noted_until_s = "", -math.inf
@@ -44,7 +57,6 @@ class LogCarLink(CarLink):
     def connect(self) -> None:
         """See CarLink; ConnectionFailed when the log holds no frame."""
         self._profile = profile = load_profile(self._profile_name)
-        self._bus_of = profile.further.bus_of
         self._watch = LockWatch(self._profile)
         self._log = ReadLog(self._path, profile.identifiers)
         self._frames = iter(self._log)
@@ -54,17 +66,13 @@ class LogCarLink(CarLink):
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
-        watch = self._watch
-        if watch is None:
+        watch, profile = self._watch, self._profile
+        if watch is None or profile is None:
             raise ConnectionFailed(_NOT_CONNECTED)
         if math.isnan(self._begin_s) and self._next is not None:
             self._begin_s = status.stamp_s - self._next.time_s
         while self._next is not None and self._begin_s + self._next.time_s <= status.stamp_s:
-            frame = self._next
-            # Frames and Statuses are on one clock here, the robot's.
-            watch.frame(CanFrame(frame.can_id, frame.is_extended, frame.data, self._begin_s + frame.time_s,
-                                 kind=StampKind.ARRIVAL, is_fd=frame.is_fd,
-                                 bus=self._bus_of(frame.channel)))
+            watch.frame(played_frame(self._next, self._begin_s, profile))
             self._next = next(self._frames, None)
         self._stamp_s = status.stamp_s
         self._look_at_log()
@@ -102,7 +110,7 @@ class LogCarLink(CarLink):
     @property
     def record(self) -> Mapping[str, str]:
         """See CarLink."""
-        return {CAN_ADAPTER: f"none: the log {self._path.name} was played"}
+        return {CAN_ADAPTER: _PLAYED.format(self._path.name)}
 
     @property
     def problem(self) -> str:

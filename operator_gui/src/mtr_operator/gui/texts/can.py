@@ -35,7 +35,6 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "A CAN log of the format mf4 needs the Python package asammdf, which is not "
                                   "installed; install it, or choose blf."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} cannot be written: {}."),
-    QT_TRANSLATE_NOOP("Sentence", "{} is no CAN log; known are files that end in {}."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} needs the Python package asammdf, which is not installed."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} cannot be read: it is damaged or of another format."),
@@ -51,4 +50,11 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The course {} is damaged in line {}, or of another version."),
     QT_TRANSLATE_NOOP("Sentence", "The car's profile names an output that takes the handle, and the CAN adapter only "
                                   "listens: a person takes it; choose normal mode (--can-normal) to have it switched."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is no CAN log: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} names the buses {}, and only names with different numbers, "
+                                  "such as can0 and can1, say which is which."),
+    QT_TRANSLATE_NOOP("Sentence", "A CAN log of the format {} holds no CAN FD frame; choose blf or asc "
+                                  "(--can-log-format)."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} holds no frame that is understood: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The CAN log {} holds no frame: {}; read are {}."),
 )

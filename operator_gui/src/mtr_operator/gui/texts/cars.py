@@ -41,4 +41,14 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The Car's locks moved while {} was open."),
     QT_TRANSLATE_NOOP("Sentence", "The Car was {} by something that its profile does not list ({}), not by {}; leave "
                                   "its doors and switches alone during the test."),
+    QT_TRANSLATE_NOOP("Sentence", "Message {} of CAN database {} cannot be used: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Signal {} of message {} of CAN database {} cannot be used: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} is {}; allowed are the lowest and the highest value of "
+                                  "the counter, such as [0, {}], up to {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: states names values for locked and unlocked that the signal "
+                                  "{} of {} bits cannot carry."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} has {} and {}, which are the same bits, with two "
+                                  "meanings."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: no signal can carry a value that states lists as {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} belongs to {}, which is missing."),
 )

@@ -5,6 +5,8 @@ from PyQt5.QtCore import QT_TRANSLATE_NOOP
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The number of prompts is {}; allowed are even numbers from {} to {}."),
     QT_TRANSLATE_NOOP("Sentence", "Nothing came over the bus; check bit rate, plug and whether the Car is awake."),
+    QT_TRANSLATE_NOOP("Sentence", "Nothing came over the bus in {} s; check bit rate, plug and whether the Car is "
+                                  "awake."),
     QT_TRANSLATE_NOOP("Sentence", "No bit of any message followed all prompts; repeat it, and act only when asked. A "
                                   "Car that tells its locks on another bus cannot be learned from this one."),
     QT_TRANSLATE_NOOP("Sentence", "The profile is called {}; allowed are letters, digits, - and _, and .yaml at the "
@@ -24,4 +26,6 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "check sum in byte {}"),
     QT_TRANSLATE_NOOP("Sentence", "{} more changes"),
     QT_TRANSLATE_NOOP("Sentence", "not cyclic"),
+    QT_TRANSLATE_NOOP("Sentence", "The profile {} was written, and does not understand {} of the {} frames from "
+                                  "which it was learned; learn again with more prompts."),
 )

@@ -5552,6 +5552,76 @@
     </message>
     <message>
         <location filename="../texts/learn.py" line="5"/>
+        <source>Nothing came over the bus in {} s; check bit rate, plug and whether the Car is awake.</source>
+        <translation>Po sběrnici za {} s nic nepřišlo; zkontrolujte přenosovou rychlost, konektor a zda auto nespí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Message {} of CAN database {} cannot be used: {}.</source>
+        <translation>Zprávu {} databáze CAN {} nelze použít: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Signal {} of message {} of CAN database {} cannot be used: {}.</source>
+        <translation>Signál {} zprávy {} databáze CAN {} nelze použít: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} is {}; allowed are the lowest and the highest value of the counter, such as [0, {}], up to {}.</source>
+        <translation>Profil auta {}: {} je {}; povolena je nejnižší a nejvyšší hodnota čítače, například [0, {}], nejvýše {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: states names values for locked and unlocked that the signal {} of {} bits cannot carry.</source>
+        <translation>Profil auta {}: states uvádí pro zamčeno a odemčeno hodnoty, které signál {} o {} bitech nemůže mít.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} has {} and {}, which are the same bits, with two meanings.</source>
+        <translation>Profil auta {}: {} má {} a {}, což jsou tytéž bity, se dvěma významy.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: no signal can carry a value that states lists as {}.</source>
+        <translation>Profil auta {}: žádný signál nemůže mít hodnotu, kterou states uvádí jako {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} belongs to {}, which is missing.</source>
+        <translation>Profil auta {}: {} patří k {}, což chybí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
+        <source>The profile {} was written, and does not understand {} of the {} frames from which it was learned; learn again with more prompts.</source>
+        <translation>Profil {} byl zapsán a nerozumí {} z {} rámců, ze kterých se učil; opakujte učení s více výzvami.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>{} is no CAN log: {}</source>
+        <translation>{} není záznam CAN: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} names the buses {}, and only names with different numbers, such as can0 and can1, say which is which.</source>
+        <translation>Záznam CAN {} uvádí sběrnice {}, a jen názvy s různými čísly, například can0 a can1, říkají, která je která.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>A CAN log of the format {} holds no CAN FD frame; choose blf or asc (--can-log-format).</source>
+        <translation>Záznam CAN ve formátu {} neobsáhne rámce CAN FD; zvolte blf nebo asc (--can-log-format).</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} holds no frame that is understood: {}.</source>
+        <translation>Záznam CAN {} neobsahuje srozumitelný rámec: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/can.py" line="5"/>
+        <source>The CAN log {} holds no frame: {}; read are {}.</source>
+        <translation>Záznam CAN {} neobsahuje žádný rámec: {}; čtou se {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/learn.py" line="5"/>
         <source>No bit of any message followed all prompts; repeat it, and act only when asked. A Car that tells its locks on another bus cannot be learned from this one.</source>
         <translation>Žádný bit žádné zprávy neodpovídal všem výzvám; opakujte to a jednejte jen na výzvu. Auto, které o zámcích vypovídá na jiné sběrnici, se z této naučit nelze.</translation>
     </message>
@@ -5619,11 +5689,6 @@
         <location filename="../texts/can.py" line="5"/>
         <source>The CAN log {} cannot be written: {}.</source>
         <translation>Záznam CAN {} nelze zapsat: {}.</translation>
-    </message>
-    <message>
-        <location filename="../texts/can.py" line="5"/>
-        <source>{} is no CAN log; known are files that end in {}.</source>
-        <translation>{} není záznam CAN; známé jsou soubory s koncovkou {}.</translation>
     </message>
     <message>
         <location filename="../texts/can.py" line="5"/>

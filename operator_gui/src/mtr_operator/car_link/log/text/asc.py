@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from .lines import Line, LineReader, Names, Read, Unreadable, WrongShape, fd_length, frame, some_bytes
+from .lines import Line, LineReader, Names, Read, WrongShape, fd_length, frame, some_bytes
 
 _HEADER = re.compile(r"(date\s|base\s+(hex|dec)|(no\s+)?internal\s+events|//|(begin|end)\s+triggerblock|measurement|"
                      r"previous\s+log|\#)", re.IGNORECASE)
@@ -65,7 +65,7 @@ class Asc(LineReader):
             return Line.NO_DATA
         code, *words = _DATA_END.split(rest)[0].split()[:9] or [""]
         if not re.fullmatch(r"[0-9A-Fa-f]{1,2}", code):
-            raise Unreadable("has no length of its data")
+            raise ValueError("has no length of its data")
         length = min(int(code, self._base), 8)
         return frame(self._time_s, can_id, is_extended, some_bytes(words, length, self._base),
                      channel=_channel(channel))
@@ -73,13 +73,13 @@ class Asc(LineReader):
     def _fd(self, channel: str, identifier: str, rest: str) -> Read:
         values = _FD_VALUES.match(rest)
         if values is None:
-            raise Unreadable("is no complete CAN FD frame")
+            raise ValueError("is no complete CAN FD frame")
         can_id, is_extended = self._identifier(identifier, rest)
         code, length = int(values[3], _HEX), int(values[4])
         if not length and code:
             return Line.NO_DATA
         if length > fd_length(code):
-            raise Unreadable(f"says {length} bytes of data with the data length code {code}")
+            raise ValueError(f"says {length} bytes of data with the data length code {code}")
         return frame(self._time_s, can_id, is_extended, some_bytes(values[5].split(), length, self._base), is_fd=True,
                      channel=_channel(channel))
 
@@ -97,9 +97,9 @@ class Asc(LineReader):
         if written is not None and not text[:1].isdecimal():
             return int(written[1]), bool(written[2])
         if can_id < 0:
-            raise Unreadable(f"has the name {text} in place of an identifier, and the CAN database of the car profile "
+            raise ValueError(f"has the name {text} in place of an identifier, and the CAN database of the car profile "
                              "has no such message")
-        raise Unreadable(f"has the identifier {text}, which is too large")
+        raise ValueError(f"has the identifier {text}, which is too large")
 
 
 def _channel(text: str) -> int:

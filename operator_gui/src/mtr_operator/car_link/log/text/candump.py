@@ -12,7 +12,6 @@ from .lines import (
     Line,
     LineReader,
     Read,
-    Unreadable,
     WrongShape,
     frame,
     hex_bytes,
@@ -82,7 +81,7 @@ class CandumpConsole(LineReader):
             raise WrongShape
         time_text, name, id_text, length, rest = match.groups()
         if time_text is None:
-            raise Unreadable("has no time; record the bus with candump -l, or with -t a")
+            raise ValueError("has no time; record the bus with candump -l, or with -t a")
         time_s = _time(time_text)
         if self._are_steps:
             self._sum_s += time_s
@@ -98,7 +97,7 @@ class CandumpConsole(LineReader):
 def _time_or_nan(text: str) -> float:
     try:
         return _time(text)
-    except Unreadable:
+    except ValueError:
         return math.nan
 
 

@@ -35,11 +35,7 @@ class Line(Enum):
     NO_DATA = "no data"
 
 
-class Unreadable(Exception):
-    """A line that is left out; the text says why."""
-
-
-class WrongShape(Unreadable):
+class WrongShape(ValueError):
     """A line of another kind than those that the reader knows."""
 
     def __init__(self) -> None:
@@ -49,9 +45,16 @@ class WrongShape(Unreadable):
 class Damaged(Exception):
     """A frame that no bus has carried; the log ends before it."""
 
+    def __init__(self) -> None:
+        super().__init__("holds what no bus has carried")
+
 
 class Ambiguous(Exception):
-    """A log that does not say what is needed; the text says what."""
+    """Buses of which nothing says which is which. Attributes: names: of them."""
+
+    def __init__(self, names: Sequence[str]):
+        self.names = " and ".join(names)
+        super().__init__(f"names the buses {self.names}")
 
 
 Read = Union[LoggedFrame, Line]
@@ -68,7 +71,7 @@ class LineReader(ABC):
 
     @abstractmethod
     def read(self, line: str) -> Read:
-        """What a line says, which is not empty; Unreadable or Damaged when it says nothing that is understood."""
+        """What a line says, which is not empty; ValueError, whose text says why, when it is to be left out."""
 
     def prepare(self, lines: Sequence[str]) -> None:  # noqa: B027, most kinds say in their header what they mean
         """The first lines, before they are read, for a kind that does not say which unit or origin its times have."""
@@ -91,9 +94,7 @@ class Channels:
         self._is_unnumbered = self._is_unnumbered or match is None
         self._numbers[name] = number
         if len(self._numbers) > 1 and (self._is_unnumbered or len(set(self._numbers.values())) < len(self._numbers)):
-            names = " and ".join(self._numbers)
-            raise Ambiguous(f"names the buses {names}, and only names with different numbers, such as can0 and can1, "
-                            "say which is which")
+            raise Ambiguous(list(self._numbers))
         return number
 
 
@@ -124,21 +125,21 @@ def hex_bytes(text: str) -> bytes:
     try:
         return bytes.fromhex(text)
     except ValueError:
-        raise Unreadable("has a byte that is no hexadecimal number") from None
+        raise ValueError("has a byte that is no hexadecimal number") from None
 
 
 def some_bytes(words: Sequence[str], count: int, base: int = 16) -> bytes:
     """The first words as data; what follows them is another column."""
     if len(words) < count:
-        raise Unreadable(f"has {len(words)} bytes of data, and says {count}")
+        raise ValueError(f"has {len(words)} bytes of data, and says {count}")
     try:
         return bytes(int(word, base) for word in words[:count])
     except ValueError:
-        raise Unreadable("has a byte of data that is no number") from None
+        raise ValueError("has a byte of data that is no number") from None
 
 
 def fd_length(code: int) -> int:
     """Bytes of a data length code."""
     if not 0 <= code < len(_FD_LENGTHS):
-        raise Unreadable(f"has the data length code {code}")
+        raise ValueError(f"has the data length code {code}")
     return int(_FD_LENGTHS[code])

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import Sequence
 
-from .lines import Line, LineReader, Read, Unreadable, WrongShape, frame, hex_bytes, hex_id, seconds, some_bytes
+from .lines import Line, LineReader, Read, WrongShape, frame, hex_bytes, hex_id, seconds, some_bytes
 from .tables import unit_s
 
 _DAY_S = 86_400.0
@@ -37,14 +37,14 @@ class Busmaster(LineReader):
             raise WrongShape
         hours, minutes, secs, parts, _, _, channel, id_text, kind, length, rest = match.groups()
         if parts is None:
-            raise Unreadable("has no time in hours, minutes and seconds")
+            raise ValueError("has no time in hours, minutes and seconds")
         self._at(3600.0 * int(hours) + 60.0 * int(minutes) + int(secs) + int(parts) / _PER_S)
         if kind.lower().endswith("r"):
             return Line.NO_DATA
         try:
             can_id = int(id_text, 16 if id_text.lower().startswith("0x") else self._base)
         except ValueError:
-            raise Unreadable(f"has the name {id_text} in place of an identifier") from None
+            raise ValueError(f"has the name {id_text} in place of an identifier") from None
         return frame(self._time_s, can_id, kind.lower().startswith("x"),
                      some_bytes(rest.split(), int(length), self._base), is_fd="fd" in kind.lower(),
                      channel=max(int(channel) - 1, 0))

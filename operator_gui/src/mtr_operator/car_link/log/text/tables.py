@@ -14,7 +14,6 @@ from .lines import (
     Line,
     LineReader,
     Read,
-    Unreadable,
     WrongShape,
     frame,
     hex_bytes,
@@ -107,7 +106,7 @@ class Table(LineReader):
             return Line.NOTHING
         values = self._values(line)
         if len(values) < len({*self._columns}) - 1 or _TIME not in values or _ID not in values:
-            raise Unreadable(f"has {line.count(self._delimiter) + 1} columns, and {len(self._columns)} are wanted")
+            raise ValueError(f"has {line.count(self._delimiter) + 1} columns, and {len(self._columns)} are wanted")
         time_s = seconds(values[_TIME]) * (self._unit_s or 1.0)
         if values.get(_REMOTE) == "1" or values.get(_ERROR) == "1":
             return Line.NO_DATA
@@ -123,10 +122,10 @@ class Table(LineReader):
             try:
                 return base64.b64decode(text, validate=True)
             except (binascii.Error, ValueError):
-                raise Damaged("has data that are not in base 64") from None
+                raise Damaged from None
         words = text.replace(self._delimiter, " ").split()
         if length and not re.fullmatch(r"\d{1,2}", length):
-            raise Unreadable(f"has the length {length}")
+            raise ValueError(f"has the length {length}")
         if not length:
             return hex_bytes("".join(words))
         count = int(length)

@@ -12,7 +12,7 @@ from mtr_operator.domain.errors import ConnectionFailed
 
 from .asc import Asc
 from .candump import CandumpConsole, CandumpLog
-from .lines import Ambiguous, Damaged, Line, LineReader, LoggedFrame, Names, Unreadable, WrongShape
+from .lines import Ambiguous, Damaged, Line, LineReader, LoggedFrame, Names, WrongShape
 from .others import Busmaster, Crtd, TimeIdData
 from .tables import Table
 from .trc import CanHackerTrace, PcanTrace
@@ -30,7 +30,7 @@ Numbered = Tuple[int, str]
 
 class _Trial(NamedTuple):
     """score: frames first. place: of the reader. first: what is wrong with the first line that is known and not read.
-    ambiguity: why the log cannot be used."""
+    ambiguity: buses of which nothing says which is which."""
 
     score: tuple[int, int, bool, bool, int]
     place: int
@@ -67,7 +67,8 @@ class TextLog:
             self._head = [(number, text.strip()) for number, (text, _) in lines if text.strip()]
         best = _best(self._head, names, path.suffix.lower())
         if best.ambiguity:
-            raise ConnectionFailed(f"The CAN log {path} {best.ambiguity}.")
+            raise ConnectionFailed(f"The CAN log {path} names the buses {best.ambiguity}, and only names with "
+                                   "different numbers, such as can0 and can1, say which is which.")
         if not best.score[0]:
             raise ConnectionFailed(_refusal(path, self._head, best.first))
         self._place = best.place
@@ -80,7 +81,7 @@ class TextLog:
                 line = text.strip()
                 try:
                     read = reader.read(line) if line else Line.NOTHING
-                except Unreadable as error:
+                except ValueError as error:
                     self._leave_out(number, line, str(error))
                     continue
                 except (Damaged, Ambiguous) as error:
@@ -125,11 +126,11 @@ def _tried(reader: LineReader, place: int, head: Sequence[Numbered], suffix: str
             frames += isinstance(reader.read(line), LoggedFrame)
         except WrongShape:
             continue
-        except (Unreadable, Damaged) as error:
+        except (ValueError, Damaged) as error:
             known += 1
             first = first or _said(number, line, str(error))
         except Ambiguous as error:
-            return _Trial((len(head), 0, True, True, -place), place, first, str(error))
+            return _Trial((len(head), 0, True, True, -place), place, first, error.names)
     return _Trial((frames, known, reader.is_recognized, _BY_SUFFIX.get(suffix) == reader.name, -place), place, first)
 
 

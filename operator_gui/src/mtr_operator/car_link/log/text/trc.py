@@ -9,7 +9,6 @@ from .lines import (
     Line,
     LineReader,
     Read,
-    Unreadable,
     WrongShape,
     fd_length,
     frame,
@@ -69,7 +68,7 @@ class PcanTrace(LineReader):
         words = rest.split()
         data = hex_bytes(rest) if len(words) == 1 and length > 1 else some_bytes(words, length)
         if len(data) != length:
-            raise Unreadable(f"has {len(data)} bytes of data, and says {length}")
+            raise ValueError(f"has {len(data)} bytes of data, and says {length}")
         channel = max(int(values["B"]) - 1, 0) if values.get("B", "").isdecimal() else 0
         return frame(time_s, hex_id(id_text), len(id_text) > _STANDARD_DIGITS, data, is_fd=is_fd, channel=channel)
 
@@ -96,5 +95,5 @@ class CanHackerTrace(LineReader):
 
 def _number(text: str) -> int:
     if not re.fullmatch(r"\d{1,2}", text):
-        raise Unreadable("has no length of its data")
+        raise ValueError("has no length of its data")
     return int(text)
