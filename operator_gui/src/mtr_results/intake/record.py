@@ -26,6 +26,7 @@ from mtr_operator.storage.recovery import progress_path
 
 from ..errors import StoreError
 from .measurements import assessment_of, line_rows, measurement_rows, verdict_rows
+from .same_content import own_document
 from .source import files_of
 from .trials import Row, trials_of
 
@@ -39,6 +40,7 @@ class TestRecord:
 
     Attributes:
         test: columns of its own. car, key, equipment: whom and what it names. files: where each file lies, by name.
+        own: what its file states itself, without the defaults of this version of the program.
     """
 
     # The name would make pytest collect it.
@@ -53,6 +55,7 @@ class TestRecord:
     trials: list[Row]
     verdicts: list[Row]
     files: Mapping[str, pathlib.Path]
+    own: Mapping[str, Any]
 
     @property
     def reach(self) -> Reach:
@@ -67,7 +70,8 @@ def read_record(path: pathlib.Path) -> TestRecord:
         journal = journal_of(progress_path(path))
         # A journal that does not fit is not what the progress was taken from.
         fits = side.progress.kept is not None and journal.mark is not None and journal.mark.id == side.progress.kept.id
-        return _record(entry_of(path, side), side, journal.entries if fits else (), files_of(path))
+        own = own_document(path, side.progress) or side.progress.to_document()
+        return _record(entry_of(path, side), side, journal.entries if fits else (), files_of(path), own)
     except OperatorError:
         raise
     except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, OSError) as error:
@@ -75,7 +79,7 @@ def read_record(path: pathlib.Path) -> TestRecord:
 
 
 def _record(entry: TestEntry, side: Side, entries: tuple[Entry, ...],
-            files: Mapping[str, pathlib.Path]) -> TestRecord:
+            files: Mapping[str, pathlib.Path], own: Mapping[str, Any]) -> TestRecord:
     progress, identity = side.progress, side.progress.identity or NOBODY
     document = json.dumps(progress.to_document(), sort_keys=True, allow_nan=False).encode("utf-8")
     assessment, trials = assessment_of(side), trials_of(entries, progress.results)
@@ -88,7 +92,7 @@ def _record(entry: TestEntry, side: Side, entries: tuple[Entry, ...],
     return TestRecord(test, {"vin": identity.car_vin, "model": identity.car_model, "software": identity.car_software},
                       {"serial": identity.key_serial, "type": identity.key_type}, _equipment(identity),
                       [*line_rows(side, {row["line"] for row in trials})], measurement_rows(side, assessment, entries),
-                      trials, [*verdict_rows(assessment)], files)
+                      trials, [*verdict_rows(assessment)], files, own)
 
 
 def _session(progress: Progress) -> Row:

@@ -15,6 +15,7 @@ from sqlalchemy.exc import IntegrityError
 
 from ..errors import OtherContents, StoreError
 from ..intake.record import TestRecord
+from ..intake.same_content import states_the_same
 from ..intake.trials import Row
 from ..model.base import Base
 from ..model.subjects import Campaign, Car, Equipment, Key, TestEquipment
@@ -73,7 +74,7 @@ def _is_more(connection: Connection, known: Known[Any], record: TestRecord) -> b
     """True when the copy replaces the one in the store; OtherContents when it is none of the same test, or the nearer
     one of the two has what the other lacks."""
     reach, name = (known.entries, known.has_journal), f"The test {record.test['test_key']}"
-    if record.test["entries"] == known.entries and record.test["digest"] != known.digest:
+    if record.test["entries"] == known.entries and not _is_same(connection, known, record):
         raise OtherContents(f"{name} is in the store with other contents; one of the two was changed. The store is as "
                             "it was.")
     there, here = stored_findings(connection, known.id), Findings(record.measurements, record.trials)
@@ -87,6 +88,14 @@ def _is_more(connection: Connection, known: Known[Any], record: TestRecord) -> b
                             "one was changed, or the journal of this one is missing. The store is as it was.")
     # A former version of this program may have filed the same points otherwise.
     return record.reach > reach or here.trials != there.trials
+
+
+def _is_same(connection: Connection, known: Known[Any], record: TestRecord) -> bool:
+    """True when two copies that reach equally far state the same; a digest also depends on the program's version."""
+    if record.test["digest"] == known.digest:
+        return True
+    stored = connection.execute(select(Test.document).where(Test.id == known.id)).scalar_one()
+    return states_the_same(record.own, stored)
 
 
 def _replace(connection: Connection, number: int, record: TestRecord, files: Sequence[Row], place: Row) -> None:

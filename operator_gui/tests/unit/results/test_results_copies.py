@@ -1,18 +1,21 @@
 """Copies of one test: the store takes one that continues the other, and never drops what was measured."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import pathlib
 import shutil
+import zlib
 
 import measured
 import pytest
-from sqlalchemy import update
+from sqlalchemy import select, update
 
 from mtr_operator.domain.results.journal import LINE, LINE_BEGUN, POINT
+from mtr_operator.domain.results.progress import Progress
 from mtr_operator.evidence.bundle import write_bundle
 from mtr_operator.evidence.station_key import Station
 from mtr_operator.storage.journal.journal_file import Entry, journal_path, line_of, read_journal
 from mtr_operator.storage.progress_file import FILE_NAME
-from mtr_results.model.tests import Trial
+from mtr_results.model.tests import Test, Trial
 from mtr_results.store import reading
 
 
@@ -102,3 +105,70 @@ def test_points_that_a_former_version_filed_otherwise_are_filed_anew(place, tmp_
     assert [door.take(path).outcome, door.take(path).outcome] == ["extended", "known"]
     with place.open().reading() as connection:
         assert [trial["line"] for trial in reading.parts(connection, 1)["trials"]] == [1, 1, 1, 2]
+
+
+GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "written_before"
+
+
+def golden_tests(tmp_path):
+    """Tests in files of earlier releases, and one that states fewer parameters than this release knows."""
+    made = [shutil.copytree(folder, tmp_path / folder.name) / FILE_NAME for folder in sorted(GOLDEN.iterdir())]
+    few = measured.in_folder(tmp_path / "few parameters", 5.0, 6.0)
+    document = json.loads(few.read_text(encoding="utf-8"))
+    document["parameters"] = dict(list(document["parameters"].items())[:3])
+    few.write_text(json.dumps(document), encoding="utf-8")
+    return [*made, few, measured.journalled(tmp_path / "journalled", [5.0, 6.0], mark="b2")]
+
+
+def release_with_more(monkeypatch):
+    """The next release knows one field more of tests, parameters and results."""
+    to_document = Progress.to_document
+
+    def with_more(progress):
+        document = to_document(progress)
+        return {**document, "later": True, "parameters": {**document["parameters"], "later_m": 1.0},
+                "results": [{**result, "later_m": None} for result in document["results"]]}
+    monkeypatch.setattr(Progress, "to_document", with_more)
+
+
+@pytest.mark.parametrize("stated", [True, False])
+def test_parameter_that_a_file_does_not_state_may_have_had_another_default(any_place, tmp_path, stated):
+    path = measured.in_folder(tmp_path / "one", 5.0)
+    document = json.loads(path.read_text(encoding="utf-8"))
+    name = next(name for name, value in document["parameters"].items() if isinstance(value, float))
+    if not stated:
+        del document["parameters"][name]
+        path.write_text(json.dumps(document), encoding="utf-8")
+    any_place.door().take(path)
+    with any_place.open().writing() as connection:
+        stored = json.loads(zlib.decompress(connection.execute(select(Test.document)).scalar_one()))
+        stored["parameters"][name] += 0.125
+        connection.execute(update(Test).values(digest="of then", document=zlib.compress(json.dumps(stored).encode())))
+    assert any_place.door().take(path).outcome == ("refused" if stated else "known")
+
+
+def test_tests_of_an_earlier_release_are_known_after_the_next_one(any_place, tmp_path, monkeypatch):
+    paths = golden_tests(tmp_path)
+    door = any_place.door()
+    assert {door.take(path).outcome for path in paths} == {"added"}
+    before = kept(any_place)
+    release_with_more(monkeypatch)
+    found = [door.take(path) for path in paths]
+    assert [(each.outcome, each.sentence) for each in found if each.outcome != "known"] == []
+    assert kept(any_place) == before
+
+
+@pytest.mark.parametrize("change", [
+    lambda document: document["parameters"].update(interval_m=9.0),
+    lambda document: document["session"].update(robot="another"),
+    lambda document: document["results"].pop(), lambda document: document["results"][0].update(status="invalid"),
+    lambda document: document.update(car=None)])
+def test_test_that_was_changed_is_refused_after_the_next_release_too(any_place, tmp_path, monkeypatch, change):
+    path = measured.in_folder(tmp_path / "one", 5.0, 6.0)
+    door = any_place.door()
+    door.take(path)
+    release_with_more(monkeypatch)
+    document = json.loads(path.read_text(encoding="utf-8"))
+    change(document)
+    path.write_text(json.dumps(document), encoding="utf-8")
+    assert door.take(path).outcome in ("refused", "failed")
