@@ -14,7 +14,7 @@ from ..store.sets import FACTORS
 from ..web.access import PORT
 from .comparing import compare, show_trend, spread
 from .exporting import export, query
-from .importing import import_tests, upgrade
+from .importing import import_tests, list_waiting, upgrade
 from .listing import list_tests, show_test
 from .meant import FILTERS
 from .reporting import report
@@ -43,11 +43,19 @@ def _importing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
                          help="take only bundles that are signed with this key, or another one that is named so; "
                               "without any, each intact bundle is taken")
     command.add_argument("--campaign", default="", help="name under which the tests belong together")
-    command.add_argument("--spool", type=pathlib.Path, default=None,
-                         help=f"folder in which tests wait while the store is away (default {default_spool()})")
+    _add_spool(command)
     command.set_defaults(run=import_tests)
+    command = commands.add_parser("spool", help="tests that wait on this computer, and for which store")
+    _add_spool(command)
+    command.add_argument("--json", action="store_true", help="for a program")
+    command.set_defaults(run=list_waiting)
     command = commands.add_parser("upgrade", parents=[_of_store()], help="a store of an older version to this one")
     command.set_defaults(run=upgrade)
+
+
+def _add_spool(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--spool", type=pathlib.Path, default=None,
+                         help=f"folder in which tests wait while the store is away (default {default_spool()})")
 
 
 def _listing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -12,6 +12,8 @@ from ..errors import StoreError
 from ..intake.source import tests_in
 from ..store.database import Database, engine_of
 from ..store.intake import REFUSED, Door, Intake
+from ..store.place import default_spool
+from ..store.spool import Spool
 from .meant import place_of
 from .output import print_json
 
@@ -40,6 +42,18 @@ def _taken(door: Door, options: argparse.Namespace) -> Iterator[Intake]:
             yield Intake(str(path), REFUSED, str(error))
             continue
         yield from (door.take(test, options.campaign) for test in tests)
+
+
+def list_waiting(options: argparse.Namespace) -> int:
+    """List the tests that wait on this computer, and for which store."""
+    spool = Spool(options.spool or default_spool())
+    rows = [{"path": str(place), "store": spool.store_of(place), "campaign": spool.campaign_of(place)}
+            for place in spool.all_waiting()]
+    if options.json:
+        print_json(rows)
+    for row in () if options.json else rows:
+        print(f"{row['path']}: waits for {row['store'] or 'a store that nobody knows'}")
+    return EXIT_PASS
 
 
 def upgrade(options: argparse.Namespace) -> int:

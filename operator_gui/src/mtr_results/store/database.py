@@ -24,6 +24,8 @@ CONNECT_S = 10.0
 _LOCK = 7_304_121
 _WRITES = "mtr_writes"
 _SQLITE, _POSTGRESQL = "sqlite", "postgresql"
+# Where a server listens that is named without a port.
+_PORT = 5432
 
 
 def engine_of(address: str) -> Engine:
@@ -95,6 +97,14 @@ class Database:
         """Of SQLite; None on a server."""
         url = self._engine.url
         return pathlib.Path(url.database) if url.get_backend_name() == _SQLITE and url.database else None
+
+    @property
+    def target(self) -> str:
+        """Which store it is: the whole path of a file; server and database without user and password."""
+        if self.file is not None:
+            return str(self.file.resolve())
+        url = self._engine.url
+        return f"{url.get_backend_name()}://{url.host or 'localhost'}:{url.port or _PORT}/{url.database or ''}"
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:

@@ -46,7 +46,10 @@ class Door:
         self._stations = stations
 
     def take_waiting(self) -> Iterator[Intake]:
-        """Tests of the spool, as far as the store takes them; one that it refuses goes on waiting, for a person."""
+        """Tests that wait for this store, as far as it takes them; one that it refuses waits on, for a person."""
+        for place in self._spool.unassigned():
+            yield Intake(str(place), REFUSED, f"Nobody knows for which store the test in {place} waits; import that "
+                                              "folder into its store, and delete it.")
         for place in self._spool.waiting() if self._database is not None else ():
             found = self.take(place / FILE_NAME, self._spool.campaign_of(place))
             if found.outcome not in (REFUSED, SPOOLED):
@@ -68,4 +71,5 @@ class Door:
                 place = self._spool.put(record, record_path, campaign)
         except OperatorError as error:
             return Intake(str(path), REFUSED, str(error))
-        return Intake(str(path), SPOOLED, f"{self._why} The test waits in {place}, and goes in with the next import.")
+        said = f"{self._why} The test waits in {place}, and goes in with the next import into this store."
+        return Intake(str(path), SPOOLED, said)

@@ -62,6 +62,11 @@ class Place:
         database = Database(engine_of(self.address))
         return database.where if database.file is None else str(database.file)
 
+    @property
+    def target(self) -> str:
+        """Which store it is, whoever opens it and from where; StoreError for what is no address."""
+        return Database(engine_of(self.address)).target
+
     def existing(self) -> Database:
         """The store, never made by who looks at it; StoreError says why it cannot be read."""
         database = Database(engine_of(self.address))
@@ -89,7 +94,7 @@ class Place:
 
         stations: see Door.
         """
-        spool = Spool(self.spool or default_spool())
+        spool = Spool(self.spool or default_spool(), self.target)
         try:
             return Door(self.open(), self.kept_files(), spool, stations=stations)
         except StoreAway as error:

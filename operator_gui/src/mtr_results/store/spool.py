@@ -1,4 +1,4 @@
-"""Tests that wait for a store that is away: copies in a folder, which go in with the next import."""
+"""Tests that wait for a store that is away: copies in a folder, which go in with the next import into that store."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,16 +17,20 @@ from ..intake.record import TestRecord
 
 _PART = ".part-"
 # Hidden, so that it is no file of the test.
-_CAMPAIGN = ".campaign"
+_CAMPAIGN, _STORE = ".campaign", ".store"
 # Of a copy, in its folder, as long as it is made.
 _WHOLE = "test"
 
 
 class Spool:
-    """A folder with a folder for each test that waits, named by its test, how far it came and what it measured."""
+    """A folder with a folder for each test that waits, named by its test, how far it came and what it measured.
 
-    def __init__(self, folder: pathlib.Path):
+    store: for which store tests wait, without its password; a test never goes into another one.
+    """
+
+    def __init__(self, folder: pathlib.Path, store: str = ""):
         self.folder = folder
+        self._store = store
 
     def put(self, record: TestRecord, path: pathlib.Path, campaign: str = "") -> pathlib.Path:
         """Copy the files of a test; it is there whole or not at all, and once. StoreError when that fails.
@@ -34,7 +38,7 @@ class Spool:
         path: of its progress file. campaign: into which it is to go.
         """
         # With its points: two copies that went on apart are two, though they came equally far.
-        measured = f"{record.test['test_key']} {record.reach} {record.test['digest']} {record.trials}"
+        measured = f"{self._store} {record.test['test_key']} {record.reach} {record.test['digest']} {record.trials}"
         name = hashlib.sha256(measured.encode()).hexdigest()[:24]
         target = self.folder / name
         if target.exists():
@@ -50,6 +54,7 @@ class Spool:
                     copied.parent.mkdir(parents=True, exist_ok=True)
                     shutil.copyfile(source, copied)
                 (part / _CAMPAIGN).write_text(campaign, encoding="utf-8")
+                (part / _STORE).write_text(self._store, encoding="utf-8")
                 _name(part, target)
         except OSError as error:
             raise StoreError(f"The test in {path} cannot wait in the folder {self.folder}: {error.strerror or error}. "
@@ -58,19 +63,35 @@ class Spool:
 
     def campaign_of(self, place: pathlib.Path) -> str:
         """Into which a test that waits is to go; empty when nobody said."""
-        with contextlib.suppress(OSError, ValueError):
-            return (place / _CAMPAIGN).read_text(encoding="utf-8")
-        return ""
+        return _read(place / _CAMPAIGN) or ""
 
-    def waiting(self) -> list[pathlib.Path]:
-        """Folders of the tests that wait, sorted."""
+    def store_of(self, place: pathlib.Path) -> str | None:
+        """For which store a test waits; None for one that was put here before that was kept."""
+        return _read(place / _STORE)
+
+    def all_waiting(self) -> list[pathlib.Path]:
+        """Folders of the tests that wait for any store, sorted."""
         if not self.folder.is_dir():
             return []
         return sorted(path for path in self.folder.iterdir() if path.is_dir() and not path.name.startswith(_PART))
 
+    def waiting(self) -> list[pathlib.Path]:
+        """Folders of the tests that wait for this store, sorted."""
+        return [place for place in self.all_waiting() if self.store_of(place) == self._store]
+
+    def unassigned(self) -> list[pathlib.Path]:
+        """Folders of the tests of which nobody knows for which store they wait, sorted."""
+        return [place for place in self.all_waiting() if self.store_of(place) is None]
+
     def remove(self, place: pathlib.Path) -> None:
         """A test that is in the store waits no longer; where that fails it goes in again, which changes nothing."""
         shutil.rmtree(place, ignore_errors=True)
+
+
+def _read(path: pathlib.Path) -> str | None:
+    with contextlib.suppress(OSError, ValueError):
+        return path.read_text(encoding="utf-8")
+    return None
 
 
 def _name(part: pathlib.Path, target: pathlib.Path) -> None:

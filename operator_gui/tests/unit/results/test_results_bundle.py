@@ -95,7 +95,8 @@ def test_a_bundle_of_a_test_of_a_newer_version_is_named_in_the_sentence(place, t
 
 def test_a_bundle_waits_in_the_spool_while_the_store_is_away(place, bundle, tmp_path):
     place.open()
-    away = type(place)("postgresql://nobody@127.0.0.1:1/none", tmp_path / "files", place.spool)
+    away = type(place)(str(tmp_path / "disk" / "store.sqlite"), spool=place.spool)
     (intake,) = taken(away, bundle)
     assert intake.outcome == "spooled"
-    assert [each.outcome for each in place.door().take_waiting()] == ["added"]
+    (tmp_path / "disk").mkdir()
+    assert [each.outcome for each in away.door().take_waiting()] == ["added"]

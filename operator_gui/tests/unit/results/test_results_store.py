@@ -23,6 +23,7 @@ import mtr_results.migrations
 from mtr_operator.domain.identity.identity import Equipment, Identity
 from mtr_operator.domain.verdict.limits_document import limits_from
 from mtr_operator.history.line_pairs import open_side
+from mtr_results.cli import main
 from mtr_results.errors import StoreAway, StoreError
 from mtr_results.intake.record import read_record
 from mtr_results.model.tables import EXPORTED, METADATA
@@ -234,6 +235,51 @@ def test_full_store_is_away_and_takes_what_waits_when_there_is_room(place, tmp_p
         with place.open().reading() as connection:
             assert reading.find(connection, Search()) == []
     assert [each.outcome for each in place.door().take_waiting()] == ["added"]
+
+
+@pytest.mark.parametrize("address", ["postgresql://me:secret@127.0.0.1:1/lab", "disk/store.sqlite"])
+def test_test_that_waits_for_one_store_goes_into_no_other(place, tmp_path, monkeypatch, capsys, address):
+    monkeypatch.chdir(tmp_path)
+    away, path = type(place)(address, spool=place.spool), measured.in_folder(tmp_path / "one", 5.0)
+    assert [away.door().take(path, "winter").outcome for _ in range(2)] == ["spooled", "spooled"]
+    assert place.door().take(measured.in_folder(tmp_path / "two", 6.0, mark="b2")).outcome == "added"
+    assert list(place.door().take_waiting()) == []
+    with place.open().reading() as connection:
+        assert len(reading.find(connection, Search())) == 1
+    assert main(["spool", "--spool", str(place.spool), "--json"]) == 0
+    (row,) = json.loads(capsys.readouterr().out)
+    assert row["campaign"] == "winter" and "secret" not in str(row)
+    assert row["store"] == ("postgresql://127.0.0.1:1/lab" if "://" in address else str(tmp_path / address))
+    assert "secret" not in "".join(file.read_text() for file in place.spool.rglob(".store"))
+
+
+def test_test_waits_for_its_store_by_whatever_path_it_is_named(place, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    type(place)("disk/store.sqlite", spool=place.spool).door().take(measured.in_folder(tmp_path / "one", 5.0))
+    (tmp_path / "disk").mkdir()
+    monkeypatch.chdir(tmp_path / "disk")
+    again = type(place)("store.sqlite", spool=place.spool)
+    assert [each.outcome for each in again.door().take_waiting()] == ["added"]
+
+
+@pytest.mark.parametrize(("one", "other", "is_same"), [
+    ("postgresql://a:b@host/lab", "postgresql://c@host:5432/lab", True),
+    ("postgresql://host/lab", "postgresql://host/x", False),
+    ("postgresql://host/lab", "postgresql://host:5433/lab", False),
+    ("postgresql:///lab", "postgresql://localhost/lab", True)])
+def test_server_and_database_say_which_store_it_is(place, one, other, is_same):
+    assert (type(place)(one).target == type(place)(other).target) is is_same
+
+
+def test_test_that_waits_for_an_unknown_store_is_named_and_goes_nowhere(place, tmp_path, capsys):
+    away = type(place)(str(tmp_path / "disk" / "store.sqlite"), spool=place.spool)
+    away.door().take(measured.in_folder(tmp_path / "one", 5.0))
+    (waiting,) = place.spool.iterdir()
+    (waiting / ".store").unlink()
+    (found,) = place.door().take_waiting()
+    assert found.outcome == "refused" and str(waiting) in found.sentence and waiting.is_dir()
+    assert main(["spool", "--spool", str(place.spool)]) == 0
+    assert "nobody knows" in capsys.readouterr().out
 
 
 def test_nothing_is_left_of_a_test_that_cannot_wait_on_a_full_disk(tmp_path, monkeypatch):
