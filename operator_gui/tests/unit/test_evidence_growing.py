@@ -1,15 +1,19 @@
 """A bundle of a test that is still written is refused, or holds what its manifest says; its link follows only then."""
 # SPDX-License-Identifier: Apache-2.0
+import json
 import os
 import shutil
 import subprocess
 import sys
+import zipfile
 
 import pytest
 
+from mtr_operator.car_link.profile import PROFILE_FOLDER
 from mtr_operator.cli import main
 from mtr_operator.domain.errors import InUse, OutputError
 from mtr_operator.domain.results.journal import EVENT
+from mtr_operator.domain.results.session_record import now, session_record
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.evidence.bundle import BundleWatch, write_bundle
 from mtr_operator.evidence.station_key import Station
@@ -17,6 +21,7 @@ from mtr_operator.evidence.verification import verify_bundle
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.lock import Lock
 from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.recorded.kept_car import digest_text, keep_car, profile_content
 from mtr_operator.storage.store import Store
 
 HOLDER = """
@@ -174,3 +179,29 @@ def test_test_in_an_archive_that_cannot_be_locked_is_bundled_unless_its_lock_is_
 def test_lock_of_a_killed_application_does_not_hinder(test, bundled):
     test[0].with_name(".progress.lock").write_text("1234")
     assert journal_path(test[0]).is_file() and verify_bundle(bundled()).is_intact
+
+
+def test_bundle_holds_the_profile_with_which_the_test_was_measured(test, station, tmp_path, monkeypatch):
+    monkeypatch.setattr("mtr_operator.evidence.contents.report_files", lambda *_: {})
+    path, scenario, progress = test
+    profile = tmp_path / "golf.yaml"
+    content = (PROFILE_FOLDER / "mtr_demo_car.yaml").read_bytes()
+    profile.write_bytes(content)
+    shutil.copy(PROFILE_FOLDER / "mtr_demo_car.dbc", tmp_path)
+    digests = digest_text(profile_content(str(profile)))
+    progress.session.update(session_record(now(), "substitute", str(profile), digests))
+
+    def bundled_profile(name):
+        target = tmp_path / f"{name}.mtr.zip"
+        write_bundle(target, path, scenario, progress, None, profile=str(profile), station=station)
+        with zipfile.ZipFile(target) as container:
+            left_out = json.loads(container.read("left_out.json")) if "left_out.json" in container.namelist() else {}
+            held = "car/golf.yaml" in container.namelist()
+            return container.read("car/golf.yaml") if held else left_out["car/golf.yaml"]
+    assert bundled_profile("a") == content
+    for kept in keep_car(path, str(profile)):
+        assert kept.is_file()
+    profile.write_bytes(content + b"\n")
+    assert bundled_profile("b") == content
+    shutil.rmtree(path.parent / "car")
+    assert bundled_profile("c") == f"The file {profile} has changed since the test was begun."

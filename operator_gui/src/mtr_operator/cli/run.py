@@ -12,7 +12,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE, SUBSTITUTE, now, session_record
+from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWARE, SUBSTITUTE, now, session_record
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.assessment import Assessment
@@ -29,6 +29,7 @@ from mtr_operator.storage.given_files import Given, calibration_of
 from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.means import Means
 from mtr_operator.storage.parameter_file import load_parameters
+from mtr_operator.storage.recorded.kept_car import digest_text, profile_content
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
 
@@ -121,7 +122,8 @@ class CommandLineRun:
             events = EventLog()
             observer = EventObserver(display, events, self._scenario.line_word)
             loop = ControlLoop(robot, car, observer, interrupt.is_requested, Release(display.say, enter))
-            loop.course, loop.event_log = self._recording.begin(car), events
+            profile = self._progress.session.get(CAR_PROFILE, "")
+            loop.course, loop.event_log = self._recording.begin(car, profile), events
             person = HandleQuestion(display.say, enter).person
             loop.person, loop.switcher, loop.phone = person, person, self._phone
             rejected_before = loop.status.rejected_messages
@@ -176,8 +178,9 @@ class CommandLineRun:
 
 
 def _means(options: argparse.Namespace) -> Means:
-    return Means(SUBSTITUTE if options.simulated_robot else options.robot,
-                 SUBSTITUTE if options.simulated_car else options.car_profile)
+    profile = SUBSTITUTE if options.simulated_car else options.car_profile
+    return Means(SUBSTITUTE if options.simulated_robot else options.robot, profile,
+                 digest_text(profile_content(profile)))
 
 
 def _say_statistics(display: Display, robot: RobotLink, rejected: int) -> None:

@@ -98,7 +98,8 @@ class Runner:
         self._warn(*filter(None, (offset_sentence(ahead_s),)))
         told = self._loop.status
         record = {**controller_record(told.controller_name), **clock_record(ahead_s),
-                  **preflight_record(self._loop.preflight, told.steady_s), **self._car.record}
+                  **preflight_record(self._loop.preflight, told.steady_s),
+                  **self._progress.with_earlier(self._car.record)}
         if record:
             self._notebook.add(SESSION, record)
         lines = self._lines()

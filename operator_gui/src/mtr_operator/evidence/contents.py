@@ -8,7 +8,7 @@ from typing import Any, Callable, Mapping, NamedTuple
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import SUBSTITUTE
+from mtr_operator.domain.results.session_record import CAR_PROFILE_FILES, SUBSTITUTE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.report.assessed import assess
@@ -16,6 +16,7 @@ from mtr_operator.report.files import report_files
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.recorded.kept_car import FOLDER as CAR_FOLDER
+from mtr_operator.storage.recorded.kept_car import car_folder, digest_text
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs, recording_folder
 from mtr_operator.storage.recorded.scan_file import read_scans
 
@@ -66,7 +67,7 @@ def contents_of(test: Tested, station: str) -> Contents:
     found.sources.update(_of_record(scenario, progress, record))
     _add_report(found, test)
     _add_files(found, path)
-    _add_profile(found, profile)
+    _add_profile(found, test)
     runs = recorded_runs(recording_folder(path))
     for run in runs:
         _add_course(found, run)
@@ -107,19 +108,27 @@ def _add_files(found: Contents, path: pathlib.Path) -> None:
         found.sources.update({f"{kept}/{file.name}": file for file in sorted(folder.glob("*")) if file.is_file()})
 
 
-def _add_profile(found: Contents, profile: str) -> None:
-    """The Car's profile and its databases, as they are now."""
+def _add_profile(found: Contents, test: Tested) -> None:
+    """The Car's profile and its databases as they were kept when the test began; of an older test, as they are now."""
     from mtr_operator.car_link.profile import profile_files
+    kept = [file for file in sorted(car_folder(test.path).glob("*")) if file.is_file()]
+    if kept:
+        found.sources.update({f"{CAR_FOLDER}/{file.name}": file for file in kept})
+        return
+    profile, recorded = test.profile, test.progress.session.get(CAR_PROFILE_FILES, "").split(", ")
     try:
         files = () if profile in ("", SUBSTITUTE) else profile_files(profile)
     except OperatorError as error:
         found.left_out[f"{CAR_FOLDER}/{pathlib.Path(profile).name}"] = str(error)
         return
     for file in files:
-        if file.is_file():
-            found.sources[f"{CAR_FOLDER}/{file.name}"] = file
+        name = f"{CAR_FOLDER}/{file.name}"
+        if not file.is_file():
+            found.left_out[name] = f"The file {file} is not there any more."
+        elif recorded != [""] and digest_text({file.name: file.read_bytes()}) not in recorded:
+            found.left_out[name] = f"The file {file} has changed since the test was begun."
         else:
-            found.left_out[f"{CAR_FOLDER}/{file.name}"] = f"The file {file} is not there any more."
+            found.sources[name] = file
 
 
 def _add_course(found: Contents, run: RecordedRun) -> None:

@@ -23,6 +23,7 @@ from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.means import Means
 from mtr_operator.storage.photos import copy_photos, discard_photos, keep_photos, photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME, free_path, holds_no_other, open_progress
+from mtr_operator.storage.recorded.kept_car import digest_text, profile_content
 from mtr_operator.storage.recovery import progress_path
 from mtr_operator.storage.store import Store
 
@@ -187,4 +188,5 @@ def go_on(test: Test, connection: Connection) -> None:
 
 
 def _means(connection: Connection) -> Means:
-    return Means(connection.robot.host, profile_name(connection.can))
+    profile = profile_name(connection.can)
+    return Means(connection.robot.host, profile, digest_text(profile_content(profile)))

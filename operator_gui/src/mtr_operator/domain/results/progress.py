@@ -106,6 +106,13 @@ class Progress:
         before = self.session.get(what, "") if self.has_findings else ""
         self.session[what] = ", ".join(dict.fromkeys(filter(None, (*before.split(", "), name))))
 
+    def with_earlier(self, used: Mapping[str, str]) -> dict[str, str]:
+        """Add what stands in the record of an earlier part of the test, such as another adapter, before each text."""
+        if not self.has_findings:
+            return dict(used)
+        before = {what: self.session.get(what, "").split("; ") for what in used}
+        return {what: "; ".join(dict.fromkeys(filter(None, (*before[what], text)))) for what, text in used.items()}
+
     def begin_line(self, number: int) -> None:
         """A line is begun from its start; what was measured on it before stays in the journal."""
         self.line_at_hand = number

@@ -25,7 +25,9 @@ ENCRYPTED = "encrypted"
 # the frames.
 CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
 CAN_ADAPTER_OF_BUS = CAN_ADAPTER + " of the bus {}"
-ROBOT, CAR_PROFILE = "robot", "car profile"
+SOFTWARE, ROBOT, CAR_PROFILE = "software", "robot", "car profile"
+# Only in the record of a test whose profile is a file: its name and SHA-256, and those of its databases.
+CAR_PROFILE_FILES = "car profile files"
 # Only in the record of a test with a robot that tells the time of day.
 CLOCK_OFFSET = "robot's clock ahead of the laptop's by"
 # Only in the record of a test whose robot had one since it was started.
@@ -40,13 +42,21 @@ REFUSED_REPORTS = "distances of the phone that were not used"
 REFUSED_FRAMES = "frames of the Car that were not believed"
 
 
-def session_record(started: datetime.datetime, robot: str, car_profile: str) -> dict[str, str]:
-    """Record of a test that begins now; robot: its address, or what stands for it."""
+def software() -> str:
+    """This application and its version."""
+    return f"mtr-operator {__version__}"
+
+
+def session_record(started: datetime.datetime, robot: str, car_profile: str,
+                   profile_files: str = "") -> dict[str, str]:
+    """Record of a test that begins now; robot: its address, or what stands for it. profile_files: see
+    CAR_PROFILE_FILES."""
     return {
         STARTED: written(started),
-        "software": f"mtr-operator {__version__}",
+        SOFTWARE: software(),
         ROBOT: robot,
         CAR_PROFILE: car_profile,
+        **({CAR_PROFILE_FILES: profile_files} if profile_files else {}),
         "units": "SI; angles in degrees where the column says so; 1 sigma uncertainties",
         "coordinates": "Car coordinate system: origin in the Car's centre, x to its front, y to its left",
     }

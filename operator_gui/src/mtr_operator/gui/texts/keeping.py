@@ -13,6 +13,9 @@ SENTENCES = (
                                   "new test."),
     QT_TRANSLATE_NOOP("Sentence", "The test was begun at a real Car, and now it is the simulated one; continue it at "
                                   "the real one, or begin a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The car profile {} has changed since the test was begun: {}; restore it, or begin "
+                                  "a new test."),
+    QT_TRANSLATE_NOOP("Sentence", "The file {} has changed since the test was begun."),
     QT_TRANSLATE_NOOP("Sentence", "The test was begun with the car profile {}, and now it is {}; continue it with that "
                                   "of before, or begin a new test."),
     QT_TRANSLATE_NOOP("Sentence", "The test in {} does not say which car profile it had; name one (--car-profile)."),

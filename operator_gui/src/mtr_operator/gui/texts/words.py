@@ -87,6 +87,7 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "all sides"),
     QT_TRANSLATE_NOOP("Word", "started"),
     QT_TRANSLATE_NOOP("Word", "continued"),
+    QT_TRANSLATE_NOOP("Word", "car profile files"),
     QT_TRANSLATE_NOOP("Word", "measured again"),
     QT_TRANSLATE_NOOP("Word", "notes and photos added"),
     QT_TRANSLATE_NOOP("Word", "ended before its end"),

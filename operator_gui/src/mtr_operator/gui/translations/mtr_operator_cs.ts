@@ -6987,6 +6987,16 @@
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
+        <source>The car profile {} has changed since the test was begun: {}; restore it, or begin a new test.</source>
+        <translation>Profil auta {} se od začátku testu změnil: {}; obnovte jej, nebo začněte nový test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The file {} has changed since the test was begun.</source>
+        <translation>Soubor {} se od začátku testu změnil.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
         <source>The test was begun with the car profile {}, and now it is {}; continue it with that of before, or begin a new test.</source>
         <translation>Test začal s profilem auta {} a nyní je to {}; pokračujte s tím původním, nebo začněte nový test.</translation>
     </message>
@@ -7926,6 +7936,11 @@
         <location filename="../texts/words.py" line="7"/>
         <source>continued</source>
         <translation>pokračování</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>car profile files</source>
+        <translation>soubory profilu auta</translation>
     </message>
     <message>
         <location filename="../texts/words.py" line="7"/>

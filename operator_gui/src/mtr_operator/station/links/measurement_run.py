@@ -16,7 +16,7 @@ from mtr_operator.domain.assistance import ExtenderPort, HandlePort
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarLink
-from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE
+from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
 from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.recorded.recording import Recording
@@ -107,7 +107,7 @@ class MeasurementRun:
             loop.event_log = self._event_log
             loop.standstill = self._standstill or loop.standstill
             try:
-                loop.course = recording.begin(self._car)
+                loop.course = recording.begin(self._car, test.progress.session.get(CAR_PROFILE, ""))
                 with self._event_log.told_to(recording.event), run_told(self._event_log, test.progress.has_findings), \
                         test.written_beside(store) as journal:
                     test.progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)

@@ -1,16 +1,62 @@
-"""The Car's profile and its databases as a bundle keeps them, beside the progress file."""
+"""The Car's profile and its databases as they were when a test began, beside its progress file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import hashlib
 import pathlib
+from typing import Mapping
+
+from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.results.session_record import SUBSTITUTE
+
+from ..atomic import output_folder, write_bytes
 
 FOLDER = "car"
 _SUFFIX = ".yaml"
+_RECORD = "progress"
+
+
+def car_folder(path: pathlib.Path) -> pathlib.Path:
+    """Folder in which the test with this progress file keeps them."""
+    return path.with_name(FOLDER if path.stem == _RECORD else f"{path.stem}.{FOLDER}")
 
 
 def kept_profile(path: pathlib.Path, profile: str) -> str:
     """Of the test with this progress file, whose record names the profile by name or path: the file that was kept with
     it, or the profile as it was named where none was."""
     name = pathlib.PurePath(profile).name
-    kept = path.parent / FOLDER / (name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
+    kept = car_folder(path) / (name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
     return str(kept) if kept.is_file() else profile
+
+
+def profile_content(profile: str) -> dict[str, bytes]:
+    """Content of a profile and its databases by the names of the files, as they are now.
+
+    Empty without a profile, and for one that is not there or wrong: whoever loads it raises the error.
+    """
+    from mtr_operator.car_link.profile import profile_files
+    if profile in ("", SUBSTITUTE):
+        return {}
+    try:
+        return {file.name: file.read_bytes() for file in profile_files(profile)}
+    except (OperatorError, OSError):
+        return {}
+
+
+def digest_text(content: Mapping[str, bytes]) -> str:
+    """Each file with its SHA-256, as it stands in a test's record."""
+    return ", ".join(f"{name} {hashlib.sha256(each).hexdigest()}" for name, each in content.items())
+
+
+def keep_car(path: pathlib.Path, profile: str) -> list[pathlib.Path]:
+    """Copy profile and databases to the test with this progress file; return the files that were made.
+
+    A file that is there stays: the test was begun with it. OutputError when that fails.
+    """
+    folder, made = car_folder(path), []
+    for name, content in profile_content(profile).items():
+        if not (folder / name).exists():
+            with output_folder(folder):
+                write_bytes(folder / name, content)
+            made.append(folder / name)
+    return made

@@ -12,6 +12,7 @@ from mtr_operator.domain.results.course import Course
 
 from .course_file import CourseFile
 from .event_file import EventFile
+from .kept_car import car_folder, keep_car
 from .scan_file import ScanFile
 
 DEFAULT_FORMAT = "blf"
@@ -50,7 +51,7 @@ class Recording:
     """Of one run; begins with begin(). log_format: a kind of log, or NO_LOG for the course alone."""
 
     def __init__(self, path: pathlib.Path, log_format: str = DEFAULT_FORMAT):
-        self._folder = recording_folder(path)
+        self._path, self._folder = path, recording_folder(path)
         self._format = log_format
         self._car: CarLink | None = None
         self._course: CourseFile | None = None
@@ -58,8 +59,12 @@ class Recording:
         self._events: EventFile | None = None
         self._made: list[pathlib.Path] = []
 
-    def begin(self, car: CarLink) -> Course:
-        """Log the bus of a Car from now on; where the course is to be kept. OutputError when a log cannot be begun."""
+    def begin(self, car: CarLink, profile: str = "") -> Course:
+        """Log the bus of a Car from now on, and keep its profile; where the course is to be kept.
+
+        OutputError when a log cannot be begun.
+        """
+        self._made += keep_car(self._path, profile)
         number = 1 + len(recorded_runs(self._folder))
         self._course = CourseFile(self._folder / f"{_COURSE}_{number:03d}.jsonl")
         self._scans = ScanFile(self._folder / f"{_SCANS}_{number:03d}.jsonl", self._course)
@@ -92,5 +97,6 @@ class Recording:
         """Of a run of a test that has measured nothing."""
         for path in self._made:
             path.unlink(missing_ok=True)
-        if self._folder.is_dir() and not any(self._folder.iterdir()):
-            shutil.rmtree(self._folder, ignore_errors=True)
+        for folder in (self._folder, car_folder(self._path)):
+            if folder.is_dir() and not any(folder.iterdir()):
+                shutil.rmtree(folder, ignore_errors=True)
