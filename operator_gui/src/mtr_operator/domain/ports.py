@@ -199,6 +199,10 @@ class RobotLink(ABC):
         A changed content gets a new id; calling it again with an equal one sends it again with the same id.
         """
 
+    def is_answered(self, status: RobotStatus) -> bool:
+        """True when the robot had taken what was sent last as it sent this Status; always so on a link without delay."""
+        return True
+
     @abstractmethod
     def close(self) -> None:
         """Say goodbye (the robot stops), unless nothing was ever sent, and disconnect; safe to call twice."""

@@ -128,6 +128,10 @@ class ZmqRobotLink(RobotLink):
             self._publish(desired)
             self._answered = self._seen
 
+    def is_answered(self, status: RobotStatus) -> bool:
+        """See RobotLink."""
+        return status.session_id == self.session_id and status.command_id == self._command_id
+
     def close(self) -> None:
         """See RobotLink."""
         sockets = self._sockets

@@ -65,6 +65,10 @@ class FakeRobotLink(RobotLink):
             self._desired = desired
         self._robot.take(self._session_id, self._command_id, desired)
 
+    def is_answered(self, status: RobotStatus) -> bool:
+        """See RobotLink."""
+        return status.session_id == self._session_id and status.command_id == self._command_id
+
     def close(self) -> None:
         """See RobotLink."""
         self._robot.halt()

@@ -46,8 +46,8 @@ SILENCE_LIMIT_S = 30.0
 FIRST_STATUS_LIMIT_S = 10.0
 # Silence that is reported to a view.
 _SILENCE_SHOWN_S = 1.0
-# Robot time that stopping may take.
-_STOP_LIMIT_S = 3.0
+# Robot time that stopping may take, and until the robot has taken the stop: a busy laptop reads older Statuses first.
+_STOP_LIMIT_S, _TAKEN_LIMIT_S = 3.0, 10.0
 _KEPT_EVENTS = 1000
 # Of a minute at a hundred a second.
 _KEPT_REPORTS = 6000
@@ -203,12 +203,14 @@ class ControlLoop:
         self.change(stop=True, press=None)
         if self._status is None or self._status.controlled_by_other:
             return None
-        until_s = self.waited_s + _STOP_LIMIT_S
-        stands = False
+        until_s = self.waited_s + _TAKEN_LIMIT_S
+        is_taken = stands = False
         with contextlib.suppress(LinkLost, RobotFailed, StoodStill, Cancelled):
             while not stands and self.waited_s < until_s:
                 self._exchange(patience_s=_STOP_LIMIT_S)
-                stands = abs(self.status.speed_mps) < STANDING_MPS
+                if not is_taken and self._robot_link.is_answered(self.status):
+                    is_taken, until_s = True, self.waited_s + _STOP_LIMIT_S
+                stands = is_taken and abs(self.status.speed_mps) < STANDING_MPS
             self._robot_link.send(self.desired)
         return stands
 

@@ -46,6 +46,10 @@ class WatchedRobotLink(RobotLink):
         self.waypoint = desired.waypoint
         self._stop.pass_on(self._link.send, desired)
 
+    def is_answered(self, status: RobotStatus) -> bool:
+        """See RobotLink."""
+        return self._link.is_answered(status)
+
     def close(self) -> None:
         """See RobotLink."""
         self._stop.detach()
