@@ -101,6 +101,8 @@ def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
     message.covariance = covariance_in_map(estimate)
     message.length, message.width = car.length, car.width
     message.length_sigma, message.width_sigma = estimate.length_sigma, estimate.width_sigma
+    sides = estimate.side_sigmas
+    message.front_sigma, message.rear_sigma, message.left_sigma, message.right_sigma = sides
     message.outline_x = [x for x, _ in estimate.outline]
     message.outline_y = [y for _, y in estimate.outline]
     message.correction_x, message.correction_y = correction.x, correction.y

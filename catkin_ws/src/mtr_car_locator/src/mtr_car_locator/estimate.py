@@ -8,7 +8,7 @@ from mtr_core.requests import NO_GOAL, Goal, GoalReport, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Result
 
-from .measure.car_fit import CarFit
+from .measure.car_fit import UNKNOWN_SIDES, CarFit, SideSigmas
 from .rectangle import Point, Rectangle
 from .scan import Scan
 from .survey.surface_map import MapPhase, SurfaceMap
@@ -52,6 +52,7 @@ class Estimate:
         places: where the robot shall still go for the locator.
         fit: the Car once it was found.
         map_revision: of localization's map that the Car is in once it was found.
+        side_sigmas: 1 sigma of each side of the rectangle, of centre and size together.
     """
 
     state: CarState
@@ -71,6 +72,7 @@ class Estimate:
     places: Tuple[Pose2, ...] = ()
     fit: Optional[CarFit] = None
     map_revision: int = 0
+    side_sigmas: SideSigmas = UNKNOWN_SIDES
 
 
 def result_at(waypoint: Optional[Waypoint], task: Optional[LocatorTask], motion: GoalReport) -> Result:

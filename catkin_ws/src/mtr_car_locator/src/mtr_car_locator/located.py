@@ -98,7 +98,8 @@ class LocatedCar:
         # How well the frame lies in the Car's surfaces has not changed; where these are is known by what was seen now,
         # the robot's pose then included, and no longer by the map.
         x, y, heading = (math.hypot(first, now) for first, now in zip(self.fit.sigmas, change.sigmas))
-        self.fit = replace(self.fit, rectangle=self.fit.rectangle.moved_by(change.motion), sigmas=(x, y, heading))
+        self.fit = replace(self.fit, rectangle=self.fit.rectangle.moved_by(change.motion), sigmas=(x, y, heading),
+                           side_sigmas=self.fit.side_sigmas.moved(*change.sigmas[:2]))
         self.revision, self.correction = self.revision + 1, change.motion
         self._refinement = Refinement(self.fit, self._parameters)
         self.message = problems.CORRECTED(shift_cm=shift_cm, turn_deg=turn_deg, revision=self.revision)

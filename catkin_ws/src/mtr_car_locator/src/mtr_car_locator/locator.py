@@ -1,5 +1,6 @@
 """The car locator: at each tick from tasks, poses, scans and maps to the estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from concurrent.futures import Executor
 from dataclasses import replace
 from typing import Optional, Tuple
@@ -14,6 +15,7 @@ from .estimate import Estimate, Inputs, LocatorTask, result_at
 from .find.errors import NotLocated
 from .find.prior import prior_at, prior_from_start
 from .located import LocatedCar
+from .measure.car_fit import SideSigmas
 from .measure.outline import rounded
 from .memory.remembered import RememberedCar
 from .parameters import LocatorParameters
@@ -153,8 +155,10 @@ class CarLocator:
 
     def _rough(self, car: Rectangle, outline: Tuple[Point, ...], message: Problem) -> Estimate:
         sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.sheet.size_tolerance_m
+        # Errors of the place and of half the size.
+        side_sigmas = SideSigmas(*4 * (math.hypot(sigma, 0.5 * size_sigma),))
         estimate = Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
-                            None, self._map_car_id, message, self._revision)
+                            None, self._map_car_id, message, self._revision, side_sigmas=side_sigmas)
         survey = self._survey if self._state == CarState.COLLECTING else None
         if survey is None:
             return estimate
@@ -166,4 +170,4 @@ class CarLocator:
         return Estimate(self._state, fit.rectangle, fit.outline, fit.sigmas, fit.length_sigma, fit.width_sigma,
                         located.waypoint, self._map_car_id, self._message, located.revision, located.correction,
                         check=located.report, places=located.places_ahead, fit=fit,
-                        map_revision=located.map_revision)
+                        map_revision=located.map_revision, side_sigmas=fit.side_sigmas)

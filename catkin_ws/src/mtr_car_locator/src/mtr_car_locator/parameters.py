@@ -7,8 +7,10 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
-# A body may stand back so far in the LiDARs' plane behind its widest or foremost part, on each side and at each end.
+# A body may stand back so far in the LiDARs' plane behind its widest part, on each side.
 MAX_INSET_M = 0.06
+# A data sheet's sizes and overhang differ from this Car's by number plates, load and trim levels.
+DATA_SHEET_SIGMA_M = 0.005
 # Cars without a data sheet: from a small one to a delivery van each size is as likely, and beyond that soon none is.
 ORDINARY_LENGTH_M, ORDINARY_WIDTH_M = (3.0, 6.0), (1.4, 2.2)
 
@@ -24,13 +26,17 @@ class DataSheet(ParameterSet):
         known_length_m: length from the Car's data sheet; it is published, for distances count from the widest parts,
             and what the LiDARs' plane shows is compared with it.
         known_width_m: the same of the width without mirrors.
-        front_overhang_m: front axle to the front's tip, from the data sheet; used when only the wheels are seen.
-        wheelbase_m: distance of the axles, from the data sheet; used when only the wheels are seen.
+        front_overhang_m: front axle to the front's tip, from the data sheet; where the tyres are seen it tells the
+            front, and with the length the rear.
+        wheelbase_m: distance of the axles, from the data sheet; it makes the axles more exact and unambiguous.
         side_inset_m: how far the surfaces in the LiDAR's plane lie inside of the Car's widest part, on each side; used
             when the width is not known.
-        side_inset_sigma_m: 1 sigma of what side_inset_m leaves out, of sides and of ends, as long as their size is
-            not known. By default that of an inset of which nothing is known but that it is 0 to MAX_INSET_M: the root
-            of the mean square, for the mean is not corrected (docs/accuracy.md, Limits).
+        side_inset_sigma_m: 1 sigma of what side_inset_m leaves out, as long as the width is not known. By default that
+            of an inset of which nothing is known but that it is 0 to MAX_INSET_M: the root of the mean square, for the
+            mean is not corrected (docs/accuracy.md, Limits).
+        front_inset_sigma_m: 1 sigma of the normal distribution whose positive half is the prior of how far the front
+            stands back in the LiDARs' plane: 95 % of all cars by less than twice as much (docs/accuracy.md, Limits).
+        rear_inset_sigma_m: the same of the rear.
     """
 
     expected_length_m: float = number(4.5, 2.0, 10.0, "m")
@@ -42,6 +48,8 @@ class DataSheet(ParameterSet):
     wheelbase_m: float = number(0.0, 0.0, 4.0, "m")
     side_inset_m: float = number(0.0, 0.0, 0.2, "m")
     side_inset_sigma_m: float = number(round(MAX_INSET_M / math.sqrt(3.0), 3), 0.0, 0.1, "m")
+    front_inset_sigma_m: float = number(0.11, 0.0, 0.5, "m")
+    rear_inset_sigma_m: float = number(0.075, 0.0, 0.5, "m")
 
     @property
     def length_m(self) -> float:

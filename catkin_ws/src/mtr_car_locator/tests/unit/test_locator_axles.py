@@ -50,34 +50,34 @@ def wheels_of(rows, **sheet):
 
 def test_treads_give_both_axles_though_the_outer_faces_were_seen_in_part():
     wheels = wheels_of(tyres(TREADS), **SHEET)
-    assert wheels.front_axle_m == pytest.approx(FRONT_M, abs=0.003)
-    assert wheels.rear_axle_m == pytest.approx(REAR_M, abs=0.003)
-    assert wheels.centre_m == pytest.approx(CENTRE_M, abs=0.003) and wheels.centre_sigma_m < 0.008
+    assert wheels.axles.front_m == pytest.approx(FRONT_M, abs=0.003)
+    assert wheels.axles.rear_m == pytest.approx(REAR_M, abs=0.003)
+    assert wheels.ends.centre_m == pytest.approx(CENTRE_M, abs=0.003) and wheels.ends.centre_sigma_m < 0.008
 
 
 @pytest.mark.parametrize("outer", [each for each in TREADS if each not in INNER])
 def test_inner_treads_and_one_outer_tread_are_enough(outer):
     wheels = wheels_of(tyres((*INNER, outer)), **SHEET)
-    assert wheels.centre_m == pytest.approx(CENTRE_M, abs=0.005) and wheels.centre_sigma_m < 0.012
+    assert wheels.ends.centre_m == pytest.approx(CENTRE_M, abs=0.005) and wheels.ends.centre_sigma_m < 0.012
 
 
 def test_inner_treads_and_the_known_wheelbase_are_enough():
     alone = wheels_of(tyres(INNER), **SHEET)
     known = wheels_of(tyres(INNER), **SHEET, wheelbase_m=FRONT_M - REAR_M)
-    assert known.centre_m == pytest.approx(CENTRE_M, abs=0.003) and known.centre_sigma_m < 0.01
-    assert abs(alone.centre_m - CENTRE_M) < 2.0 * alone.centre_sigma_m and alone.centre_sigma_m > 0.015
+    assert known.ends.centre_m == pytest.approx(CENTRE_M, abs=0.003) and known.ends.centre_sigma_m < 0.01
+    assert abs(alone.ends.centre_m - CENTRE_M) < 2.0 * alone.ends.centre_sigma_m and alone.ends.centre_sigma_m > 0.015
 
 
 def test_outer_faces_alone_say_that_they_are_worth_centimetres():
     wheels = wheels_of(tyres(()), **SHEET)
-    assert abs(wheels.centre_m - CENTRE_M) == pytest.approx(0.15 * HALF_CHORD_M, abs=0.01)
-    assert abs(wheels.centre_m - CENTRE_M) < 2.0 * wheels.centre_sigma_m < 0.1
+    assert abs(wheels.ends.centre_m - CENTRE_M) == pytest.approx(0.15 * HALF_CHORD_M, abs=0.01)
+    assert abs(wheels.ends.centre_m - CENTRE_M) < 2.0 * wheels.ends.centre_sigma_m < 0.1
 
 
 def test_wheelbase_of_another_car_makes_the_centre_unsure():
     right, wrong = (wheels_of(tyres(TREADS), **SHEET, wheelbase_m=FRONT_M - REAR_M + error) for error in (0.0, 0.1))
-    assert wrong.centre_sigma_m > 2.0 * right.centre_sigma_m
-    assert abs(wrong.centre_m - CENTRE_M) < 3.0 * wrong.centre_sigma_m
+    assert wrong.ends.centre_sigma_m > 2.0 * right.ends.centre_sigma_m
+    assert abs(wrong.ends.centre_m - CENTRE_M) < 3.0 * wrong.ends.centre_sigma_m
 
 
 def test_car_of_which_only_parts_of_the_tyres_were_seen_is_located():
@@ -93,13 +93,13 @@ def test_car_of_which_only_parts_of_the_tyres_were_seen_is_located():
 @pytest.mark.parametrize("x", [0.3, 0.65, 0.9, -0.8])
 def test_mirror_beside_a_wheel_hides_neither(x):
     plain, beside = (wheels_of(tyres(TREADS) + more, **SHEET) for more in ([], mirrors(x)))
-    assert beside.centre_m == pytest.approx(plain.centre_m, abs=0.01)
+    assert beside.ends.centre_m == pytest.approx(plain.ends.centre_m, abs=0.01)
 
 
 @pytest.mark.parametrize("shift_m", [5.2, -5.2])
 def test_car_that_is_parked_in_line_hides_no_wheels(shift_m):
     wheels = wheels_of(tyres(TREADS) + in_line(tyres(TREADS), shift_m), **SHEET)
-    assert wheels.centre_m == pytest.approx(CENTRE_M, abs=0.005)
+    assert wheels.ends.centre_m == pytest.approx(CENTRE_M, abs=0.005)
 
 
 @pytest.mark.parametrize("shift_m", [5.2, -5.2])
@@ -123,13 +123,13 @@ def test_length_by_wheels_holds_the_smallest_and_the_longest_cars(wheelbase_m):
     shift = 0.5 * (wheelbase_m - (FRONT_M - REAR_M))
     rows = [(x + shift * math.copysign(1.0, x), *rest) for x, *rest in tyres(TREADS)]
     wheels, length_m = wheels_of(rows), {1.87: 2.695, 2.52: 3.395, 3.68: 5.885}[wheelbase_m]
-    assert abs(wheels.length_m - length_m) < 3.0 * wheels.length_sigma_m
+    assert abs(wheels.ends.length_m - length_m) < 3.0 * wheels.ends.length_sigma_m
 
 
 def test_shoulder_of_a_tyre_is_no_tread():
     turned = [(FRONT_M + HALF_CHORD_M - 0.03, 0.8, math.radians(30.0), 0.12, SIGMA_M, 40)]
     plain, shouldered = (wheels_of(tyres(TREADS) + more, **SHEET) for more in ([], turned))
-    assert shouldered.front_axle_m == pytest.approx(plain.front_axle_m, abs=1e-9)
+    assert shouldered.axles.front_m == pytest.approx(plain.axles.front_m, abs=1e-9)
 
 
 def test_errors_of_the_centre_agree_with_its_sigma():
@@ -138,6 +138,6 @@ def test_errors_of_the_centre_agree_with_its_sigma():
     for _ in range(60):
         rows = [(x + rng.normal(0.0, SIGMA_M), y, *rest) for x, y, *rest in tyres(TREADS)]
         wheels = wheels_of(rows, known_length_m=LENGTH_M, front_overhang_m=OVERHANG_M + rng.normal(0.0, 0.005))
-        ratios.append((wheels.centre_m - CENTRE_M) / wheels.centre_sigma_m)
+        ratios.append((wheels.ends.centre_m - CENTRE_M) / wheels.ends.centre_sigma_m)
     # Treads lie where they should here, so that only part of their sigma is used up.
     assert 0.4 < math.sqrt(np.mean(np.square(ratios))) < 1.1

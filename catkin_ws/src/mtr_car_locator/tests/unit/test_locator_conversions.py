@@ -25,6 +25,7 @@ from mtr_car_locator.conversions import (
 from mtr_car_locator.drawing import shapes_of
 from mtr_car_locator.estimate import Estimate, LocatorTask, result_at
 from mtr_car_locator.find.fit import fit_car
+from mtr_car_locator.measure.car_fit import SideSigmas
 from mtr_car_locator.offline import FilesUnusable
 from mtr_car_locator.poses import PoseMode
 from mtr_car_locator.scan import RangeBias
@@ -59,7 +60,8 @@ def estimate():
     place = Waypoint(4, CAR_LOCATOR, "map", Pose2(1.0, 2.0, 0.5), Direction.FORWARD)
     return Estimate(CarState.LOCATED, replace(fit.rectangle, pose=Pose2(3.0, 1.0, math.pi / 2.0)), fit.outline,
                     (0.1, 0.2, 0.01), 0.03, 0.02, place, 5, FOUND, 2, Pose2(0.01, 0.02, 0.003), MapPhase.FREEZE, 77,
-                    CheckReport(6, Check.FAILED, 0.03, 0.002, MOVED), (place.pose,), fit)
+                    CheckReport(6, Check.FAILED, 0.03, 0.002, MOVED), (place.pose,), fit,
+                    side_sigmas=SideSigmas(0.11, 0.075, 0.03, 0.04))
 
 
 def test_order_names_mapping_checking_and_the_goal():
@@ -116,6 +118,8 @@ def test_estimate_survives_as_a_message(estimate):
     assert (message.correction_x, message.correction_y, message.correction_heading) == (0.01, 0.02, 0.003)
     assert (message.next_waypoint.id, message.next_waypoint.requester) == (4, "car_locator")
     assert (message.next_waypoint.frame_id, message.next_waypoint.direction) == ("map", 1)
+    assert (message.front_sigma, message.rear_sigma) == (0.11, 0.075)
+    assert (message.left_sigma, message.right_sigma) == (0.03, 0.04)
     # The Car's x axis points to map's y: 0.1 m along the Car is along y.
     assert message.covariance[[0, 4, 8]] == pytest.approx([0.04, 0.01, 0.0001])
     assert len(message.outline_x) == len(message.outline_y) == len(estimate.outline)

@@ -35,9 +35,10 @@ def test_errors_are_as_large_as_the_sigmas_say():
         fit = fit_car(surfels(box(seed=seed)), prior(0.2, 0.1, 0.05), PARAMETERS)
         at = fit.rectangle.pose
         squares.append(np.square(np.array([at.x, at.y, at.heading]) / fit.sigmas))
-    # The sigma of a map is common to neighbours and does not average out; here it does, so the errors are smaller.
+    # The sigma of a map is common to neighbours and does not average out; here it does, so the errors are smaller. That
+    # along the Car holds insets of its ends, which a box has not.
     assert np.all(np.mean(squares, axis=0) < 1.5)
-    assert np.all(np.mean(squares, axis=0) > 0.005)
+    assert np.all(np.mean(squares, axis=0)[1:] > 0.005)
 
 
 @pytest.mark.parametrize("sides, unseen", [(("front", "left"), ("rear", "right")),

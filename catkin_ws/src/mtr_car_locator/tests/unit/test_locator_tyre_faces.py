@@ -62,13 +62,13 @@ def test_whole_side_and_next_to_nothing_are_no_faces(rng):
 
 def test_data_sheet_turns_axles_into_the_centre():
     wheels = wheels_from(tyres_at([REAR_M, FRONT_M], [REAR_M, FRONT_M]), SHEET)
-    assert wheels.centre_m == pytest.approx(FRONT_M + 1.0 - 0.5 * 4.85, abs=0.003)
-    assert 0.005 < wheels.centre_sigma_m < 0.008
+    assert wheels.ends.centre_m == pytest.approx(FRONT_M + 1.0 - 0.5 * 4.85, abs=0.003)
+    assert 0.005 < wheels.ends.centre_sigma_m < 0.008
 
 
 def test_end_of_a_bumper_as_long_as_a_tyre_is_told_by_the_other_side_and_the_wheelbase():
     wheels = wheels_from(tyres_at([REAR_M, FRONT_M, 2.1], [-2.2, REAR_M, FRONT_M]), SHEET)
-    assert wheels.front_axle_m == pytest.approx(FRONT_M, abs=0.003)
+    assert wheels.axles.front_m == pytest.approx(FRONT_M, abs=0.003)
 
 
 @pytest.mark.parametrize("faces", [
@@ -88,10 +88,10 @@ def test_mirror_that_lengthens_the_front_faces_or_hides_their_ends_makes_the_cen
     sheet = replace(SHEET, wheelbase_m=wheelbase_m)
     beside = [[Face(REAR_M - 0.3, REAR_M + 0.3), front]] * 2
     plain, off = (wheels_from(each, sheet) for each in (tyres_at(*[[REAR_M, FRONT_M]] * 2), beside))
-    assert 0.015 < abs(off.centre_m - plain.centre_m) < 3.0 * off.centre_sigma_m
-    assert plain.centre_sigma_m < 0.01
+    assert 0.015 < abs(off.ends.centre_m - plain.ends.centre_m) < 3.0 * off.ends.centre_sigma_m
+    assert plain.ends.centre_sigma_m < 0.01
 
 
 def test_car_that_is_parked_in_line_has_other_wheels():
     faces = tyres_at(*[[REAR_M, FRONT_M, FRONT_M + 2.4, FRONT_M + 5.2]] * 2)
-    assert wheels_from(faces, DataSheet()).front_axle_m == pytest.approx(FRONT_M, abs=0.003)
+    assert wheels_from(faces, DataSheet()).axles.front_m == pytest.approx(FRONT_M, abs=0.003)

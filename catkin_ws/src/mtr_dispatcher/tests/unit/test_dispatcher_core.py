@@ -225,6 +225,14 @@ def test_confirmations_speak_of_the_session_in_control_only(core):
     assert not message.state.HasField("battery_level")
 
 
+def test_uncertainty_of_each_side_is_passed_on_and_an_unknown_one_is_absent(core):
+    car = CarEstimate(state=CarEstimate.LOCATED, length=4.5, width=1.8, front_sigma=0.11, rear_sigma=0.075,
+                      left_sigma=0.035, right_sigma=math.nan)
+    told = status(core, car=car).car
+    assert (told.front_sigma, told.rear_sigma, told.left_sigma) == pytest.approx((0.11, 0.075, 0.035))
+    assert not told.HasField("right_sigma")
+
+
 def test_outline_and_revision_are_told_once_the_car_is_located(core):
     car = CarEstimate(state=CarEstimate.LOCATED, length=4.5, width=1.8, outline_x=[1.0, -1.0, 0.0],
                       outline_y=[0.0, 0.5, -0.5], revision=3, correction_x=0.02, correction_y=-0.01,

@@ -1,6 +1,7 @@
 """Moves a rectangle that may be the Car to what surfels, and on wheels all returns, show of it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+from dataclasses import replace
 from typing import Dict, Optional
 
 from mtr_core.se2 import Pose2
@@ -35,7 +36,7 @@ class Alignment:
         found = self._moved(car, FIRST_BEYOND_M)
         for _ in range(ROUNDS - 1):
             found = self._moved(found.car, BEYOND_M)
-        return found
+        return found if self._on_wheels else replace(found, wheels=None)
 
     def _moved(self, rough: Rectangle, beyond_m: float) -> AlignedCar:
         axis = self._axis(rough, beyond_m)
@@ -54,22 +55,23 @@ class Alignment:
         return axis
 
     def _wheels(self, in_car: Surfels, car: Rectangle, extents: Dict[str, SideExtent]) -> Optional[CarWheels]:
-        """What tells the Car's place along it when its ends do not; None when they do."""
+        """What tells the Car's place along it when its ends do not; None when they do. An end alone leaves the
+        rectangle far too rough to tell which surfels are the Car's."""
         lacks_an_end = not all(name in extents for name in ENDS)
-        if not self._on_wheels and not (self._sheet.front_overhang_m and lacks_an_end):
+        if not self._on_wheels and not lacks_an_end:
             return None
         wheels = self._exact_wheels(car)
         return self._rough_wheels(in_car, car) if wheels is None and self._on_wheels else wheels
 
     def _exact_wheels(self, car: Rectangle) -> Optional[CarWheels]:
-        """Wheels tell more of the Car than one end does: how far that stands back in the LiDARs' plane is unknown."""
         if self._close_up is None:
             return None
         in_car = self._close_up.in_frame(car.pose)
-        return wheels_from([faces_in(in_car, name, 0.5 * car.width) for name in LONG_SIDES], self._sheet)
+        return wheels_from([faces_in(in_car, name, 0.5 * car.width, in_arches=not self._on_wheels)
+                            for name in LONG_SIDES], self._sheet)
 
     def _rough_wheels(self, in_car: Surfels, car: Rectangle) -> CarWheels:
         found = wheels_between(wheel_sides(in_car), 0.0, car.width, self._sheet)
         if not found:
             raise NotLocated(problems.WHEELS_APART())
-        return min(found, key=lambda each: abs(each.centre_m))
+        return min(found, key=lambda each: abs(each.ends.centre_m))

@@ -10,7 +10,8 @@ from scipy.cluster.hierarchy import fcluster, linkage
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 
-from ..measure.wheels import MAX_WHEELBASE_M, MIN_WHEELBASE_M, WHEELBASE_SHARE
+from ..measure.overhangs import FRONT_SHARE, REAR_SHARE
+from ..measure.wheels import MAX_WHEELBASE_M, MIN_WHEELBASE_M
 from ..parameters import LocatorParameters
 from ..rectangle import Rectangle
 from ..surfels import Surfels, in_frame
@@ -54,9 +55,9 @@ def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangl
         if (not MIN_WHEELBASE_M <= wheelbase <= MAX_WHEELBASE_M
                 or abs(heading) > parameters.heading_tolerance_rad):
             continue
-        frame = Pose2(rear[0], rear[1], heading)
+        frame, length = Pose2(rear[0], rear[1], heading), (1.0 + FRONT_SHARE + REAR_SHARE) * wheelbase
         for track in _tracks(in_frame(blobs, frame).tolist(), wheelbase):
-            yield Rectangle(frame @ Pose2(0.5 * wheelbase, 0.5 * track, 0.0), wheelbase / WHEELBASE_SHARE,
+            yield Rectangle(frame @ Pose2(0.5 * wheelbase, 0.5 * track, 0.0), length,
                             parameters.sheet.width_m)
 
 

@@ -129,7 +129,7 @@ def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Op
         for x, length in _spans(ahead, behind, sheet.length_m, sheet.size_tolerance_m):
             yield Rectangle(Pose2(x, y, 0.0), length, width), None
         for wheels in wheels_between(treads, y, width, sheet):
-            yield Rectangle(Pose2(wheels.centre_m, y, 0.0), wheels.length_m, width), wheels
+            yield Rectangle(Pose2(wheels.ends.centre_m, y, 0.0), wheels.ends.length_m, width), wheels
 
 
 def _spans(ahead: List[float], behind: List[float], expected_m: float,

@@ -29,22 +29,18 @@ WHEELBASE_SIGMA_M = 0.005
 
 @dataclass(frozen=True)
 class Axles:
-    """Both axles along the Car, m, with 1 sigma of the front one and of the middle between them."""
+    """Both axles along the Car, m, with 1 sigma of each and the covariance of their errors in m^2."""
 
     front_m: float
     rear_m: float
     front_sigma_m: float
-    middle_sigma_m: float
+    rear_sigma_m: float
+    covariance_m2: float = 0.0
 
     @property
     def wheelbase_m(self) -> float:
         """Distance between them."""
         return self.front_m - self.rear_m
-
-    @property
-    def middle_m(self) -> float:
-        """The middle between them."""
-        return 0.5 * (self.front_m + self.rear_m)
 
 
 def axles_at(front_m: float, rear_m: float, ahead: Sequence[Side], behind: Sequence[Side],
@@ -101,5 +97,5 @@ def _solved(rows: List[Tuple[Tuple[float, float, float], float, float]]) -> Axle
     rest = values - matrix @ (front, rear, half_chord)
     # What does not fit together makes all of it less sure.
     covariance = covariance * max(1.0, float(rest @ rest) / (len(rows) - 3 or 1))
-    middle = np.array([0.5, 0.5, 0.0])
-    return Axles(float(front), float(rear), math.sqrt(covariance[0, 0]), math.sqrt(middle @ covariance @ middle))
+    return Axles(float(front), float(rear), math.sqrt(covariance[0, 0]), math.sqrt(covariance[1, 1]),
+                 float(covariance[0, 1]))

@@ -1,7 +1,8 @@
 """The Car as it was found, with everything that is known of it."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import dataclass
-from typing import Optional, Tuple
+from typing import NamedTuple, Optional, Tuple
 
 from ..rectangle import Point, Rectangle
 from ..scan import NO_BIAS, RangeBias
@@ -17,6 +18,24 @@ class PlaneSize:
     length_sigma: float = 0.0
     width: Optional[float] = None
     width_sigma: float = 0.0
+
+
+class SideSigmas(NamedTuple):
+    """1 sigma of where each side of the rectangle is, across itself at its middle, m: of centre and size together."""
+
+    front: float
+    rear: float
+    left: float
+    right: float
+
+    def moved(self, along_m: float, across_m: float) -> "SideSigmas":
+        """With independent 1 sigma of a motion of the whole Car added."""
+        return SideSigmas(math.hypot(self.front, along_m), math.hypot(self.rear, along_m),
+                          math.hypot(self.left, across_m), math.hypot(self.right, across_m))
+
+
+# Nobody has measured it.
+UNKNOWN_SIDES = SideSigmas(math.nan, math.nan, math.nan, math.nan)
 
 
 @dataclass(frozen=True)
@@ -35,6 +54,7 @@ class CarFit:
         by_wheels: length and centre come from the wheels alone.
         in_plane: what was measured.
         warning: sentence on a data sheet that does not agree with that.
+        side_sigmas: 1 sigma of each side; those of the ends hold that front and rear may be known differently well.
         range_bias: constant errors of the LiDARs' ranges that the surfels are free of; it has to be taken off whatever
             is compared with them. Zero for surfels of ranges as they are: these share it with what is seen again.
     """
@@ -51,3 +71,4 @@ class CarFit:
     in_plane: PlaneSize = PlaneSize()
     warning: str = ""
     range_bias: RangeBias = NO_BIAS
+    side_sigmas: SideSigmas = UNKNOWN_SIDES

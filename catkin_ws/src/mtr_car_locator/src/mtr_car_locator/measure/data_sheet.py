@@ -1,41 +1,82 @@
 """The size on a Car's data sheet, which distances count from, against what the LiDARs' plane shows of the Car."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from dataclasses import replace
-from typing import Optional
+from typing import Dict, Iterator, List, Optional, Tuple
 
-from ..parameters import MAX_INSET_M, DataSheet
-from .car_fit import CarFit, PlaneSize
-from .wheels import DATA_SHEET_SIGMA_M
+from ..parameters import DATA_SHEET_SIGMA_M, MAX_INSET_M, DataSheet
+from ..rectangle import Point, Rectangle
+from .car_fit import CarFit
+from .ends import Ends
+from .side import ENDS, LONG_SIDES, SideExtent
 
 # What is measured beyond this is no chance.
 SIGMAS = 3.0
+# An inset of more than so many sigmas of its prior is not that of a usual car.
+INSET_SIGMAS = 2.0
+# A front that is known no better than this, 1 sigma, makes distances from it centimetres unsure.
+VAGUE_M = 0.02
 
 
-def with_data_sheet(fit: CarFit, sheet: DataSheet) -> CarFit:
-    """Length and width of the data sheet where they are given; centre, heading and what was measured stay."""
+def with_data_sheet(fit: CarFit, sheet: DataSheet, warning: str) -> CarFit:
+    """Length and width of the data sheet where they are given, and the outline grown to the Car's size."""
     car = fit.rectangle
-    length, width = sheet.known_length_m or car.length, sheet.known_width_m or car.width
-    # The outline is grown only: what was seen of the Car is there, whatever its data sheet says.
-    along, across = max(1.0, length / car.length), max(1.0, width / car.width)
-    return replace(
-        fit, rectangle=replace(car, length=length, width=width),
-        outline=tuple((along * x, across * y) for x, y in fit.outline),
-        length_sigma=DATA_SHEET_SIGMA_M if sheet.known_length_m else fit.length_sigma,
-        width_sigma=DATA_SHEET_SIGMA_M if sheet.known_width_m else fit.width_sigma,
-        warning=_warning(fit.in_plane, sheet))
+    car = replace(car, length=sheet.known_length_m or car.length, width=sheet.known_width_m or car.width)
+    return replace(fit, rectangle=car, outline=_grown(fit.outline, car), warning=warning)
 
 
-def _warning(size: PlaneSize, sheet: DataSheet) -> str:
-    found = (_disagreement("long", size.length, size.length_sigma, sheet.known_length_m),
-             _disagreement("wide", size.width, size.width_sigma, sheet.known_width_m))
-    return " ".join(sentence for sentence in found if sentence)
+def _grown(outline: Tuple[Point, ...], car: Rectangle) -> Tuple[Point, ...]:
+    """The outline reaching each side of the Car; never shrunk, because what was seen of the Car is there."""
+    half = (0.5 * car.length, 0.5 * car.width)
+    # Factors of what lies ahead and behind of the centre, then of what lies left and right of it.
+    factors = [[max(1.0, half[axis] / max(sign * point[axis] for point in outline)) for sign in (1.0, -1.0)]
+               for axis in (0, 1)]
+    return tuple((x * factors[0][int(x < 0.0)], y * factors[1][int(y < 0.0)]) for x, y in outline)
 
 
-def _disagreement(name: str, measured_m: Optional[float], sigma_m: float, known_m: float) -> str:
-    if not measured_m or not known_m:
+def warning_of(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> str:
+    """Sentences on a data sheet that does not agree with the plane, or leaves the Car's ends vague; empty for none."""
+    found = [_disagreement("wide", [extents.get(name) for name in LONG_SIDES], sheet.known_width_m, 2.0 * MAX_INSET_M)]
+    if sheet.known_length_m:
+        insets_m = INSET_SIGMAS * math.hypot(sheet.front_inset_sigma_m, sheet.rear_inset_sigma_m)
+        found.append(_disagreement("long", [extents.get(name) for name in ENDS], sheet.known_length_m, insets_m))
+    if ends.front_beyond_m:
+        found.append(_end_elsewhere("front", -ends.front_beyond_m))
+    found += _ends_that_disagree(extents, ends, sheet)
+    if sheet.known_length_m and max(ends.front_sigma_m, ends.rear_sigma_m) > VAGUE_M:
+        vague_cm = 100.0 * max(ends.front_sigma_m, ends.rear_sigma_m)
+        found.append(f"The Car's front and rear are known to {vague_cm:.1f} cm (1 sigma) only; front_overhang_m and "
+                     "wheelbase_m of its data sheet make them more exact.")
+    return " ".join(filter(None, found))
+
+
+def _disagreement(name: str, pair: List[Optional[SideExtent]], known_m: float, most_m: float) -> str:
+    """most_m: the insets of both sides together, at most."""
+    seen = [each for each in pair if each is not None]
+    if len(seen) < 2 or not known_m:
         return ""
+    measured_m, sigma_m = seen[0].level + seen[1].level, math.hypot(seen[0].sigma, seen[1].sigma)
     over_m, allowed_m = measured_m - known_m, SIGMAS * (sigma_m + DATA_SHEET_SIGMA_M)
-    if -2.0 * MAX_INSET_M - allowed_m <= over_m <= allowed_m:
+    if -most_m - allowed_m <= over_m <= allowed_m:
         return ""
     return (f"The Car is {measured_m:.3f} m {name} at the LiDARs' height, {100.0 * abs(over_m):.1f} cm "
             f"{'more' if over_m > 0.0 else 'less'} than its data sheet says; check which car stands there.")
+
+
+def _ends_that_disagree(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> Iterator[str]:
+    """One sentence for each end whose bumper is not where the axles and the data sheet put it."""
+    for name, outward_m, sigma_m, inset_sigma_m in (
+            ("front", ends.front_m, ends.front_sigma_m, sheet.front_inset_sigma_m),
+            ("rear", -ends.rear_m, ends.rear_sigma_m, sheet.rear_inset_sigma_m)):
+        level = extents.get(name)
+        if level is None or sigma_m > VAGUE_M:
+            continue
+        inset_m, allowed_m = outward_m - level.level, SIGMAS * math.hypot(sigma_m, level.sigma)
+        if not -allowed_m <= inset_m <= INSET_SIGMAS * inset_sigma_m + allowed_m:
+            yield _end_elsewhere(name, inset_m)
+
+
+def _end_elsewhere(name: str, inset_m: float) -> str:
+    return (f"The Car's {name} bumper at the LiDARs' height is {100.0 * abs(inset_m):.1f} cm "
+            f"{'inside' if inset_m > 0.0 else 'beyond'} the {name} of its data sheet; check front_overhang_m and which "
+            "car stands there.")

@@ -8,19 +8,23 @@ import numpy as np
 
 from mtr_core.se2 import Pose2
 
-from ..parameters import ORDINARY_LENGTH_M, ORDINARY_WIDTH_M, DataSheet
+from ..parameters import DATA_SHEET_SIGMA_M, ORDINARY_LENGTH_M, ORDINARY_WIDTH_M, DataSheet
 from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .axis import SymmetryAxis
+from .axles import Axles
 from .belonging import belongs
-from .car_fit import CarFit, PlaneSize
+from .car_fit import CarFit, PlaneSize, SideSigmas
 from .close_up import CloseUp
-from .data_sheet import with_data_sheet
+from .data_sheet import warning_of, with_data_sheet
+from .ends import EndEvidence, Ends, Estimate, ends_of
 from .incidence import MIN_INCIDENCE_COSINE
 from .outline import outline_of
+from .overhangs import outwards_of
 from .side import ENDS, LONG_SIDES, MAP_SHARE, MIDDLE_SHARE, OUTWARDS, Side, SideExtent, middle_of, sides_of
 from .side_profile import outermost, profile_of, summit
-from .wheels import CarWheels
+from .tyre_faces import faces_in
+from .wheels import CarWheels, wheels_from
 
 # What lies on the outline is the Car's.
 BEYOND_M = 0.06
@@ -52,17 +56,33 @@ def measured(seen: Surfels, found: AlignedCar, sheet: DataSheet, close_up: Optio
     car, axis, wheels = found.car, found.axis, found.wheels
     in_car = seen.in_frame(car.pose)
     extents = extents_of(sides_of(in_car.where(belongs(in_car, car, BEYOND_M))), car)
-    if close_up is not None:
-        extents = finer(extents, close_up.in_frame(car.pose), car, [] if wheels else ENDS)
-    car = sized(car, extents, axis, wheels, sheet)
-    in_car = seen.in_frame(car.pose)
-    mine = in_car.where(belongs(in_car, car, BEYOND_M))
+    near = None if close_up is None else close_up.in_frame(car.pose)
+    if near is not None:
+        extents = finer(extents, near, car, [] if wheels else ENDS)
     names = tuple(name for name in OUTWARDS if name in extents and not (wheels and name in ENDS))
-    sigmas, sizes = _sigmas(extents, found, sheet)
-    fit = CarFit(car, outline_of(mine, car, names), sigmas, *sizes, names,
-                 in_car.where(car.outside(in_car.position) <= BEYOND_M), 0.0, wheels is not None,
-                 PlaneSize() if wheels else _plane_size(extents))
-    return with_data_sheet(_with_inset(fit, sheet), sheet)
+    ends = wheels.ends if wheels else ends_in(extents, None if near is None else axles_in(near, extents, sheet), sheet)
+    plane = _in_plane(sized(car, extents, axis, wheels, sheet), car, ends, {name: extents[name] for name in names})
+    sides = sides_across(extents, axis, sheet, on_wheels=wheels is not None)
+    in_plane = seen.in_frame(plane.pose)
+    outline = outline_of(in_plane.where(belongs(in_plane, plane, BEYOND_M)), plane, names)
+    # The Car's centre need not be midway between its bumpers in the plane.
+    ahead = Pose2(ends.centre_m - (car.pose.inverse() @ plane.pose).x, 0.0, 0.0)
+    mine = in_plane.where(plane.outside(in_plane.position) <= BEYOND_M).in_frame(ahead)
+    width_m = plane.width + (2.0 * sheet.side_inset_m if all(name in extents for name in LONG_SIDES) else 0.0)
+    fit = CarFit(Rectangle(plane.pose @ ahead, ends.length_m, width_m), tuple((x - ahead.x, y) for x, y in outline),
+                 (ends.centre_sigma_m, sides.middle_sigma_m, axis.slope_sigma), ends.length_sigma_m,
+                 sides.width_sigma_m, names, mine, 0.0, wheels is not None,
+                 PlaneSize() if wheels else _plane_size(extents), side_sigmas=SideSigmas(
+                     ends.front_sigma_m, ends.rear_sigma_m, *sides.side_sigmas_m))
+    return with_data_sheet(fit, sheet, warning_of(extents if not wheels else {}, ends, sheet))
+
+
+def _in_plane(rough: Rectangle, car: Rectangle, ends: Ends, seen: Dict[str, SideExtent]) -> Rectangle:
+    """The rectangle in the LiDARs' plane: bumpers that were seen, and for the others where the ends are."""
+    ahead_m = seen["front"].level if "front" in seen else ends.front_m
+    behind_m = -seen["rear"].level if "rear" in seen else ends.rear_m
+    y_m = (car.pose.inverse() @ rough.pose).y
+    return Rectangle(car.pose @ Pose2(0.5 * (ahead_m + behind_m), y_m, 0.0), ahead_m - behind_m, rough.width)
 
 
 def sized(car: Rectangle, extents: Dict[str, SideExtent], axis: SymmetryAxis, wheels: Optional[CarWheels],
@@ -70,7 +90,7 @@ def sized(car: Rectangle, extents: Dict[str, SideExtent], axis: SymmetryAxis, wh
     """Centre and size from the outermost levels."""
     y, width = _span([extents.get(name) for name in LONG_SIDES], sheet.width_m)
     if wheels:
-        x, length = wheels.centre_m, wheels.length_m
+        x, length = wheels.ends.centre_m, wheels.ends.length_m
     else:
         x, length = _span([extents.get(name) for name in ENDS], sheet.length_m)
     # The axis of symmetry tells more than two outermost points.
@@ -137,36 +157,54 @@ def _distance_between(sides: List[SideExtent]) -> Tuple[Optional[float], float]:
     return sides[0].level + sides[1].level, math.hypot(sides[0].sigma, sides[1].sigma)
 
 
-def _with_inset(fit: CarFit, sheet: DataSheet) -> CarFit:
-    if fit.in_plane.width is None:
-        return fit
-    return replace(fit, rectangle=replace(fit.rectangle, width=fit.rectangle.width + 2.0 * sheet.side_inset_m))
+@dataclass(frozen=True)
+class SidesAcross:
+    """1 sigma of the middle between both long sides, of their distance, and of the left and the right one, m."""
+
+    middle_sigma_m: float
+    width_sigma_m: float
+    side_sigmas_m: Tuple[float, float]
 
 
-def _sigmas(extents: Dict[str, SideExtent], found: AlignedCar,
-            sheet: DataSheet) -> Tuple[Tuple[float, float, float], Tuple[float, float]]:
-    """1 sigma of the Car's pose, and of its length and width."""
-    x_sigma, length_sigma = _pair_sigmas(ENDS, extents, sheet.known_length_m, sheet)
-    y_sigma, width_sigma = _pair_sigmas(LONG_SIDES, extents, sheet.known_width_m, sheet)
-    if found.axis.is_centred:
-        y_sigma = found.axis.offset_sigma_m
-    if found.wheels:
-        x_sigma, length_sigma = found.wheels.centre_sigma_m, found.wheels.length_sigma_m
-        width_sigma = math.hypot(width_sigma, math.sqrt(2.0) * TYRE_INSET_SIGMA_M)
-    return (x_sigma, y_sigma, found.axis.slope_sigma), (length_sigma, width_sigma)
-
-
-def _pair_sigmas(pair: Tuple[str, str], extents: Dict[str, SideExtent], known_m: float,
-                 sheet: DataSheet) -> Tuple[float, float]:
-    """1 sigma of the middle between two opposite sides and of their distance."""
-    found = [extents[name].sigma for name in pair if name in extents]
-    # A body is symmetric: both sides stand back alike, and both ends in the same direction.
-    inset = 2.0 * sheet.side_inset_sigma_m
+def sides_across(extents: Dict[str, SideExtent], axis: SymmetryAxis, sheet: DataSheet, *,
+                 on_wheels: bool) -> SidesAcross:
+    """How well both long sides are known. A body is symmetric: both stand back alike in the LiDARs' plane."""
+    found = {name: extents[name].sigma for name in LONG_SIDES if name in extents}
+    tyres_m = math.sqrt(2.0) * TYRE_INSET_SIGMA_M if on_wheels else 0.0
     if len(found) == 2:
-        own = math.hypot(*found)
-        return 0.5 * own, math.hypot(own, inset)
-    size_sigma = inset if known_m else UNSEEN_SIGMA_M[pair]
-    if not found:
-        return math.hypot(0.5 * size_sigma, size_sigma), size_sigma
+        own_m = math.hypot(*found.values())
+        width_m = DATA_SHEET_SIGMA_M if sheet.known_width_m else math.hypot(
+            own_m, 2.0 * sheet.side_inset_sigma_m, tyres_m)
+        middle_m = axis.offset_sigma_m if axis.is_centred else 0.5 * own_m
+        return SidesAcross(middle_m, width_m, 2 * (math.hypot(middle_m, 0.5 * width_m),))
+    width_m = DATA_SHEET_SIGMA_M if sheet.known_width_m else UNSEEN_SIGMA_M[LONG_SIDES]
     # Opposite insets cancel in the middle between two sides; that of a single one does not.
-    return math.hypot(math.hypot(0.5 * size_sigma, sheet.side_inset_sigma_m), found[0]), size_sigma
+    near_m = math.hypot(*found.values(), sheet.side_inset_sigma_m, 0.5 * tyres_m) if found else width_m
+    left_m, right_m = (near_m if name in found else math.hypot(near_m, width_m) for name in LONG_SIDES)
+    return SidesAcross(math.hypot(near_m, 0.5 * width_m), width_m, (left_m, right_m))
+
+
+def axles_in(close_up: CloseUp, extents: Dict[str, SideExtent], sheet: DataSheet) -> Optional[Axles]:
+    """Axles of a Car with a body at the LiDARs' height, by the tyres in its wheel arches; None without clear tyres.
+
+    close_up is in the frame of the extents.
+    """
+    if not all(name in extents for name in LONG_SIDES):
+        return None
+    wheels = wheels_from([faces_in(close_up, name, extents[name].level, in_arches=True) for name in LONG_SIDES], sheet)
+    return wheels.axles if wheels else None
+
+
+def ends_in(extents: Dict[str, SideExtent], axles: Optional[Axles], sheet: DataSheet) -> Ends:
+    """Front and rear from the bumpers that were seen, and from the axles where the overhang or a bumper is missing."""
+    front, rear = extents.get("front"), extents.get("rear")
+    ahead, behind = outwards_of(axles, sheet) if axles else (None, None)
+    at_front = EndEvidence(front, sheet.front_inset_sigma_m, ahead if sheet.front_overhang_m or not front else None)
+    at_rear = EndEvidence(rear, sheet.rear_inset_sigma_m, None if rear else behind)
+    beyond_m = at_front.beyond_m
+    if beyond_m:
+        at_front = replace(at_front, by_axle=None)
+    ordinary = Estimate(sheet.length_m, UNSEEN_SIGMA_M[ENDS])
+    found = ends_of(at_front, at_rear, ordinary, sheet.known_length_m)
+    found = found or Ends(0.5 * sheet.length_m, -0.5 * sheet.length_m, *3 * (ordinary.sigma_m,))
+    return replace(found, front_beyond_m=beyond_m)

@@ -17,12 +17,15 @@ NEAR_M = 0.06
 # Sills and bumpers that the LiDARs meet now and then, where the ground is uneven, have a tenth of a face's returns.
 MIN_SHARE_OF_DENSEST, DENSEST_PERCENT = 0.25, 90.0
 MIN_RETURNS = 100
-# A shorter gap, in bins, is no end; so many bins at both ends are smeared.
-GAP_BINS, SMEARED_BINS = 5, 3
+# A shorter gap, in bins, is no end: on a Car whose tyres stand alone, and between a tyre and its wheel arch, which at
+# the height of the hub is 4 to 9 cm away. So many bins at both ends are smeared.
+GAP_BINS, ARCH_GAP_BINS, SMEARED_BINS = 5, 2, 3
 
 
-def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[Face]:
+def faces_in(close_up: CloseUp, name: str, level_m: float, *, in_arches: bool = False) -> List[Face]:
     """The faces along the side `name` at its level, from the rear; close_up is in the Car's frame.
+
+    in_arches: the body is at that height, too, so that only the gaps of the wheel arches end a face.
 
     A face ends where half as many returns are as in its midst: noise and the heights at which it was met smear both its
     ends alike, so the middle is exact to millimetres although the length is not.
@@ -36,13 +39,14 @@ def faces_in(close_up: CloseUp, name: str, level_m: float) -> List[Face]:
     count = np.bincount((np.floor(along / BIN_M) - first).astype(int), minlength=2 * GAP_BINS)
     density = np.convolve(np.append(count, np.zeros(GAP_BINS)), np.full(3, 1.0 / 3.0), "same")
     minimum = MIN_SHARE_OF_DENSEST * np.percentile(density[density > 0.0], DENSEST_PERCENT)
-    ends = [_ends(density, *piece) for piece in _pieces(np.nonzero(density > minimum)[0])]
+    gap_bins = ARCH_GAP_BINS if in_arches else GAP_BINS
+    ends = [_ends(density, *piece) for piece in _pieces(np.nonzero(density > minimum)[0], gap_bins)]
     faces = [Face((first + 0.5 + low) * BIN_M, (first + 0.5 + high) * BIN_M) for low, high in ends]
     return [face for face in faces if MIN_FACE_M <= face.size_m <= MAX_FACE_M]
 
 
-def _pieces(bins: IntArray) -> List[Tuple[int, int]]:
-    parts = np.split(bins, np.nonzero(np.diff(bins) > GAP_BINS)[0] + 1)
+def _pieces(bins: IntArray, gap_bins: int) -> List[Tuple[int, int]]:
+    parts = np.split(bins, np.nonzero(np.diff(bins) > gap_bins)[0] + 1)
     return [(part[0], part[-1]) for part in parts if (part[-1] - part[0]) * BIN_M >= MIN_FACE_M]
 
 

@@ -12,6 +12,8 @@ from mtr_core.arrays import FloatArray
 from ..parameters import DataSheet
 from ..surfels import Surfels
 from .axles import EXACT_FACE_SIGMA_M, FACE_SIZE_NOISE_M, Axles, axles_at, axles_between
+from .ends import Ends
+from .overhangs import ends_on
 from .side import ENDS, LONG_SIDES, Side, side_of
 
 # Surface so near the side's level is the outer face of a tyre; pieces farther apart than the gap may be two things,
@@ -25,16 +27,10 @@ SQUARE_M = 0.20
 EXACT_SQUARE_M = 0.05
 # A tread is square to the Car within 18 degrees, which its rounded shoulder is not; it is no broader than this.
 TREAD_COSINE, TYRE_WIDTH_M = 0.95, 0.30
-# The wheelbase by the length on makers' data sheets is 0.54 (saloon with long overhangs) over 0.61 and 0.68 (compact,
-# small) to 0.74 (the smallest class of Japan), half the difference of the overhangs -0.17 to 0.25 m. See the README.
-WHEELBASE_SHARE, WHEELBASE_SHARE_SIGMA = 0.63, 0.05
-OVERHANG_SIGMA_M = 0.12
 # Between two wheels the LiDARs look under the Car: mirrors and steps together are shorter than this, a sill is longer.
 MAX_BETWEEN_M = 0.4
 # Two pairs of wheels nearer to each other than this are two readings of one.
 SAME_WHEELS_M = 0.8
-# A data sheet's length and overhang differ from this Car's by number plates, load and trim levels.
-DATA_SHEET_SIGMA_M = 0.005
 
 
 class Face(NamedTuple):
@@ -60,14 +56,10 @@ FacePair = Tuple[Face, Face]
 
 @dataclass(frozen=True)
 class CarWheels:
-    """The Car along its x axis, as its wheels tell, in the frame of the sides; 1 sigma each."""
+    """The Car along its x axis, as its wheels tell, in the frame of the sides."""
 
-    front_axle_m: float
-    rear_axle_m: float
-    centre_m: float
-    centre_sigma_m: float
-    length_m: float
-    length_sigma_m: float
+    axles: Axles
+    ends: Ends
 
 
 def wheel_sides(in_frame: Surfels) -> Dict[str, Side]:
@@ -89,7 +81,7 @@ def wheels_between(sides: Dict[str, Side], y: float, width: float, sheet: DataSh
             axles.append(found)
     widths = ((y + 0.5 * width - TYRE_WIDTH_M, y + 0.5 * width), (y - 0.5 * width, y - 0.5 * width + TYRE_WIDTH_M))
     ahead, behind = ([sides[name].within(*each) for each in widths] for name in ENDS)
-    return [_from_axles(axles_at(float(front), float(rear), ahead, behind, sheet.wheelbase_m), sheet)
+    return [car_on(axles_at(float(front), float(rear), ahead, behind, sheet.wheelbase_m), sheet)
             for rear, front in axles]
 
 
@@ -112,7 +104,7 @@ def wheels_from(faces: Sequence[Sequence[Face]], sheet: DataSheet) -> Optional[C
         return None
     sigma_m = _face_sigma_m(*both[0])
     rears, fronts = zip(*[[(each.middle_m, sigma_m) for each in side] for side in both[0]])
-    return _from_axles(axles_between(fronts, rears, sheet.wheelbase_m), sheet)
+    return car_on(axles_between(fronts, rears, sheet.wheelbase_m), sheet)
 
 
 def _face_sigma_m(left: FacePair, right: FacePair) -> float:
@@ -146,18 +138,6 @@ def face_pairs(side: Side, level: float) -> Iterator[FacePair]:
             yield rear, front
 
 
-def _from_axles(axles: Axles, sheet: DataSheet) -> CarWheels:
-    length, length_sigma = _length_of(axles.wheelbase_m, sheet)
-    if sheet.front_overhang_m:
-        centre = axles.front_m + sheet.front_overhang_m - 0.5 * length
-        centre_sigma = math.hypot(axles.front_sigma_m, DATA_SHEET_SIGMA_M, 0.5 * length_sigma)
-    else:
-        centre, centre_sigma = axles.middle_m, math.hypot(axles.middle_sigma_m, OVERHANG_SIGMA_M)
-    return CarWheels(axles.front_m, axles.rear_m, centre, centre_sigma, length, length_sigma)
-
-
-def _length_of(wheelbase: float, sheet: DataSheet) -> Tuple[float, float]:
-    if sheet.known_length_m:
-        return sheet.known_length_m, DATA_SHEET_SIGMA_M
-    length = wheelbase / WHEELBASE_SHARE
-    return length, length * WHEELBASE_SHARE_SIGMA / WHEELBASE_SHARE
+def car_on(axles: Axles, sheet: DataSheet) -> CarWheels:
+    """The Car on these axles, by the prior of the overhangs and what its data sheet says."""
+    return CarWheels(axles, ends_on(axles, sheet))

@@ -9,7 +9,7 @@ from mtr_core import sensor_figures
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 
-from ..measure.car_fit import CarFit, PlaneSize
+from ..measure.car_fit import UNKNOWN_SIDES, CarFit, PlaneSize, SideSigmas
 from ..rectangle import Rectangle
 from ..scan import RangeBias
 from ..surfels import Surfels
@@ -63,6 +63,7 @@ def remembered_from(data: Mapping[str, Any]) -> RememberedCar:
             sigmas=tuple(fit.pop("sigmas")), seen=tuple(fit.pop("seen")),
             surfels=Surfels(table[:, 0:2], table[:, 2:4], table[:, 4], table[:, 5], table[:, 6]),
             in_plane=PlaneSize(**fit.pop("in_plane")),
+            side_sigmas=SideSigmas(*map(float, fit.pop("side_sigmas", UNKNOWN_SIDES))),
             range_bias=RangeBias(*map(float, fit.pop("range_bias", UNKNOWN_BIAS))), **fit)
         return RememberedCar(found, int(data["map_revision"]), int(data["revision"]), int(data["map_car_id"]))
     except (KeyError, TypeError, ValueError, AttributeError) as error:

@@ -18,6 +18,8 @@ from .surroundings import fill
 from .texts import cut, problem_messages
 
 MAX_ACCURACY_CM = 2 ** 31 - 1
+# Of CarEstimate; the link has the same names.
+_SIDE_SIGMAS = ("front_sigma", "rear_sigma", "left_sigma", "right_sigma")
 # Words of DriveStatus.
 MOTION_SOURCES = {"none": link.MOTION_SOURCE_NONE, "locked": link.MOTION_SOURCE_LOCKED,
                   "manual": link.MOTION_SOURCE_MANUAL, "planner": link.MOTION_SOURCE_PLANNER}
@@ -150,6 +152,9 @@ def _add_car(dimensions: link.CarDimensions, car: Optional[CarFields]) -> None:
         return
     dimensions.length, dimensions.width = car.length, car.width
     dimensions.length_sigma, dimensions.width_sigma = car.length_sigma, car.width_sigma
+    for name in _SIDE_SIGMAS:
+        if math.isfinite(getattr(car, name)):
+            setattr(dimensions, name, getattr(car, name))
     dimensions.mapped = car.state == CarState.LOCATED
     if dimensions.mapped:
         dimensions.outline_x.extend(car.outline_x)

@@ -47,6 +47,10 @@ class CarFields(Stamped, Protocol):
     width: float
     length_sigma: float
     width_sigma: float
+    front_sigma: float
+    rear_sigma: float
+    left_sigma: float
+    right_sigma: float
     outline_x: Sequence[float]
     outline_y: Sequence[float]
     map_car_id: int
