@@ -5,8 +5,9 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.actions.distance import distance_to_outline, measure, measure_at, outline_sigma
+from mtr_operator.domain.actions.distance import distance_to_outline, measure, measure_at
 from mtr_operator.domain.actions.pose_history import PoseHistory, PoseSample, PoseUnknown
+from mtr_operator.domain.geometry.outline import NO_ERROR, OriginError, origin_error, side_errors
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
@@ -63,13 +64,14 @@ def test_distance_is_that_of_the_key_from_the_side():
 def test_uncertainty_is_the_root_of_the_sum_of_squares():
     sample = PoseSample(1.0, Pose(0.0, 3.0, 0.0), 0.4, 0.03, 0.02, 0.25, 0.0)
     expected = math.sqrt(0.03 ** 2 + (0.02 * 0.25) ** 2 + (0.4 * 0.1) ** 2 + 0.01 ** 2)
-    assert measure(LEFT, sample, 0.1, 0.01).uncertainty_m == pytest.approx(expected)
+    assert measure(LEFT, sample, 0.1, OriginError(0.01 ** 2, 0.0)).uncertainty_m == pytest.approx(expected)
 
 
 def test_time_counts_by_the_speed_or_by_where_the_key_was_about_the_instant():
     sample, near = (PoseSample(1.0, Pose(0.0, y, -math.pi / 2), 0.4, 0.0, 0.0, 0.25, 0.0) for y in (3.0, 3.1))
-    assert measure(LEFT, sample, 0.1, 0.0, [near, sample]).uncertainty_m == pytest.approx(math.sqrt(0.1 ** 2 / 2.0))
-    assert measure(LEFT, sample, 0.1, 0.0, [sample]).uncertainty_m == pytest.approx(0.04)
+    moved = measure(LEFT, sample, 0.1, NO_ERROR, [near, sample])
+    assert moved.uncertainty_m == pytest.approx(math.sqrt(0.1 ** 2 / 2.0))
+    assert measure(LEFT, sample, 0.1, NO_ERROR, [sample]).uncertainty_m == pytest.approx(0.04)
 
 
 SPEED_MPS, BRAKES_MPS2, STOPS_S, STOPS_M = 0.4, 0.5, 10.0, 0.5
@@ -122,15 +124,38 @@ def test_uncertainty_is_not_a_number_when_the_robot_does_not_say():
     assert math.isnan(measure(LEFT, sample, 0.0).uncertainty_m)
 
 
-def test_outline_sigma_is_half_the_dimension_along_the_axis():
-    assert outline_sigma(LEFT, CAR) == pytest.approx(0.01)
-    assert outline_sigma(Ray(2.25, 0.0, 1.0, 0.0), CAR) == pytest.approx(0.02)
-    half = math.sqrt(0.5)
-    assert outline_sigma(Ray(2.25, 0.9, half, half), CAR) == pytest.approx(half * math.hypot(0.01, 0.02))
+HALF = math.sqrt(0.5)
+FRONT, REAR, CORNER = Ray(2.25, 0.0, 1.0, 0.0), Ray(-2.25, 0.0, -1.0, 0.0), Ray(-2.25, 0.9, -HALF, HALF)
+# Front and rear of one sigma each, errors independent: the centre's variance is 0.25 (0.11^2 + 0.03^2).
+ENDS = replace(CAR, length_sigma=math.hypot(0.11, 0.03), front_sigma=0.11, rear_sigma=0.03, left_sigma=0.0125,
+               right_sigma=0.0125, width_sigma=0.024)
+CENTRE_SIGMA_M = 0.5 * math.hypot(0.11, 0.03)
 
 
-def test_centre_of_the_car_is_no_origin_on_its_outline():
-    assert outline_sigma(Ray(0.0, 0.0, 1.0, 0.0), CAR) == 0.0
+def test_outline_without_its_sides_adds_half_the_dimension_along_the_axis():
+    assert origin_error(LEFT, CAR) == pytest.approx((0.01 ** 2, 0.0))
+    assert origin_error(FRONT, CAR) == pytest.approx((0.02 ** 2, 0.0))
+    assert origin_error(CORNER, CAR) == pytest.approx((0.5 * (0.01 ** 2 + 0.02 ** 2), 0.0))
+    assert origin_error(Ray(0.0, 0.0, 1.0, 0.0), CAR) == origin_error(Ray(0.0, 0.0, 1.0, 0.0), ENDS) == NO_ERROR
+    assert side_errors(FRONT, CAR) == ()
+
+
+@pytest.mark.parametrize(("ray", "sigma_m"), [(FRONT, 0.11), (REAR, 0.03), (LEFT, 0.0125),
+                                              (CORNER, math.hypot(0.03, 0.0125) * HALF)])
+def test_uncertainty_of_a_distance_holds_that_of_the_side_where_its_line_begins(ray, sigma_m):
+    """Status has the variance of base_link, the Car's centre included; the side takes the centre's place."""
+    own_m, across_m = 0.004, math.sqrt(0.0125 ** 2 - 0.012 ** 2)
+    sample = PoseSample(1.0, Pose(ray.origin_x + 3.0 * ray.direction_x, ray.origin_y + 3.0 * ray.direction_y, 0.0), 0.0,
+                        math.nan, 0.0, 0.0, 0.0,
+                        covariance=(own_m ** 2 + CENTRE_SIGMA_M ** 2, own_m ** 2 + across_m ** 2, 0.0))
+    measured = measure(ray, sample, 0.0, origin_error(ray, ENDS))
+    assert measured.uncertainty_m == pytest.approx(math.hypot(own_m, sigma_m))
+    assert math.hypot(*(side.along_m for side in side_errors(ray, ENDS))) == pytest.approx(sigma_m)
+
+
+def test_distance_is_never_surer_than_the_side_where_its_line_begins():
+    sample = PoseSample(1.0, Pose(-5.25, 0.0, 0.0), 0.0, 0.001, 0.0, 0.0, 0.0)
+    assert measure(REAR, sample, 0.0, origin_error(REAR, ENDS)).uncertainty_m == pytest.approx(0.03)
 
 
 def test_gap_to_the_outline():

@@ -16,6 +16,7 @@ from mtr_operator.domain.estimation.budget.calibration import Distribution
 from mtr_operator.domain.estimation.budget.calibration_document import calibration_from
 from mtr_operator.domain.estimation.budget.distance_budget import DistanceBudget, correlations
 from mtr_operator.domain.estimation.budget.terms import Carriage, Measurement, Term, terms_of
+from mtr_operator.domain.geometry.outline import SideError
 from mtr_operator.storage.given_files import DEFAULT_CALIBRATION, load_calibration
 
 TERM = {"value": 0.0, "uncertainty": 0.5, "distribution": "rectangular", "source": "rule"}
@@ -171,3 +172,19 @@ def test_a_file_that_is_no_record_is_one_sentence_with_its_name(tmp_path, conten
         load_calibration(path)
     assert str(path) in str(caught.value)
     assert DEFAULT_CALIBRATION.is_file()
+
+
+def test_sides_of_the_car_are_common_to_the_lines_that_begin_on_them():
+    front, left = SideError("front", 0.11, 1.0), SideError("left", 0.035, 1.0)
+    corner = (replace(front, share=math.sqrt(0.5)), replace(left, share=math.sqrt(0.5)))
+    rear = SideError("rear", 0.075, 1.0)
+    budgets = [DistanceBudget(line, "unlock", 1.0, terms_of(Measurement(0.004, 0.0, (0.0, 0.0), sides=sides),
+                                                            Carriage(direction, 1.0), calibration_from(DOCUMENT)))
+               for line, (sides, direction) in enumerate((((front,), (1.0, 0.0)), ((front,), (1.0, 0.0)),
+                                                          (corner, (math.sqrt(0.5),) * 2), ((rear,), (-1.0, 0.0))), 1)]
+    named = [{term.name: term for term in budget.terms} for budget in budgets]
+    assert named[0]["front of the Car"].contribution_m == pytest.approx(0.11) and "rear of the Car" not in named[0]
+    assert named[2]["left of the Car"].contribution_m == pytest.approx(0.035 * math.sqrt(0.5))
+    assert all(term.is_common for terms in named for name, term in terms.items() if name.endswith("of the Car"))
+    shares = correlations(budgets)
+    assert shares[0][1] > 0.95 and 0.8 < shares[0][2] < shares[0][1] and shares[0][3] < 0.2

@@ -33,7 +33,8 @@ STATUS = robot_status.RobotStatus(
     covariance_xy_m2=-0.25, heading_sigma_rad=0.0625, key_x=0.25, key_y=0.5, key_height_m=1.0,
     pressed_buttons=(1, 2), localization_accuracy_cm=2, battery_percent=80, is_mapping_car=True,
     mode=robot_status.Mode.MAPPING_CAR,
-    car=robot_status.CarDimensions(4.5, 1.75, 0.25, 0.125, ((2.25, 0.5), (-2.25, 0.5), (0.0, -0.875))),
+    car=robot_status.CarDimensions(4.5, 1.75, 0.25, 0.125, ((2.25, 0.5), (-2.25, 0.5), (0.0, -0.875)),
+                                   0.109375, 0.078125, 0.03125, 0.0625),
     car_frame=robot_status.CarFrame(3, 0.5, -0.25, 0.125),
     car_check=robot_status.CarCheck(7, robot_status.CheckState.FAILED, 0.25, 0.125, 0.5, 0.0625, "Moved.", (LATE,)),
     session_id=2 ** 63 - 1, command_id=5,
@@ -153,6 +154,6 @@ def test_other_bytes_are_undecodable(payload):
                                      "PreflightReport", "PreflightItem"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 14, "Status": 28, "RobotState": 19, "CarDimensions": 11, "CarCheck": 8, "Interventions": 7,
+    known = {"Command": 14, "Status": 28, "RobotState": 19, "CarDimensions": 15, "CarCheck": 8, "Interventions": 7,
              "PreflightReport": 4, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -109,6 +109,8 @@ class CarDimensions:
     """Length and width of the Car as the robot measured them, with 1 sigma, in m.
 
     outline: counterclockwise polygon in the Car coordinate system, m; empty when the robot does not say.
+    front_sigma, rear_sigma, left_sigma, right_sigma: 1 sigma of where each side is, across itself, of centre and size
+    together; NaN when the robot does not say.
     """
 
     length: float
@@ -116,6 +118,20 @@ class CarDimensions:
     length_sigma: float
     width_sigma: float
     outline: tuple[tuple[float, float], ...] = ()
+    front_sigma: float = math.nan
+    rear_sigma: float = math.nan
+    left_sigma: float = math.nan
+    right_sigma: float = math.nan
+
+    @property
+    def side_sigmas(self) -> tuple[float, float, float, float]:
+        """Of front, rear, left and right."""
+        return self.front_sigma, self.rear_sigma, self.left_sigma, self.right_sigma
+
+    @property
+    def knows_sides(self) -> bool:
+        """True when the robot says how well it knows each side."""
+        return not any(map(math.isnan, self.side_sigmas))
 
 
 @dataclass(frozen=True)

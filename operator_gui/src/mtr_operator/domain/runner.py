@@ -6,7 +6,7 @@ import contextlib
 from typing import Any, Callable, Iterator, Sequence
 
 from .actions.car import Car
-from .actions.car_size import size_cautions
+from .actions.car_size import nearness_of, size_cautions
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
@@ -30,7 +30,7 @@ from .results.journal import (
 )
 from .results.line_result import LineResult
 from .results.notebook import Notebook
-from .results.progress import Progress
+from .results.progress import Progress, car_document
 from .results.refusals import Refusals
 from .results.session_record import (
     ENDED_BY,
@@ -155,13 +155,20 @@ class Runner:
         mapped = self._car.dimensions()
         self._progress.check_car(mapped)
         if self._progress.car is None:
-            self._notebook.add(CAR, plain_fields(mapped))
+            self._notebook.add(CAR, {name: plain_fields(value) for name, value in car_document(mapped).items()})
         lines: Sequence[Line] = self._scenario.lines(self._parameters, self._progress.measured_car)
         if self._progress.limits is not None:
             check_lines(self._progress.limits, lines, self._scenario.line_word)
+        self._check_nearness(lines)
         for sentence in size_cautions([line.ray for line in lines], self._progress.measured_car):
             self._robot.say(f"warning: {sentence}")
         return lines
+
+    def _check_nearness(self, lines: Sequence[Line]) -> None:
+        nearest_m, _ = self._scenario.distance_range(self._parameters)
+        nearness = nearness_of([line.ray for line in lines], nearest_m, self._progress.measured_car)
+        if nearness is not None:
+            raise RobotFailed(f"The test does not begin. {nearness.sentence}")
 
     def _frame(self) -> Any:
         return None if self._loop.frames.newest is None else plain_fields(self._loop.frames.newest)

@@ -10,6 +10,7 @@ from mtr_operator.car_link.profile import CarProfile
 from mtr_operator.domain.actions.distance import Distance, measure_at
 from mtr_operator.domain.actions.pose_history import PoseHistory
 from mtr_operator.domain.distance_feed import Reported
+from mtr_operator.domain.geometry.outline import OriginError
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import PHONE_FEED
@@ -58,8 +59,8 @@ class ReplayedPhone:
 
         PoseUnknown, or LineInvalid, when nobody knows where the phone was.
         """
-        def key_distance(ray: Ray, time_s: float, origin_sigma_m: float) -> Distance:
-            return measure_at(ray, poses, time_s, 0.0, origin_sigma_m)
+        def key_distance(ray: Ray, time_s: float, origin: OriginError) -> Distance:
+            return measure_at(ray, poses, time_s, 0.0, origin)
 
         line = self._places[number]
         stood = stood_at(line, made, self._parameters, self._car, key_distance)

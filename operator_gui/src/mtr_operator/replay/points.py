@@ -9,10 +9,11 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, Iterable, Mapping
 
-from mtr_operator.domain.actions.distance import Distance, measure_at, outline_sigma
+from mtr_operator.domain.actions.distance import Distance, measure_at
 from mtr_operator.domain.actions.lock_history import Expected, LockHistory
 from mtr_operator.domain.actions.pose_history import PoseHistory, PoseUnknown
 from mtr_operator.domain.actions.trouble import LineInvalid
+from mtr_operator.domain.geometry.outline import origin_error
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import CarEvent, LockState
 from mtr_operator.domain.results.course import ALLOWED, CLOSED, EXPECTED, HELD, UNWATCHED, WATCHED
@@ -186,11 +187,11 @@ class Points:
         if watch.expected is not None and math.isinf(watch.expected.until_s):
             if answer is None or watch.doubt:
                 return None
-            distance = measure_at(ray, poses, answer.time_s, answer.time_sigma_s, outline_sigma(ray, self._car))
+            distance = measure_at(ray, poses, answer.time_s, answer.time_sigma_s, origin_error(ray, self._car))
             return distance.answered_by(answer)
         if kept is None:
             return None
-        return measure_at(ray, poses, kept.robot_time_s, 0.0, outline_sigma(ray, self._car))
+        return measure_at(ray, poses, kept.robot_time_s, 0.0, origin_error(ray, self._car))
 
 
 def _history(locks: ReplayedLocks, values: Mapping[str, Any]) -> LockHistory:

@@ -20,6 +20,7 @@ from .surroundings import surroundings_from, surroundings_message
 
 MAX_MESSAGE_BYTES = 64 * 1024
 _COUNTS = tuple(field.name for field in dataclasses.fields(robot_status.Interventions))
+_SIDE_SIGMAS = ("front_sigma", "rear_sigma", "left_sigma", "right_sigma")
 _CHECK_FIGURES = ("difference_m", "difference_rad", "limit_m", "limit_rad")
 
 
@@ -206,8 +207,10 @@ def _state_message(status: robot_status.RobotStatus) -> pb.RobotState:
 
 
 def _car_message(car: robot_status.CarDimensions, frame: robot_status.CarFrame) -> pb.CarDimensions:
+    sides = {name: value for name in _SIDE_SIGMAS if not math.isnan(value := getattr(car, name))}
     return pb.CarDimensions(
-        length=car.length, width=car.width, length_sigma=car.length_sigma, width_sigma=car.width_sigma, mapped=True,
+        **sides, length=car.length, width=car.width, length_sigma=car.length_sigma, width_sigma=car.width_sigma,
+        mapped=True,
         outline_x=[x for x, _ in car.outline], outline_y=[y for _, y in car.outline], revision=frame.revision,
         correction_x=frame.correction_x, correction_y=frame.correction_y, correction_heading=frame.correction_heading)
 
@@ -225,7 +228,8 @@ def _car_from(car: pb.CarDimensions) -> robot_status.CarDimensions | None:
     if not car.mapped:
         return None
     outline = tuple(zip(car.outline_x, car.outline_y))
-    return robot_status.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma, outline)
+    return robot_status.CarDimensions(car.length, car.width, car.length_sigma, car.width_sigma, outline,
+                                      *(_value(car, name, math.nan) for name in _SIDE_SIGMAS))
 
 
 def _frame_from(car: pb.CarDimensions) -> robot_status.CarFrame:

@@ -75,6 +75,8 @@ def _car(car: CarDimensions) -> Iterator[tuple[Limit, object]]:
     yield limits.CAR_WIDTH, car.width
     yield limits.CAR_SIGMA, car.length_sigma
     yield limits.CAR_SIGMA, car.width_sigma
+    for sigma_m in car.side_sigmas:
+        yield from _known(limits.CAR_SIGMA, sigma_m)
     yield Limit("number of points of the Car's outline", 0, limits.MAX_OUTLINE_POINTS), len(car.outline)
     for point in car.outline[:limits.MAX_OUTLINE_POINTS]:
         yield from ((limits.OUTLINE, coordinate) for coordinate in point)

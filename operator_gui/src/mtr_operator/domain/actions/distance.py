@@ -7,8 +7,8 @@ The uncertainty is 1 sigma, the root of the sum of squares of independent parts:
     time        sigma of the instant (the CAN message's cycle is part of it) times the robot's speed, or how far the key
                 was from there about that instant, as the root of its mean square, whichever is more: at the end of a
                 way the robot stands, and may have moved within the cycle,
-    outline     half the sigma of the Car's length and width, as far as they move the ray's origin: what is missing
-                from the error of the Car's centre to that of the side that was seen.
+    outline     of a ray from the Car's outline: the error of the side where it begins takes the place of the error of
+                the Car's centre, which the position holds.
 It is NaN when the robot does not say how well it knows its pose.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -18,6 +18,7 @@ import math
 from dataclasses import dataclass, fields, replace
 from typing import Any, Mapping, Sequence
 
+from ..geometry.outline import NO_ERROR, OriginError
 from ..geometry.pose import Point, wrap_angle
 from ..geometry.ray import Ray
 from ..ports import CarEvent
@@ -74,13 +75,13 @@ def recorded_values(distance: Distance | None) -> tuple[float | None, float | No
 
 
 def measure_at(ray: Ray, poses: PoseHistory, time_s: float, time_sigma_s: float,
-               origin_sigma_m: float = 0.0) -> Distance:
+               origin: OriginError = NO_ERROR) -> Distance:
     """Distance on a ray at an instant of robot time; PoseUnknown when the pose then is not known well enough."""
-    return measure(ray, poses.at(time_s), time_sigma_s, origin_sigma_m,
+    return measure(ray, poses.at(time_s), time_sigma_s, origin,
                    poses.about(time_s, _END_PER_SIGMA * time_sigma_s))
 
 
-def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: float = 0.0,
+def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin: OriginError = NO_ERROR,
             about: Sequence[PoseSample] = ()) -> Distance:
     """Distance on a ray when base_link is at the sample; about: poses at instants, evenly spread, that may be the one
     meant instead."""
@@ -90,7 +91,8 @@ def measure(ray: Ray, sample: PoseSample, time_sigma_s: float, origin_sigma_m: f
     distance_m = ray.distance_of(sample.pose.apply(key_in_base))
     moved_m = [ray.distance_of(each.pose.apply(key_in_base)) - distance_m for each in about]
     time_m = max(abs(time_sigma_s * sample.speed_mps), math.hypot(*moved_m) / math.sqrt(max(len(moved_m), 1)))
-    sigma_m = math.hypot(position_sigma(ray, sample), sample.heading_sigma_rad * across_m, time_m, origin_sigma_m)
+    place_m = math.sqrt(max(position_sigma(ray, sample) ** 2 + origin.added_m2, origin.least_m ** 2))
+    sigma_m = math.hypot(place_m, sample.heading_sigma_rad * across_m, time_m)
     return Distance(distance_m, sigma_m, sample.stamp_s, ray.offset_of(sample.pose.apply(key_in_base)),
                     wrap_angle(sample.pose.heading - ray.heading), sample.key_height_m, sample.speed_mps)
 
@@ -101,13 +103,6 @@ def position_sigma(ray: Ray, sample: PoseSample) -> float:
     along = (ray.direction_x ** 2 * variance_x + ray.direction_y ** 2 * variance_y
              + 2.0 * ray.direction_x * ray.direction_y * covariance)
     return sample.position_sigma_m if math.isnan(along) else math.sqrt(max(along, 0.0))
-
-
-def outline_sigma(ray: Ray, car: CarDimensions) -> float:
-    """1 sigma along the ray of an origin on the Car's outline, in m; 0 of one in the Car's centre."""
-    if ray.begins_in_centre:
-        return 0.0
-    return math.hypot(ray.direction_x * car.length_sigma / 2.0, ray.direction_y * car.width_sigma / 2.0)
 
 
 def distance_to_outline(ray: Ray, distance_m: float, car: CarDimensions) -> float:

@@ -7,6 +7,7 @@ import math
 from typing import Callable, Iterator, Mapping, Sequence, TypeVar
 
 from ..errors import RobotFailed
+from ..geometry.outline import NO_ERROR, OriginError
 from ..geometry.pose import Pose
 from ..geometry.ray import Ray
 from ..requests import Direction, Press, Waypoint
@@ -159,12 +160,12 @@ class Robot:
         texts = [notification.text for notification in self._loop.status.notifications]
         raise RobotFailed(" ".join([f"The robot did not check the Car within {CHECK_LIMIT_S:g} s.", *texts]))
 
-    def key_distance(self, ray: Ray, time_s: float, time_sigma_s: float, origin_sigma_m: float = 0.0) -> Distance:
+    def key_distance(self, ray: Ray, time_s: float, time_sigma_s: float, origin: OriginError = NO_ERROR) -> Distance:
         """Distance of the Remote key on the ray at an instant; LineInvalid when the pose then is unknown."""
         if not math.isfinite(time_sigma_s):
             raise LineInvalid("The instant of the event is not known.")
         try:
-            return measure_at(ray, self._loop.poses, time_s, time_sigma_s, origin_sigma_m)
+            return measure_at(ray, self._loop.poses, time_s, time_sigma_s, origin)
         except PoseUnknown as error:
             raise LineInvalid(str(error)) from None
 

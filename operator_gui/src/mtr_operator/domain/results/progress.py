@@ -25,6 +25,8 @@ VERSION = 1
 # differs by less than the second is the same, however sure they are.
 SAME_CAR_M, _NO_OTHER_CAR_M = 0.15, 0.02
 _SIGMAS = 3.0
+# Of the Car's sides; records from before these were sent have none.
+_SIDE_SIGMAS = ("front_sigma", "rear_sigma", "left_sigma", "right_sigma")
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ class Progress:
         if self.skipped:
             given["skipped"] = self.skipped
         return {"format": FORMAT, "version": VERSION, "scenario": self.scenario, "parameters": self.parameters,
-                "session": self.session, "car": None if self.car is None else dataclasses.asdict(self.car),
+                "session": self.session, "car": None if self.car is None else car_document(self.car),
                 "results": [result.to_document() for result in self.results], "retried": self.retried,
                 "frame_record": dataclasses.asdict(self.frame_record), **given, **kept}
 
@@ -178,13 +180,22 @@ class Progress:
                                         "begun, or begin a new one.")
 
 
+def car_document(car: CarDimensions) -> dict[str, Any]:
+    """Plain values of the Car; what the robot does not say has none."""
+    return {name: value for name, value in dataclasses.asdict(car).items()
+            if name not in _SIDE_SIGMAS or not math.isnan(value)}
+
+
 def car_from(document: Mapping[str, Any]) -> CarDimensions:
     """The Car in a file; LookupError, TypeError, ValueError or AttributeError when it is damaged."""
     outline = document.get("outline", ())
-    car = CarDimensions(**{name: document[name] for name in document if name != "outline"},
-                        outline=tuple((x, y) for x, y in outline))
+    known = {name: value for name, value in document.items()
+             if name != "outline" and not (name in _SIDE_SIGMAS and value is None)}
+    car = CarDimensions(**known, outline=tuple((x, y) for x, y in outline))
     checked = [(limits.CAR_LENGTH, car.length), (limits.CAR_WIDTH, car.width), (limits.CAR_SIGMA, car.length_sigma),
-               (limits.CAR_SIGMA, car.width_sigma), *((limits.OUTLINE, value) for point in outline for value in point)]
+               (limits.CAR_SIGMA, car.width_sigma),
+               *((limits.CAR_SIGMA, known[name]) for name in _SIDE_SIGMAS if name in known),
+               *((limits.OUTLINE, value) for point in outline for value in point)]
     violation = first_violation(checked)
     if violation or len(outline) > limits.MAX_OUTLINE_POINTS:
         raise ValueError(violation)

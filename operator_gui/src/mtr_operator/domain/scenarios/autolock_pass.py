@@ -6,12 +6,13 @@ import math
 from dataclasses import dataclass, field
 
 from ..actions.car import Car
-from ..actions.distance import Distance, outline_sigma
+from ..actions.distance import Distance
 from ..actions.line_watch import LineWatch
 from ..actions.lock_history import Expected
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..geometry.axes import Axis
+from ..geometry.outline import origin_error
 from ..ports import PASSIVE_ENTRY, LockState
 from ..requests import Direction
 from ..results.frame_history import KnownFrame
@@ -175,7 +176,7 @@ class Course:
             measured.status, measured.time_s = LineStatus.NOT_REACHED, watch.now_s
             return
         distance = self._robot.key_distance(axis, event.time_s, event.time_sigma_s,
-                                            outline_sigma(axis, self._car.dimensions()))
+                                            origin_error(axis, self._car.dimensions()))
         watch.check_distance(distance, parameters.minimum_distance_m, parameters.maximum_distance_m,
                              parameters.maximum_speed_mps)
         measured.distance = distance.answered_by(event)

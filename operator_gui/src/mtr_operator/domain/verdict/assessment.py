@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Mapping, Sequence
 
 from ..estimation.budget.calibration import CalibrationRecord
 from ..estimation.budget.distance_budget import DistanceBudget
 from ..estimation.budget.terms import Carriage, Measurement, terms_of
 from ..estimation.interval import SIGMAS_OF_LEVEL
+from ..geometry.outline import side_errors
 from ..geometry.polygon import distance_to_polygon
 from ..geometry.pose import Point
 from ..geometry.ray import Ray
@@ -49,7 +50,8 @@ class LastingSigmas:
     """1 sigma in m of the errors of a distance that are not its own alone.
 
     Attributes:
-        outline_m: of the Car's outline; outline_in_place_m: the same once more, in the place of the key.
+        outline_m: of the Car's outline; outline_in_place_m: the same once more, in the place of the key, 0 where sides
+            are known.
         timing_m: of the Car's timing, what all tests of it have alike; all_timing_m: what all lines of the test have.
         robot_m: of its calibration record.
     """
@@ -93,8 +95,8 @@ class Assessor:
     def _budget(self, result: LineResult, distance: MeasuredDistance) -> DistanceBudget:
         attempts_m = _attempts_sigma(distance)
         timing_m = min(distance.common_sigma_m or 0.0, attempts_m)
-        measurement = Measurement(_place_sigma(result, distance), math.sqrt(attempts_m ** 2 - timing_m ** 2),
-                                  self._outline(result), timing_m, distance.word)
+        measurement = replace(self._placed(result, distance), attempts_m=math.sqrt(attempts_m ** 2 - timing_m ** 2),
+                              timing_m=timing_m, word=distance.word)
         return DistanceBudget(result.number, distance.word, distance.distance_m or 0.0,
                               terms_of(measurement, self._carriage(result, distance.word), self._record))
 
@@ -117,8 +119,7 @@ class Assessor:
     def guard_sigma(self, result: LineResult, word: str) -> float:
         """1 sigma of all errors but those that repeated attempts show, in m."""
         distance = next(item for item in result.distances if item.word == word)
-        measurement = Measurement(_place_sigma(result, distance), 0.0, self._outline(result))
-        terms = terms_of(measurement, self._carriage(result, word), self._record)
+        terms = terms_of(self._placed(result, distance), self._carriage(result, word), self._record)
         return math.hypot(*(term.contribution_m for term in terms))
 
     def lasting_sigmas(self, result: LineResult, word: str) -> LastingSigmas:
@@ -126,18 +127,28 @@ class Assessor:
         distance = next(item for item in result.distances if item.word == word)
         length_m, width_m = self._outline(result)
         ray = self._rays[result.number]
-        outline_m = math.hypot(length_m * ray.direction_x, width_m * ray.direction_y) / 2.0
+        sides = side_errors(ray, self._car)
+        outline_m = math.hypot(length_m * ray.direction_x / 2.0, width_m * ray.direction_y / 2.0,
+                               *(side.along_m for side in sides))
         record = terms_of(Measurement(0.0, 0.0, (0.0, 0.0)), self._carriage(result, word), self._record)
-        return LastingSigmas(outline_m, min(outline_m, _place_sigma(result, distance)),
+        in_place_m = 0.0 if sides else min(outline_m, _place_sigma(result, distance))
+        return LastingSigmas(outline_m, in_place_m,
                              _recorded(result, word, "static_shared_sigma_m") or 0.0, distance.common_sigma_m or 0.0,
                              math.hypot(*(term.contribution_m for term in record)))
 
     def _unreached(self, result: LineResult, word: str) -> tuple[float | None, float | None]:
         return self._scenario.unreached(self._parameters, result, word)
 
+    def _placed(self, result: LineResult, distance: MeasuredDistance) -> Measurement:
+        """Place and instant of the key, and the outline, which lines of one side have in common."""
+        sides = side_errors(self._rays[result.number], self._car)
+        common_m = math.hypot(*(side.along_m for side in sides))
+        place_m = math.sqrt(max(_place_sigma(result, distance) ** 2 - common_m ** 2, 0.0))
+        return Measurement(place_m, 0.0, self._outline(result), sides=sides)
+
     def _outline(self, result: LineResult) -> tuple[float, float]:
-        """Sigmas of the Car's size where the line begins on its outline."""
-        if self._rays[result.number].begins_in_centre:
+        """Sigmas of the Car's size where the line begins on its outline, and no side's own is known."""
+        if self._rays[result.number].begins_in_centre or self._car.knows_sides:
             return 0.0, 0.0
         return self._car.length_sigma, self._car.width_sigma
 
@@ -151,7 +162,8 @@ class Assessor:
 
 
 def _place_sigma(result: LineResult, distance: MeasuredDistance) -> float:
-    """Of the key when something was measured. It holds the Car's outline too, which then counts twice: to be safe."""
+    """Of the key when something was measured, the Car's outline included. Without sigmas of the sides that counts
+    twice: to be safe."""
     recorded_m = _recorded(result, distance.word, "uncertainty_m")
     return (distance.uncertainty_m or 0.0) if recorded_m is None else recorded_m
 

@@ -209,6 +209,12 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Without length and width of the Car's data sheet the distances may be up to {} cm "
                                   "too long: the Car may be wider above the height at which the LiDARs see it. Start "
                                   "the robot with car_file, and map the Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's sides are known to (95 %): {}; distances from them may be wrong by that "
+                                  "much. Fill in {} (data sheet or tape measure) in the robot's car_file, restart the "
+                                  "robot with it, and map the Car again."),
+    QT_TRANSLATE_NOOP("Sentence", "The Car's {} is known to {} cm only (95 %); the robot may touch it nearer than {} "
+                                  "m. Fill in {} (data sheet or tape measure) in the robot's car_file, restart the "
+                                  "robot with it, and map the Car again."),
     QT_TRANSLATE_NOOP("Sentence", "The robot has not found the Car yet, so there is nothing to check; a test begins"
                                   " with it."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's software is too old to check where the Car stands."),

@@ -655,217 +655,217 @@
         <translation>Robot nehlásí nic, co by mluvilo proti nim.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="136"/>
+        <location filename="../../station/checks/check_texts.py" line="140"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="137"/>
+        <location filename="../../station/checks/check_texts.py" line="141"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="138"/>
+        <location filename="../../station/checks/check_texts.py" line="142"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="139"/>
+        <location filename="../../station/checks/check_texts.py" line="143"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="140"/>
+        <location filename="../../station/checks/check_texts.py" line="144"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="141"/>
+        <location filename="../../station/checks/check_texts.py" line="145"/>
         <source>The robot does not say its charge.</source>
         <translation>Robot neříká, jak je nabitá.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="148"/>
+        <location filename="../../station/checks/check_texts.py" line="152"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="149"/>
+        <location filename="../../station/checks/check_texts.py" line="153"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="150"/>
+        <location filename="../../station/checks/check_texts.py" line="154"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="151"/>
+        <location filename="../../station/checks/check_texts.py" line="155"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="152"/>
+        <location filename="../../station/checks/check_texts.py" line="156"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="153"/>
+        <location filename="../../station/checks/check_texts.py" line="157"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="154"/>
+        <location filename="../../station/checks/check_texts.py" line="158"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="155"/>
+        <location filename="../../station/checks/check_texts.py" line="159"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="156"/>
+        <location filename="../../station/checks/check_texts.py" line="160"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="157"/>
+        <location filename="../../station/checks/check_texts.py" line="161"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="158"/>
+        <location filename="../../station/checks/check_texts.py" line="162"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="159"/>
+        <location filename="../../station/checks/check_texts.py" line="163"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="166"/>
+        <location filename="../../station/checks/check_texts.py" line="170"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="167"/>
+        <location filename="../../station/checks/check_texts.py" line="171"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="168"/>
+        <location filename="../../station/checks/check_texts.py" line="172"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="169"/>
+        <location filename="../../station/checks/check_texts.py" line="173"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="170"/>
+        <location filename="../../station/checks/check_texts.py" line="174"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="171"/>
+        <location filename="../../station/checks/check_texts.py" line="175"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="179"/>
+        <location filename="../../station/checks/check_texts.py" line="183"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="183"/>
+        <location filename="../../station/checks/check_texts.py" line="187"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="184"/>
+        <location filename="../../station/checks/check_texts.py" line="188"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="186"/>
+        <location filename="../../station/checks/check_texts.py" line="190"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="189"/>
+        <location filename="../../station/checks/check_texts.py" line="193"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="190"/>
+        <location filename="../../station/checks/check_texts.py" line="194"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="192"/>
+        <location filename="../../station/checks/check_texts.py" line="196"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="198"/>
+        <location filename="../../station/checks/check_texts.py" line="208"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="200"/>
+        <location filename="../../station/checks/check_texts.py" line="210"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="201"/>
+        <location filename="../../station/checks/check_texts.py" line="211"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="202"/>
+        <location filename="../../station/checks/check_texts.py" line="212"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="203"/>
+        <location filename="../../station/checks/check_texts.py" line="213"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="204"/>
+        <location filename="../../station/checks/check_texts.py" line="214"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="205"/>
+        <location filename="../../station/checks/check_texts.py" line="215"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="206"/>
+        <location filename="../../station/checks/check_texts.py" line="216"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="207"/>
+        <location filename="../../station/checks/check_texts.py" line="217"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="210"/>
+        <location filename="../../station/checks/check_texts.py" line="220"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="211"/>
+        <location filename="../../station/checks/check_texts.py" line="221"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="212"/>
+        <location filename="../../station/checks/check_texts.py" line="222"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -910,17 +910,17 @@
         <translation>Jen tak, jak je vidí LiDARy ve své výšce: vzdálenosti od obrysu auta mohou být až o {first} cm delší.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="119"/>
+        <location filename="../../station/checks/check_texts.py" line="123"/>
         <source>Not known before the Car is mapped.</source>
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="194"/>
+        <location filename="../../station/checks/check_texts.py" line="198"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="196"/>
+        <location filename="../../station/checks/check_texts.py" line="206"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
@@ -930,7 +930,7 @@
         <translation>Nešifrováno; neopouští tento počítač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="181"/>
+        <location filename="../../station/checks/check_texts.py" line="185"/>
         <source>Pair this laptop with the robot in the connection window, and have the robot encrypt its link.</source>
         <translation>Spárujte tento notebook s robotem v okně připojení a nechte robot šifrovat spojení.</translation>
     </message>
@@ -965,12 +965,12 @@
         <translation>Robot neříká, zda byla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="187"/>
+        <location filename="../../station/checks/check_texts.py" line="191"/>
         <source>Make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Proveďte ji na robotu znovu: rosrun mtr_bringup preflight</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="188"/>
+        <location filename="../../station/checks/check_texts.py" line="192"/>
         <source>Then make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Potom ji na robotu proveďte znovu: rosrun mtr_bringup preflight</translation>
     </message>
@@ -980,27 +980,27 @@
         <translation>Cesta přímek</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="125"/>
+        <location filename="../../station/checks/check_texts.py" line="129"/>
         <source>As far as the robot has seen, nothing stands on the lines.</source>
         <translation>Pokud robot viděl, na přímkách nic nestojí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="126"/>
+        <location filename="../../station/checks/check_texts.py" line="130"/>
         <source>Something stands in the way of lines {lines}, the nearest {distance} m from the Car.</source>
         <translation>V cestě přímek {lines} něco stojí, nejblíže {distance} m od auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="128"/>
+        <location filename="../../station/checks/check_texts.py" line="132"/>
         <source>The robot has not seen all of the way of lines {lines}.</source>
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="191"/>
+        <location filename="../../station/checks/check_texts.py" line="195"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="130"/>
+        <location filename="../../station/checks/check_texts.py" line="134"/>
         <source>Looked at when the Car is mapped and a test is chosen.</source>
         <translation>Ověřuje se, až bude auto zmapováno a test vybrán.</translation>
     </message>
@@ -1018,6 +1018,26 @@
         <location filename="../../station/checks/check_texts.py" line="94"/>
         <source>The robot tells simulated time.</source>
         <translation>Robot udává simulovaný čas.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="119"/>
+        <source>Known to {first} cm (95 %): distances from the Car&apos;s outline may be wrong by as much.</source>
+        <translation>Znám na {first} cm (95 %): o tolik mohou být vzdálenosti od obrysu auta chybné.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="121"/>
+        <source>Known to {first} cm only (95 %): the robot may touch the Car nearer than {second} m.</source>
+        <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="200"/>
+        <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
+        <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="203"/>
+        <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
+        <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
 </context>
 <context>
@@ -7060,6 +7080,16 @@
         <source>The window did not react for {} s, nor would its Stop have: the robot was stopped.</source>
         <translation>Okno {} s nereagovalo a jeho Stop by nezabral: robot byl zastaven.</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The Car&apos;s sides are known to (95 %): {}; distances from them may be wrong by that much. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
+        <translation>Strany auta jsou známy na (95 %): {}; o tolik mohou být vzdálenosti od nich chybné. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The Car&apos;s {} is known to {} cm only (95 %); the robot may touch it nearer than {} m. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
+        <translation>Strana auta ({}) je známa jen na {} cm (95 %); blíže než {} m se jí robot může dotknout. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -8116,6 +8146,26 @@
         <location filename="../texts/words.py" line="7"/>
         <source>robot&apos;s clock ahead of the laptop&apos;s by</source>
         <translation>hodiny robotu jdou před hodinami notebooku o</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>front of the Car</source>
+        <translation>předek auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>rear of the Car</source>
+        <translation>záď auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>left of the Car</source>
+        <translation>levý bok auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>right of the Car</source>
+        <translation>pravý bok auta</translation>
     </message>
 </context>
 </TS>

@@ -116,6 +116,10 @@ def _of_place(translate: Translate, said: str, has_sigma: bool) -> dict[Finding,
         Finding.SIZE_KNOWN: translate("Check", "The robot has it from the data sheet."),
         Finding.SIZE_OF_PLANE: translate("Check", "Only as the LiDARs see it at their height: distances from the Car's "
                                                   "outline may be up to {first} cm too long."),
+        Finding.SIZE_VAGUE: translate("Check", "Known to {first} cm (95 %): distances from the Car's outline may be "
+                                               "wrong by as much."),
+        Finding.SIZE_TOO_VAGUE: translate("Check", "Known to {first} cm only (95 %): the robot may touch the Car "
+                                                   "nearer than {second} m."),
         Finding.SIZE_TO_COME: translate("Check", "Not known before the Car is mapped."),
     }
 
@@ -193,6 +197,12 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
                                                   "map the Car again under Calibrate."),
         Finding.SIZE_OF_PLANE: translate("Check", "Start the robot with length and width of the data sheet (car_file), "
                                                   "and map the Car again."),
+        Finding.SIZE_VAGUE: translate("Check", "Fill in {keys} in the robot's car_file (data sheet or tape measure), "
+                                               "restart the robot with it, and map the Car again.").format(
+                                                   keys=item.said),
+        Finding.SIZE_TOO_VAGUE: translate("Check", "Fill in {keys} in the robot's car_file (data sheet or tape "
+                                                   "measure), restart the robot with it, and map the Car again; or "
+                                                   "measure from farther away.").format(keys=item.said),
         Finding.SIZE_TO_COME: translate("Check", "Have length and width of the Car's data sheet ready: the robot is "
                                                  "started with them (car_file)."),
         Finding.BATTERY_SHORT: translate("Check", "Charge it, or measure fewer lines; an interrupted test can be gone "
@@ -217,6 +227,8 @@ def _shown(speech: Speech, item: Item, value: float, index: int = 0) -> str:
     """A number in the unit of its sentence."""
     if math.isnan(value):
         return ""
+    if item.check is Check.SIZE and index:
+        return speech.number(value, 2)
     if item.check in (Check.POSITION, Check.SIZE):
         return speech.number(value * _CM_PER_M, 1)
     if item.check is Check.BUS and (index or item.finding is Finding.BUS_SLOW):

@@ -74,7 +74,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield preflight(robot)
     yield robot_checks.emergency_stop(status.emergency_stop)
     yield robot_checks.position(status)
-    yield robot_checks.size(status.car)
+    yield robot_checks.size(status.car, facts.wanted.plan)
     yield _way(facts.wanted.ways)
     yield from robot_checks.parts(status)
     yield robot_checks.battery(status.battery_percent, facts.wanted.plan)

@@ -67,6 +67,8 @@ class Finding(enum.Enum):
     POSITION_LOST = "position lost"
     SIZE_KNOWN = "size known"
     SIZE_OF_PLANE = "size of plane"
+    SIZE_VAGUE = "size vague"
+    SIZE_TOO_VAGUE = "size too vague"
     SIZE_TO_COME = "size to come"
     WAY_FREE = "way free"
     WAY_HINDERED = "way hindered"

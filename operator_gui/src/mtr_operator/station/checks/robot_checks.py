@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Iterator
 
-from mtr_operator.domain.actions.car_size import size_excess
+from mtr_operator.domain.actions.car_size import missing_measures, size_excess
 from mtr_operator.domain.clocks.clock_offset import MAX_OFFSET_S, offset_sentence
 from mtr_operator.domain.robot_status import CarDimensions, EmergencyStop, Mode, Notification, RobotStatus
 
@@ -66,10 +66,16 @@ def position(status: RobotStatus) -> Item:
     return Item(Check.POSITION, State.BAD, Finding.POSITION_LOST, said)
 
 
-def size(car: CarDimensions | None) -> Item:
-    """Whether a data sheet said how large the Car is; distances count from its widest parts."""
+def size(car: CarDimensions | None, plan: Plan | None = None) -> Item:
+    """Whether a data sheet said how large the Car is, as well as the smallest distance of the plan requires."""
     if car is None:
         return Item(Check.SIZE, State.UNKNOWN, Finding.SIZE_TO_COME)
+    nearness = plan.nearness if plan is not None else None
+    if nearness is not None:
+        return Item(Check.SIZE, State.BAD, Finding.SIZE_TOO_VAGUE, ", ".join(nearness.keys),
+                    (nearness.vague_m, nearness.least_m))
+    if car.knows_sides and size_excess(car):
+        return Item(Check.SIZE, State.NOTE, Finding.SIZE_VAGUE, ", ".join(missing_measures(car)), (size_excess(car),))
     excess_m = size_excess(car)
     return (Item(Check.SIZE, State.NOTE, Finding.SIZE_OF_PLANE, numbers=(excess_m,)) if excess_m
             else Item(Check.SIZE, State.GOOD, Finding.SIZE_KNOWN))

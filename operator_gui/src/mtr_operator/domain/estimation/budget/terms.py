@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ...geometry.outline import SideError
 from .calibration import FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW, MAST_LEAN, CalibrationRecord, Distribution
 
 _RAD_PER_DEG = math.pi / 180.0
@@ -56,7 +57,9 @@ class Measurement:
     """Standard uncertainties of one distance from its own measurement, in m; 0 where there is no such part.
 
     place_m: key's place and instant. attempts_m: what the attempts leave open.
-    outline_m: of the Car's length and width, by half of which the line's origin may be off; (0, 0) from the centre.
+    outline_m: of the Car's length and width, by half of which the line's origin may be off; (0, 0) from the centre, and
+        where sides are known.
+    sides: of the Car where the line begins; place_m is then without them.
     timing_m: what the attempts of all lines leave open alike for distances of this word: the Car's timing.
     """
 
@@ -65,6 +68,7 @@ class Measurement:
     outline_m: tuple[float, float]
     timing_m: float = 0.0
     word: str = ""
+    sides: tuple[SideError, ...] = ()
 
 
 def terms_of(measurement: Measurement, carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
@@ -74,7 +78,10 @@ def terms_of(measurement: Measurement, carriage: Carriage, record: CalibrationRe
            _measured("attempts", measurement.attempts_m, 1.0, PRESSES, is_common=False),
            _measured("length of the Car", measurement.outline_m[0], half_x, CAR_MAP, is_common=True),
            _measured("width of the Car", measurement.outline_m[1], half_y, CAR_MAP, is_common=True))
-    return tuple(term for term in own if term.sigma > 0.0) + _of_timing(measurement) + _of_record(carriage, record)
+    sides = tuple(_measured(f"{side.side} of the Car", side.sigma_m, side.share, CAR_MAP, is_common=True)
+                  for side in measurement.sides)
+    measured = tuple(term for term in (*own, *sides) if term.sigma > 0.0)
+    return measured + _of_timing(measurement) + _of_record(carriage, record)
 
 
 def _measured(name: str, sigma_m: float, sensitivity: float, source: str, is_common: bool) -> Term:

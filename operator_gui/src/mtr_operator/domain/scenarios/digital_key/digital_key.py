@@ -57,7 +57,7 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
             start_s, end_s = _stand(line, parameters, robot, car)
             made = robot.key_distance(line.ray, (start_s + end_s) / 2.0, 0.0)
             stood = stood_at(line, made, parameters, car.dimensions(),
-                             lambda ray, time_s, sigma_m: robot.key_distance(ray, time_s, 0.0, sigma_m))
+                             lambda ray, time_s, origin: robot.key_distance(ray, time_s, 0.0, origin))
         except LineInvalid as error:
             return _unmeasured(line, parameters, str(error), error.evidence)
         reading = read(car.reported, (start_s, end_s), parameters)

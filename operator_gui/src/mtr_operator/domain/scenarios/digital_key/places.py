@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass, replace
 from typing import Callable
 
-from ...actions.distance import Distance, distance_to_outline, outline_sigma
+from ...actions.distance import Distance, distance_to_outline
 from ...actions.trouble import LineInvalid
+from ...geometry.outline import NO_ERROR, OriginError, origin_error
 from ...geometry.pose import Point
 from ...geometry.radials import radials_around
 from ...geometry.ray import Ray
@@ -16,8 +17,8 @@ from ...verdict.requirement import side_of
 from ..zone_map.zones import from_outline
 from .parameters import ANCHOR, DigitalKeyParameters
 
-# Distance of the Remote key on a ray at an instant of robot time, with 1 sigma of the ray's origin in m.
-KeyDistance = Callable[[Ray, float, float], Distance]
+# Distance of the Remote key on a ray at an instant of robot time, with the error of the ray's origin.
+KeyDistance = Callable[[Ray, float, OriginError], Distance]
 # The lift tells its height by counted steps; what the mast bends is in the calibration record.
 _HEIGHT_SIGMA_M = 0.01
 _NEAREST_M = 1e-6
@@ -60,9 +61,9 @@ def reference_of(made: Distance, ray: Ray, parameters: DigitalKeyParameters, car
     point = key_point(ray, made)
     if parameters.reference == ANCHOR:
         to_key = _ray((parameters.anchor_x_m, parameters.anchor_y_m), point)
-        return _aslant(key_distance(to_key, made.robot_time_s, 0.0), parameters)
+        return _aslant(key_distance(to_key, made.robot_time_s, NO_ERROR), parameters)
     to_key = _ray(_nearest_of_outline(point, car), point)
-    return key_distance(to_key, made.robot_time_s, outline_sigma(to_key, car))
+    return key_distance(to_key, made.robot_time_s, origin_error(to_key, car))
 
 
 def _aslant(flat: Distance, parameters: DigitalKeyParameters) -> Distance:

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from ...actions.car import Car
-from ...actions.distance import outline_sigma
 from ...actions.line_watch import LineWatch
 from ...actions.lock_history import PRESS_SIGMA_S, Expected
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
+from ...geometry.outline import origin_error
 from ...geometry.ray import Ray
 from ...ports import HANDLE, PASSIVE_ENTRY, LockState
 from ...requests import Direction
@@ -98,7 +98,7 @@ class Hand:
         with self.car.handle_taken(here_m, parameters.handle_timeout_s) as taken:
             rest_s, until_s = self.robot.rest_s, taken.taken_s + parameters.response_timeout_s
             place = self.robot.key_distance(self.ray, taken.taken_s, 0.0,
-                                            outline_sigma(self.ray, self.car.dimensions()))
+                                            origin_error(self.ray, self.car.dimensions()))
             watch.expect(Expected(LockState.UNLOCKED, self._cause, f"the handle request at {here_m:.2f} m",
                                   taken.asked_s, until_s, PRESS_SIGMA_S))
             watch.check_distance(place, parameters.minimum_distance_m, parameters.maximum_distance_m, 0.0)
