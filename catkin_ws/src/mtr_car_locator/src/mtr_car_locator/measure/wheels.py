@@ -108,9 +108,13 @@ def wheels_from(faces: Sequence[Sequence[Face]], sheet: DataSheet) -> Optional[C
 
 
 def _face_sigma_m(left: FacePair, right: FacePair) -> float:
-    """1 sigma of a face's middle, which is off by half of what the face is too long or too short. Which of the sizes is
-    right nobody knows, and both sides of the Car are alike, so that their mean is no surer."""
-    return math.hypot(EXACT_FACE_SIGMA_M, math.sqrt(0.5) * max(0.0, _off_size_m(left, right) - FACE_SIZE_NOISE_M))
+    """1 sigma of a face's middle, which is off by half of what the face is too long or too short.
+
+    Which of the sizes is right is not known. Both sides of the Car are alike, as is the ground below them, so that
+    their mean is no surer than one of them.
+    """
+    too_long_m = max(0.0, _off_size_m(left, right) - FACE_SIZE_NOISE_M)
+    return math.hypot(math.sqrt(2.0) * EXACT_FACE_SIGMA_M, math.sqrt(0.5) * too_long_m)
 
 
 def off_square_m(left: FacePair, right: FacePair) -> float:
