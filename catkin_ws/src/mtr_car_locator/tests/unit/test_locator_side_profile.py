@@ -28,6 +28,14 @@ def side_with_short_bumpers(along):
     return np.where(away < 1.42, inner, -900.0 * (away - 1.42) ** 4)
 
 
+def side_with_round_bumpers(along):
+    """Bumpers of a small car, superellipses 0.235 m deep, reach 0 beside the arches alone; sills are 20 mm inside."""
+    away = np.abs(along)
+    inner = np.where(away < 0.75, -0.02, np.where((away > 0.86) & (away < 1.44), -0.025, np.nan))
+    share = np.clip((away - 1.55) / 0.235, 0.0, 1.0)
+    return np.where(away < 1.55, inner, 0.815 * ((1.0 - share ** 2.4) ** (1.0 / 2.4) - 1.0))
+
+
 def side_with_steps(along):
     """A sill at 0, with what stands out by 3 cm between the wheels."""
     return np.where(np.abs(np.abs(along) - 0.65) < 0.035, 0.03, 0.0)
@@ -106,6 +114,12 @@ def test_side_of_a_short_bumper_is_the_outermost(noise_m):
     levels, sigmas = errors(outermost, side_with_short_bumpers, 1.55, noise_m)
     assert abs(levels.mean()) < 0.005
     assert np.all(np.abs(levels) < 2.0 * sigmas)
+
+
+@pytest.mark.parametrize("noise_m", [0.005, 0.01, 0.02])
+def test_bumper_that_is_round_from_the_arch_on_makes_the_side_less_sure(noise_m):
+    levels, sigmas = errors(outermost, side_with_round_bumpers, 1.70, noise_m)
+    assert np.all(np.abs(levels) < 2.0 * sigmas) and np.all(sigmas < 0.025)
 
 
 @pytest.mark.parametrize("noise_m", [0.005, 0.01, 0.02])

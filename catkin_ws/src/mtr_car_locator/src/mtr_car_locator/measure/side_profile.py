@@ -1,7 +1,7 @@
 """The profile of one side of the Car from all returns near it, and the outermost level that it reaches."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Iterator, Optional
 
 import numpy as np
@@ -77,7 +77,18 @@ def outermost(side: SideProfile) -> Optional[SideExtent]:
     if not found:
         return None
     straight = max(found, key=lambda each: each.level - each.sigma)
-    return _short_bumper(side, straight) or straight
+    return _short_bumper(side, straight) or _with_unresolved_bumper(side, straight)
+
+
+def _with_unresolved_bumper(side: SideProfile, straight: SideExtent) -> SideExtent:
+    """The level, less sure by what stands out beyond it in single bins near the ends of the side.
+
+    A bumper that is round from the wheel arch on reaches its full width over a few centimetres only.
+    """
+    from_end_m = BIN_M * np.minimum(side.number[-1] - side.number, side.number - side.number[0])
+    beyond_m = side.level - straight.level
+    stands_out = (from_end_m <= SHORT_REACH_M) & (beyond_m > STEP_M + STEP_SIGMAS * side.sigma)
+    return replace(straight, sigma=math.hypot(straight.sigma, float(np.max(beyond_m[stands_out], initial=0.0))))
 
 
 def summit(end: SideProfile) -> Optional[SideExtent]:
