@@ -23,9 +23,11 @@ from mtr_bringup.demo import (
     run_demo,
     run_scenario,
 )
+from mtr_car_locator.parameters import DataSheet
 from mtr_core.errors import ConfigurationError
 from mtr_dispatcher.parameters import Parameters as DispatcherParameters
 from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
+from mtr_simulation.site.scenario import named_scenario
 
 TOP = pathlib.Path(__file__).resolve().parents[3]
 HEADER = "line,unlock_robot_time_s,lock_robot_time_s\n"
@@ -175,6 +177,14 @@ def test_record_of_a_test_names_the_simulated_car(tmp_path, monkeypatch):
     (command,) = commands
     identity = yaml.safe_load(pathlib.Path(command[command.index("--identity") + 1]).read_text(encoding="utf-8"))
     assert identity == {"car_model": "simulated honest"}
+
+
+@pytest.mark.parametrize("site", ["lot", "far", "suv"])
+def test_robot_of_the_demo_is_given_the_data_sheet_of_its_car(site):
+    sheet = DataSheet(**yaml.safe_load(demo.data_sheet_of(site)))
+    shape = named_scenario(site).car
+    assert (sheet.known_length_m, sheet.known_width_m) == (shape.length_m, shape.width_m)
+    assert sheet.wheelbase_m + 2.0 * sheet.front_overhang_m == pytest.approx(shape.length_m)
 
 
 def test_nodes_of_the_demo_wait_for_each_other_and_for_the_application_on_a_busy_machine(monkeypatch, tmp_path):
