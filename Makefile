@@ -145,7 +145,9 @@ BENCH_OPTIONS ?=
 bench-localization: setup build ## Localization and Car locator against the truth, odometry and MRPT's SLAM
 	@setup/install.sh setup/debian-bench-packages.txt
 	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
-	@$(RUN) python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS)
+	@failed=0; $(if $(findstring -only,$(BENCH_OPTIONS)),,$(RUN) python -m mtr_benchmarks.localization.ends --out out/bench || failed=1;) \
+		$(RUN) python -m mtr_benchmarks.localization --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(BENCH_OPTIONS) || failed=1; \
+		exit $$failed
 
 bench-real: setup build ## Localization on recordings of real robots, beside MRPT's SLAM: BAGS=folder of them; REAL_OPTIONS
 	@test -n "$(BAGS)" || { echo "make bench-real needs BAGS=FOLDER, a folder of bags; the project has none of real robots."; exit 2; }
