@@ -177,7 +177,8 @@ class CanCarLink(CarLink, FrameSink):
         """See CarLink."""
         idle = () if self._outputs is None else self._outputs.notices
         with self._changed:
-            return (*idle, *self._cycles.notices)
+            watched = () if self._watch is None else self._watch.notices
+            return (*idle, *self._cycles.notices, *watched)
 
     def log_to(self, path: pathlib.Path | None) -> None:
         """See CarLink."""
@@ -248,7 +249,9 @@ class CanCarLink(CarLink, FrameSink):
             if self._watch is not None:
                 self._watch.frame(frame)
                 self._cycles.frame(frame, self._watch.local_s)
-                self._traffic.frame(frame, self._watch.is_lock_message)
+                is_counted = self._watch.is_alive_message if self._watch.is_only_on_change else \
+                    self._watch.is_lock_message
+                self._traffic.frame(frame, is_counted)
                 self._log.frame(frame, self._watch.local_s)
             self._table.frame(frame)
             self.frames_received += 1
@@ -278,6 +281,8 @@ class CanCarLink(CarLink, FrameSink):
         """See FrameSink."""
         with self._changed:
             self._trouble.frames_lost()
+            if self._watch is not None and self._watch.is_only_on_change:
+                self._watch.forget_state()
 
     def fault(self, text: str) -> None:
         """See FrameSink."""

@@ -102,8 +102,8 @@ class FrameJudge:
         return ""
 
     def _flicker(self, local_s: float, is_change: bool) -> str:
-        if not is_change or (local_s - self._since_s >= self._profile.min_state_s - self._slack_s
-                             and self._frames >= _MIN_FRAMES):
+        is_long = local_s - self._since_s >= self._profile.min_state_s - self._slack_s
+        if not is_change or (is_long and (self._frames >= _MIN_FRAMES or self._profile.is_only_on_change)):
             return ""
         lasted_s = max(local_s - self._since_s, 0.0)
         return (f"The Car changed its locks on its bus after {lasted_s:.3f} s; a state lasts at least "
@@ -112,4 +112,4 @@ class FrameJudge:
     @property
     def _slack_s(self) -> float:
         # Frames show a change up to a cycle late.
-        return self._profile.cycle_time_s
+        return 0.0 if self._profile.is_only_on_change else self._profile.cycle_time_s

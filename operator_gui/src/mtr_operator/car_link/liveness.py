@@ -38,11 +38,14 @@ class Liveness:
         self._profile = profile
         self._frames = _Heartbeat()
         self._lock_messages = _Heartbeat()
-        self._lock_limit_s = max(SILENCE_LIMIT_S, _CYCLE_LIMIT * profile.cycle_time_s)
+        # Of a state that is sent only on change, another message or any frame has to come.
+        self._message = profile.liveness if profile.is_only_on_change else profile.message
+        self._lock_limit_s = max(SILENCE_LIMIT_S, _CYCLE_LIMIT * profile.cycle_time_s) if self._message else math.inf
         self._is_without_state = False
 
     def frame(self, is_lock_message: bool, is_without_state: bool = False) -> None:
-        """A frame arrived. is_without_state: of the lock message, but nothing in it tells the state."""
+        """A frame arrived. is_lock_message: or another one that has to come again and again. is_without_state: of the
+        lock message, but nothing in it tells the state."""
         self._frames.count += 1
         self._lock_messages.count += is_lock_message
         self._is_without_state = not is_lock_message and (self._is_without_state or is_without_state)
@@ -65,7 +68,7 @@ class Liveness:
     @property
     def _silence_limit_s(self) -> float:
         # Without traffic beside it the lock message alone keeps the bus alive.
-        only_lock = self._frames.count == self._lock_messages.count
+        only_lock = self._message is not None and self._frames.count == self._lock_messages.count
         return self._lock_limit_s if only_lock and self._frames.count else SILENCE_LIMIT_S
 
     @property
@@ -74,7 +77,7 @@ class Liveness:
         if self.is_silent:
             return (f"No CAN frame for {self.silence_s:.1f} s; check the plug, the bit rate and that the Car is awake.")
         if self._lock_messages.silence_s > self._lock_limit_s:
-            message = self._profile.message
+            message = self._message
             if self._is_without_state:
                 return (f"Message {message.name} (id 0x{message.frame_id:X}) comes without the signal "
                         f"{self._profile.signal}: another page of a multiplexed message, or a shorter one than the "

@@ -33,6 +33,7 @@ class LockWatch:
     Attributes:
         lock_state: at the stamp of the last released Status; UNKNOWN while the bus is silent.
         is_lock_message: the newest frame was one. local_s: its time by the clock that times the frames.
+        is_alive_message: it was one whose silence is told.
     """
 
     def __init__(self, profile: CarProfile):
@@ -40,6 +41,8 @@ class LockWatch:
         self._liveness = Liveness(profile)
         self._robot_session_id = 0
         self.is_lock_message, self.local_s = False, math.nan
+        self.is_alive_message = self._is_on_first = False
+        self._others: set[str] = set()
         self._time = FrameTime()
         self._changes = LockChanges(profile, Refused())
         self._companions = Companions(profile.further)
@@ -55,6 +58,11 @@ class LockWatch:
         self._released: LockState | None = None
 
     @property
+    def is_only_on_change(self) -> bool:
+        """The state comes with a change and never else: a frame that is lost leaves it unknown."""
+        return self._profile.is_only_on_change
+
+    @property
     def has_time(self) -> bool:
         """A frame has come since the beginning, or since the adapter was opened anew."""
         return not math.isnan(self._time.newest_s)
@@ -67,6 +75,11 @@ class LockWatch:
     def restart(self) -> None:
         """The adapter was opened anew: its clock and the present lock state are learnt again."""
         self._restart()
+
+    def forget_state(self) -> None:
+        """A change may have been missed, and none of a state that is sent only on change is told again."""
+        self._changes = LockChanges(self._profile, self.refused)
+        self._released = None
 
     def frame(self, frame: CanFrame) -> None:
         """Take a frame, in the order of arrival."""
@@ -84,14 +97,19 @@ class LockWatch:
         if reading is not None:
             self._frames.append((local_s, frame.data))
             self._changes.follow(local_s, frame.arrival_s, reading, self._time.is_by_arrival)
-        is_without_state = reading is None and self._profile.poll is None and self._profile.is_message(
-            frame.can_id, frame.is_extended)
-        self._liveness.frame(reading is not None and not self._changes.is_repeated, is_without_state)
+        is_message = self._profile.is_message(frame.can_id, frame.is_extended)
+        is_without_state = reading is None and self._profile.poll is None and is_message
+        self._is_on_first = self._is_on_first or is_message
+        self.is_alive_message = self._profile.is_alive(frame.can_id, frame.is_extended)
+        is_state = reading is not None and not self._changes.is_repeated
+        self._liveness.frame(self.is_alive_message if self._profile.is_only_on_change else is_state, is_without_state)
         self._companion(frame, local_s)
 
     def _beside(self, frame: CanFrame) -> None:
         """A frame of a further bus: its adapter has a clock of its own, and belongs to what came with it."""
-        self.is_lock_message = False
+        self.is_lock_message = self.is_alive_message = False
+        if self._profile.is_message(frame.can_id, frame.is_extended) and self._profile.poll is None:
+            self._others.add(frame.bus)
         if self.has_time:
             self.local_s = self._time.newest_s
             self._companion(frame, self.local_s)
@@ -125,6 +143,8 @@ class LockWatch:
         self._liveness.observe(self._time.stamp_s, now_s)
         if self._liveness.silence_s > _MAX_FOLLOWED_SILENCE_S:
             self._restart()
+        if self._profile.is_only_on_change and self._liveness.problem and not self._changes.waiting:
+            self.forget_state()
         waiting, events = self._changes.waiting, []
         while waiting and self._time.is_ready and self._is_due(waiting[0]):
             change = waiting.popleft()
@@ -144,7 +164,26 @@ class LockWatch:
     @property
     def problem(self) -> str:
         """One sentence, or empty."""
-        return self._liveness.problem or self._time.problem
+        return self._liveness.problem or self._time.problem or self._two_channels()
+
+    @property
+    def notices(self) -> tuple[str, ...]:
+        """A sentence for each further bus with the message of the state."""
+        message = self._profile.message
+        names = sorted(self._others & set(self._profile.further.buses)) if self._is_on_first else ()
+        return tuple(f"Message {message.name} (id 0x{message.frame_id:X}) comes on the bus of the state and on the bus "
+                     f"{name}; that of the first one counts. Check that the adapters are at the buses that the profile "
+                     "names." for name in names)
+
+    def _two_channels(self) -> str:
+        """A log with the message of the state on channels that the profile does not name."""
+        unnamed = sorted(self._others - set(self._profile.further.buses))
+        if not (unnamed and self._is_on_first):
+            return ""
+        message = self._profile.message
+        return (f"Message {message.name} (id 0x{message.frame_id:X}) comes on several channels of the log, "
+                f"{unnamed[0]} among them, and the car profile does not say which is which; name the further buses "
+                "(buses).")
 
     @property
     def clock_problem(self) -> str:
@@ -164,7 +203,7 @@ class LockWatch:
         # A cyclic message shows a change that happened at any time since the message before.
         gap_s = time_s - self._time.to_robot(change.previous_local_s)
         vague = not self._profile.sent_on_change or gap_s > _LOST_CYCLES * self._profile.cycle_time_s
-        spread_s = gap_s if vague else 0.0
+        spread_s = gap_s if vague and not self._profile.is_only_on_change else 0.0
         return CarEvent(time_s - spread_s / 2, self._time.sigma_with(spread_s), reading.state,
                         reading.source or told.source, change.doubt or told.doubt, self._evidence(change),
                         told.raw or self._raw(reading), told.key, reading.doors)

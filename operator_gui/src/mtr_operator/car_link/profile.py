@@ -13,9 +13,19 @@ from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 from .database.codec import SignalReader
 from .database.load import one_line
-from .further.counting import CountRange, count_range
-from .further.declared import KEYS, SOURCES, VALUES_OF, Further, is_elsewhere, read_further
-from .further.entries import DRIVER_ONLY, FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file
+from .further.counting import CountRange
+from .further.declared import KEYS, VALUES_OF, Further, read_further
+from .further.entries import FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file
+from .further.state_entries import (
+    LIVENESS,
+    ONLY_ON_CHANGE,
+    WITNESSES,
+    driver_only,
+    sending,
+    signal_names,
+    sources,
+    witnesses,
+)
 from .outputs.declared import EXTENDER_KEY, HANDLE_KEY, DeclaredOutput, read_output
 from .phone.address import FeedAddress
 from .phone.car_signal import KEY as PHONE
@@ -23,15 +33,13 @@ from .phone.car_signal import PhoneSignal, read_phone
 from .uds.declared import UdsPoll, read_poll, response_message
 
 PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
-_MIN_CYCLE_S = 0.001
 _MAX_CYCLE_S = 10.0
-_REQUIRED = ("database", "message", "signal", "states", "cycle_time_s")
+_CYCLE = "cycle_time_s"
+_REQUIRED = ("database", "message", "signal", "states", _CYCLE)
 # A state that is asked for has no message; its database may be there for what the Car sends besides.
 _REQUIRED_OF_POLL = ("uds_poll", "states")
-_WITNESSES = ("alive_signal", "command_signal", "changed_signal")
-_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", *_WITNESSES, *VALUES_OF.values(),
-             "min_state_s", "relock_after_s",
-             HANDLE_KEY, EXTENDER_KEY, *KEYS, "uds_poll", PHONE)
+_OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", ONLY_ON_CHANGE, LIVENESS, *WITNESSES,
+             *VALUES_OF.values(), "min_state_s", "relock_after_s", HANDLE_KEY, EXTENDER_KEY, *KEYS, "uds_poll", PHONE)
 # Motors of door locks need some tenths of a second; a state that is over sooner was none.
 _MIN_STATE_S = 0.1
 # A change is shown by two frames more before a glitch of one frame can be told from it.
@@ -81,6 +89,8 @@ class CarProfile:
     driver_only: raw values with which all but the driver's door are locked.
     further: what other messages tell. poll: how the state is asked for, None when the Car sends it.
     phone: what tells the distance of a phone, None without it.
+    is_only_on_change: the message comes with a change and never else; cycle_time_s is then that of liveness, a message
+    of the same bus whose silence is told, None when any frame says that the bus is alive.
     count_ranges: of counters in the message of the state, by their names.
     """
 
@@ -107,13 +117,16 @@ class CarProfile:
     phone: PhoneSignal | FeedAddress | None = None
     extender_output: DeclaredOutput | None = None
     count_ranges: Mapping[str, CountRange] = field(default_factory=dict)
+    is_only_on_change: bool = False
+    liveness: Any = None
 
     @property
     def facts(self) -> LockFacts:
         """What a scenario has to know of it."""
         # A change that a second signal vouches for needs no second frame.
         is_vouched = bool(self.command_signal or self.changed_signal or self.further.counters)
-        confirm_s = 0.0 if is_vouched else max(self.min_state_s, _CONFIRMING_CYCLES * self.cycle_time_s)
+        cycles_s = 0.0 if self.is_only_on_change else _CONFIRMING_CYCLES * self.cycle_time_s
+        confirm_s = 0.0 if is_vouched else max(self.min_state_s, cycles_s)
         return LockFacts(frozenset(self.sources.values()) | self.further.sources, self.relock_after_s, confirm_s,
                          0.0 if self.sent_on_change else self.cycle_time_s, self.further.settles_s,
                          self.further.is_required)
@@ -132,6 +145,11 @@ class CarProfile:
     def is_message(self, can_id: int, is_extended: bool) -> bool:
         """True for frames of the message of the state."""
         return bool(can_id == self.message.frame_id and is_extended == self.message.is_extended_frame)
+
+    def is_alive(self, can_id: int, is_extended: bool) -> bool:
+        """True for frames whose silence is told: of the state, or of what stands for it, which may be any frame."""
+        message = self.liveness if self.is_only_on_change else self.message
+        return message is None or bool(can_id == message.frame_id and is_extended == message.is_extended_frame)
 
     def decoder(self) -> Decode:
         """What frames in their order say; as decode, and for a state that is asked for by the answers."""
@@ -197,20 +215,19 @@ def _sent(path: pathlib.Path, entries: Entries) -> CarProfile:
     """Of a Car that sends its state."""
     content = entries.content
     message = entries.message(content["message"])
-    names = _signal_names(entries, message)
+    names = signal_names(entries, message)
     signals = [message.get_signal_by_name(name) for name in names.values()]
     states = entries.states_of(signals)
-    cycle_time_s = entries.duration("cycle_time_s", (_MIN_CYCLE_S, _MAX_CYCLE_S))
+    sent = sending(entries, message)
     has_sources = "sources" in content
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message,
         signal=_AND.join(names.values()), door_signals=names if isinstance(content["signal"], dict) else {},
-        states=states, cycle_time_s=cycle_time_s,
-        driver_only=frozenset().union(*(entries.decoded(raw, signals) for raw in _driver_only(content))),
-        sent_on_change=entries.flag("sent_on_change"),
+        states=states,
+        driver_only=frozenset().union(*(entries.decoded(raw, signals) for raw in driver_only(content))),
         source_signal=entries.signal(message, content["source_signal"]) if has_sources else "",
-        sources=_sources(entries, message) if has_sources else {},
-        **_witnesses(entries, message), **_common(entries, message, cycle_time_s))
+        sources=sources(entries, message) if has_sources else {},
+        **sent, **witnesses(entries, message), **_common(entries, message, sent["cycle_time_s"]))
 
 
 def _polled(path: pathlib.Path, entries: Entries) -> CarProfile:
@@ -219,7 +236,7 @@ def _polled(path: pathlib.Path, entries: Entries) -> CarProfile:
     message = response_message(poll)
     return CarProfile(
         name=path.stem, description=str(content.get("description", "")), message=message, signal=poll.name,
-        states=entries.states(content["states"]), driver_only=_driver_only(content), cycle_time_s=poll.every_s,
+        states=entries.states(content["states"]), driver_only=driver_only(content), cycle_time_s=poll.every_s,
         sent_on_change=False, source_signal="", sources={}, poll=poll, **_common(entries, message, poll.every_s))
 
 
@@ -232,34 +249,6 @@ def _common(entries: Entries, message: Any, cycle_time_s: float) -> dict[str, An
             "handle_output": read_output(entries, HANDLE_KEY), "extender_output": read_output(entries, EXTENDER_KEY),
             "message_names": names, "further": read_further(entries, message, cycle_time_s),
             "phone": read_phone(entries)}
-
-
-def _witnesses(entries: Entries, message: Any) -> dict[str, Any]:
-    """Of the state's own message."""
-    content = entries.content
-    names = {key: entries.signal(message, content[key]) for key in _WITNESSES
-             if key in content and not is_elsewhere(content[key])}
-    ranges = {names[key]: count_range(entries, values, content.get(values), message.get_signal_by_name(names[key]))
-              for key, values in VALUES_OF.items() if key in names}
-    return {**names, "count_ranges": ranges}
-
-
-def _sources(entries: Entries, message: Any) -> dict[int, str]:
-    signal = message.get_signal_by_name(entries.signal(message, entries.content["source_signal"]))
-    return entries.decoded_words("sources", entries.words("sources", entries.content["sources"], SOURCES), (signal,))
-
-
-def _signal_names(entries: Entries, message: Any) -> dict[str, str]:
-    """Of each door; of a single signal under no name."""
-    signal = entries.content["signal"]
-    table = signal if isinstance(signal, dict) else {"": signal}
-    if not table or not all(isinstance(name, str) for name in table):
-        raise entries.wrong("signal must be a name, or a table from the name of a door to its signal.")
-    return {name: entries.signal(message, each) for name, each in table.items()}
-
-
-def _driver_only(content: Mapping[str, Any]) -> frozenset[int]:
-    return frozenset(raw for raw, word in content["states"].items() if word == DRIVER_ONLY)
 
 
 def profile_files(name_or_path: str) -> tuple[pathlib.Path, ...]:
@@ -310,7 +299,7 @@ def _read(path: pathlib.Path) -> dict[str, Any]:
             raise ConnectionFailed(f"Car profile {path}: unknown entry {key}; allowed are "
                                    f"{', '.join(_REQUIRED + _OPTIONAL)}.")
     for key in _REQUIRED_OF_POLL if "uds_poll" in content else _REQUIRED:
-        if key not in content:
+        if key not in content and not (key == _CYCLE and content.get(ONLY_ON_CHANGE) is True):
             raise ConnectionFailed(f"Car profile {path} lacks the entry {key}.")
     _check_pairs(path, content)
     return content

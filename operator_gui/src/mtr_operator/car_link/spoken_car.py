@@ -20,7 +20,7 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .adapter import AdapterSettings
 from .bus import CanCarLink
 from .further.entries import FIRST_BUS
-from .further.spoken_frames import SpokenFrames, phone_frame, state_raw
+from .further.spoken_frames import BACKGROUND_ID, SpokenFrames, phone_frame, state_raw
 from .phone.car_signal import PhoneSignal
 from .phone.simulated import SimulatedPhone
 from .profile import CarProfile, load_profile
@@ -35,8 +35,6 @@ _PHASE_S = 0.001
 _PATIENCE_S = 10.0
 _INTERFACE = "virtual"
 _BITRATE_BPS, _DATA_BITRATE_BPS = 500_000, 2_000_000
-# Of a Car that only answers: there is always something on a bus.
-_BACKGROUND_ID = 0x001
 
 
 class SpokenCar(RobotLink):
@@ -139,7 +137,7 @@ class SpokenCar(RobotLink):
     def _answer(self, ecu: SpokenEcu) -> None:
         """A frame lets the reader go on; then it is time that it asks."""
         ecu.raw = state_raw(self._profile, self._frames.is_locked)
-        self._buses[FIRST_BUS].send(can.Message(arbitration_id=_BACKGROUND_ID, is_extended_id=False))
+        self._buses[FIRST_BUS].send(can.Message(arbitration_id=BACKGROUND_ID, is_extended_id=False))
         answered = ecu.answer(_PATIENCE_S)
         self._sent += 1 + answered
         self._wait()

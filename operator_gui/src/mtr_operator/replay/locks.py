@@ -8,6 +8,7 @@ from typing import Iterator
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.clocks.stamp_kind import StampKind
 from mtr_operator.car_link.lock_watch import LockWatch
+from mtr_operator.car_link.log.log_buses import LogBuses
 from mtr_operator.car_link.log.log_car import played_frame
 from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.car_link.log.text.lines import LoggedFrame
@@ -33,7 +34,7 @@ class ReplayedLocks:
     def __init__(self, profile: CarProfile, log: ReadLog, phone: ReplayedPhone | None = None, *,
                  is_played: bool = False):
         """is_played: the test played the log from its first Status on, in place of a bus."""
-        self._profile = profile
+        self._buses = LogBuses(profile)
         self._phone = phone
         self.watch = LockWatch(profile)
         self.facts = profile.facts
@@ -63,7 +64,7 @@ class ReplayedLocks:
             self._first_s = status.stamp_s - (0.0 if self._next is None else self._next.time_s)
         while self._next is not None and self._first_s + self._next.time_s <= status.stamp_s:
             self.frames += 1
-            self.watch.frame(played_frame(self._next, self._first_s, self._profile))
+            self.watch.frame(played_frame(self._next, self._first_s, self._buses.bus_of(self._next)))
             self.has_state = self.has_state or self.watch.is_lock_message
             self._next = next(self._log, None)
         self.watch.status(status, status.stamp_s)
@@ -92,4 +93,4 @@ class ReplayedLocks:
         kind = StampKind[mark.stamps] if mark.stamps else StampKind.ARRIVAL
         stamp_s = local_s if kind is StampKind.ADAPTER else None
         return CanFrame(frame.can_id, frame.is_extended, frame.data, local_s, None, stamp_s, kind, frame.is_fd,
-                        self._profile.further.bus_of(frame.channel))
+                        self._buses.bus_of(frame))

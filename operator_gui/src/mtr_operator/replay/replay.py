@@ -115,7 +115,7 @@ def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.
     read = ReadLog(path, profile.identifiers)
     locks = ReplayedLocks(profile, read, points.phone, is_played=bool(played))
     points.follow(read_course(run.course), locks)
-    notices = [read.notice] if read.notice else []
+    notices = [*((read.notice,) if read.notice else ()), *locks.watch.notices]
     if not (locks.has_marks or played):
         raise CannotReplay(f"The test has kept no log of the Car's bus, so that nothing says when the frames of {path} "
                            "came: its times cannot be brought together with the test's.")

@@ -32,7 +32,7 @@ class CycleCheck:
             cycle_ms = place.message.cycle_time
             if not place.bus and cycle_ms:
                 self._expected[place.key[1:]] = place.message.name, cycle_ms / _MS_PER_S, "its database"
-        if profile.poll is None:
+        if profile.poll is None and not profile.is_only_on_change:
             message = profile.message
             self._expected[message.frame_id, message.is_extended_frame] = (
                 message.name, profile.cycle_time_s, "cycle_time_s of the car profile")

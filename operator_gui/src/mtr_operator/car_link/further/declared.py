@@ -100,10 +100,6 @@ class Further:
         """How long after a change all is known of it."""
         return self.within_s if self.causes or self.counters or self.key else 0.0
 
-    def bus_of(self, channel: int) -> str:
-        """Bus of a log's channel: 0 is that of the state; of a Car with one bus each is."""
-        return self.buses[channel - 1] if 0 < channel <= len(self.buses) else FIRST_BUS
-
     def places(self) -> Iterator[Place]:
         """All signals."""
         yield from (cause.place for cause in self.causes)

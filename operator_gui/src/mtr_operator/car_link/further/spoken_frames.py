@@ -18,6 +18,10 @@ from .entries import FIRST_BUS
 # For so long the flag of a change and a cause that does not stay are set: some cycles of every message.
 _SHOWN_S = 0.1
 _FEWEST_FRAMES = 3
+# For so long a Car that tells its state only on change is locked again and again before a test.
+_ANNOUNCED_S = 1.0
+# There is always something on a bus.
+BACKGROUND_ID = 0x001
 
 
 class SpokenFrame(NamedTuple):
@@ -39,6 +43,7 @@ class SpokenFrames:
         self._profile = profile
         self._was_locked = is_locked
         self._cycles = self._changes = self._shown = 0
+        self._is_told = False
         # The state first: what belongs to a change comes with it or behind it.
         self._messages: dict[MessageKey, Any] = {
             (FIRST_BUS, profile.message.frame_id, profile.message.is_extended_frame): profile.message}
@@ -57,8 +62,21 @@ class SpokenFrames:
             self._was_locked = self.is_locked
             self._changes += 1
             self._shown = max(round(_SHOWN_S / self._profile.cycle_time_s), _FEWEST_FRAMES)
+            self._is_told = False
+        if self._profile.is_only_on_change:
+            yield self._sign_of_life()
         for (bus, _, _), message in self._messages.items():
-            yield SpokenFrame(bus, _sent(message, self._data(message)))
+            if message is not self._profile.message or not self._is_told:
+                yield SpokenFrame(bus, _sent(message, self._data(message)))
+        is_begun = self._cycles * self._profile.cycle_time_s > _ANNOUNCED_S
+        self._is_told = self._profile.is_only_on_change and is_begun
+
+    def _sign_of_life(self) -> SpokenFrame:
+        """What comes with each cycle beside a state that is sent only on change."""
+        message = self._profile.liveness
+        if message is None:
+            return SpokenFrame(FIRST_BUS, can.Message(arbitration_id=BACKGROUND_ID, is_extended_id=False))
+        return SpokenFrame(FIRST_BUS, _sent(message, self._data(message)))
 
     def _data(self, message: Any) -> bytes:
         return encode(message, dict(self._wanted(message)))

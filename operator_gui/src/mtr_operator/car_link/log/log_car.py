@@ -15,6 +15,7 @@ from ..can_frame import CanFrame
 from ..clocks.stamp_kind import StampKind
 from ..lock_watch import LockWatch
 from ..profile import CarProfile, load_profile
+from .log_buses import LogBuses
 from .read_log import ReadLog
 from .text.lines import LoggedFrame
 
@@ -31,10 +32,10 @@ def played_log(session: Mapping[str, str]) -> str:
     return adapter[len(begin):-len(end)] if adapter.startswith(begin) and adapter.endswith(end) else ""
 
 
-def played_frame(frame: LoggedFrame, begin_s: float, profile: CarProfile) -> CanFrame:
+def played_frame(frame: LoggedFrame, begin_s: float, bus: str) -> CanFrame:
     """A frame of a log whose times begin at begin_s of the robot's clock, which times frames and Statuses alike."""
     return CanFrame(frame.can_id, frame.is_extended, frame.data, begin_s + frame.time_s, kind=StampKind.ARRIVAL,
-                    is_fd=frame.is_fd, bus=profile.further.bus_of(frame.channel))
+                    is_fd=frame.is_fd, bus=bus)
 
 
 class LogCarLink(CarLink):
@@ -48,6 +49,7 @@ class LogCarLink(CarLink):
         self._profile_name = profile
         self._profile: CarProfile | None = None
         self._watch: LockWatch | None = None
+        self._buses: LogBuses | None = None
         self._log: ReadLog | None = None
         self._frames: Iterator[LoggedFrame] = iter(())
         self._next: LoggedFrame | None = None
@@ -57,7 +59,7 @@ class LogCarLink(CarLink):
     def connect(self) -> None:
         """See CarLink; ConnectionFailed when the log holds no frame."""
         self._profile = profile = load_profile(self._profile_name)
-        self._watch = LockWatch(self._profile)
+        self._watch, self._buses = LockWatch(profile), LogBuses(profile)
         self._log = ReadLog(self._path, profile.identifiers)
         self._frames = iter(self._log)
         self._next = next(self._frames, None)
@@ -66,13 +68,13 @@ class LogCarLink(CarLink):
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
-        watch, profile = self._watch, self._profile
-        if watch is None or profile is None:
+        watch, buses = self._watch, self._buses
+        if watch is None or buses is None:
             raise ConnectionFailed(_NOT_CONNECTED)
         if math.isnan(self._begin_s) and self._next is not None:
             self._begin_s = status.stamp_s - self._next.time_s
         while self._next is not None and self._begin_s + self._next.time_s <= status.stamp_s:
-            watch.frame(played_frame(self._next, self._begin_s, profile))
+            watch.frame(played_frame(self._next, self._begin_s, buses.bus_of(self._next)))
             self._next = next(self._frames, None)
         self._stamp_s = status.stamp_s
         self._look_at_log()
@@ -100,7 +102,8 @@ class LogCarLink(CarLink):
     def notices(self) -> Sequence[str]:
         """See CarLink: what is wrong with the log, as far as it has been read."""
         notice = "" if self._log is None else self._log.notice
-        return (notice,) if notice else ()
+        watched = () if self._watch is None else self._watch.notices
+        return (*((notice,) if notice else ()), *watched)
 
     @property
     def refused(self) -> Refused:

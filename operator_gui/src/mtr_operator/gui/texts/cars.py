@@ -51,4 +51,13 @@ SENTENCES = (
                                   "meanings."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: no signal can carry a value that states lists as {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} belongs to {}, which is missing."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} belongs to {}, which is missing or false."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} is {}, which is only sent on change; name another "
+                                  "message."),
+    QT_TRANSLATE_NOOP("Sentence", "Message {} (id 0x{}) comes on the bus of the state and on the bus {}; that "
+                                  "of the first one counts. Check that the adapters are at the buses that the "
+                                  "profile names."),
+    QT_TRANSLATE_NOOP("Sentence", "Message {} (id 0x{}) comes on several channels of the log, {} among them, "
+                                  "and the car profile does not say which is which; name the further buses "
+                                  "(buses)."),
 )

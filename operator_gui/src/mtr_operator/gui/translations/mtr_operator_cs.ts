@@ -5641,6 +5641,26 @@
         <translation>Záznam CAN {} neobsahuje žádný rámec: {}; čtou se {}.</translation>
     </message>
     <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} belongs to {}, which is missing or false.</source>
+        <translation>Profil auta {}: {} patří k {}, což chybí nebo je false.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Car profile {}: {} is {}, which is only sent on change; name another message.</source>
+        <translation>Profil auta {}: {} je {}, která se posílá jen při změně; uveďte jinou zprávu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Message {} (id 0x{}) comes on the bus of the state and on the bus {}; that of the first one counts. Check that the adapters are at the buses that the profile names.</source>
+        <translation>Zpráva {} (id 0x{}) přichází na sběrnici stavu i na sběrnici {}; platí ta z první. Zkontrolujte, zda jsou adaptéry na sběrnicích, které profil uvádí.</translation>
+    </message>
+    <message>
+        <location filename="../texts/cars.py" line="5"/>
+        <source>Message {} (id 0x{}) comes on several channels of the log, {} among them, and the car profile does not say which is which; name the further buses (buses).</source>
+        <translation>Zpráva {} (id 0x{}) přichází na více kanálech záznamu, mezi nimi {}, a profil auta neříká, který je který; uveďte další sběrnice (buses).</translation>
+    </message>
+    <message>
         <location filename="../texts/learn.py" line="5"/>
         <source>No bit of any message followed all prompts; repeat it, and act only when asked. A Car that tells its locks on another bus cannot be learned from this one.</source>
         <translation>Žádný bit žádné zprávy neodpovídal všem výzvám; opakujte to a jednejte jen na výzvu. Auto, které o zámcích vypovídá na jiné sběrnici, se z této naučit nelze.</translation>
