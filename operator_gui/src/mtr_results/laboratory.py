@@ -10,6 +10,7 @@ from typing import Any, Iterator, Mapping
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.storage.atomic import output_folder, write_bytes
+from mtr_operator.storage.inside import inside
 from mtr_operator.storage.journal.journal_file import SUFFIX, journal_path
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.progress_file import save_progress
@@ -82,5 +83,6 @@ def _belongings(path: pathlib.Path, progress: Progress, files: Mapping[str, str]
     there is this test's."""
     found = {name: journal_path(path) for name in files if has_journal and name.endswith(SUFFIX)}
     photos = {photo.sha256: photo.name for photo in progress.identity.photos} if progress.identity else {}
-    found.update({name: photo_folder(path) / photos[sha256] for name, sha256 in files.items() if sha256 in photos})
+    folder = photo_folder(path)
+    found.update({name: inside(folder, photos[sha256]) for name, sha256 in files.items() if sha256 in photos})
     return found

@@ -12,7 +12,9 @@ from typing import Iterator
 from tqdm import tqdm
 
 from mtr_operator.domain.errors import InUse
+from mtr_operator.storage.inside import inside
 from mtr_operator.storage.lock import Lock
+from mtr_results.store.database import shown_address
 
 from ..errors import CampaignError
 from ..kernels.registry import check_plan
@@ -41,7 +43,7 @@ def run_campaign(plan: Plan, options: argparse.Namespace) -> Finished:
     if not 0 <= options.workers <= _MAX_WORKERS:
         raise CampaignError(f"--workers is {options.workers}; allowed are 0 to {_MAX_WORKERS}.")
     check_plan(plan)
-    folder = CampaignFolder((options.out / plan.name).resolve())
+    folder = CampaignFolder(inside(options.out, plan.name).resolve())
     folder.make()
     store = options.store or str(folder.path / STORE_NAME)
     keeping = Keeping(store, folder, plan.name)
@@ -58,7 +60,7 @@ def run_campaign(plan: Plan, options: argparse.Namespace) -> Finished:
         Conductor(plan, folder, crew).run(course, max(options.workers, 1))
     for sentence in keeping.sentences[:3]:
         print(sentence, file=sys.stderr)
-    return Finished(plan, course, folder.path, store)
+    return Finished(plan, course, folder.path, shown_address(store))
 
 
 @contextlib.contextmanager

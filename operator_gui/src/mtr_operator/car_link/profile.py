@@ -15,7 +15,7 @@ from .database.codec import SignalReader
 from .database.load import one_line
 from .further.counting import CountRange
 from .further.declared import KEYS, VALUES_OF, Further, read_further
-from .further.entries import FIRST_BUS, MAX_TEXT, Entries, has_long_text, is_file
+from .further.entries import FIRST_BUS, MAX_TEXT, PROFILE_FOLDER, Entries, has_long_text, is_file
 from .further.state_entries import (
     LIVENESS,
     ONLY_ON_CHANGE,
@@ -32,7 +32,6 @@ from .phone.car_signal import KEY as PHONE
 from .phone.car_signal import PhoneSignal, read_phone
 from .uds.declared import UdsPoll, read_poll, response_message
 
-PROFILE_FOLDER = pathlib.Path(__file__).parent / "profiles"
 _MAX_CYCLE_S = 10.0
 _CYCLE = "cycle_time_s"
 _REQUIRED = ("database", "message", "signal", "states", _CYCLE)
@@ -257,6 +256,14 @@ def profile_files(name_or_path: str) -> tuple[pathlib.Path, ...]:
     entries = Entries(path, _read(path))
     buses = (*((FIRST_BUS,) if "database" in entries.content else ()), *entries.buses)
     return path, *(entries.database_path(bus) for bus in buses)
+
+
+def bundled_files(name_or_path: str) -> tuple[dict[str, pathlib.Path], dict[str, str]]:
+    """Files of a profile that a bundle may hold, and why others are left out, by their names; ConnectionFailed when
+    there is no such profile."""
+    path = _find(name_or_path)
+    files, left_out = Entries(path, _read(path)).usable_databases()
+    return {path.name: path, **files}, left_out
 
 
 def bus_names(name_or_path: str) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ OperatorError
 ├── StoodStill           the laptop slept, or the application was stopped, during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
 ├── ProgressFileError    a progress file cannot be read or belongs to something else
+├── UnsafeName           a document names a file that would lie outside its folder
 ├── InUse                another application measures this test, or has gone on with it
 └── OutputError          a result cannot be written
 """
@@ -67,6 +68,10 @@ class RobotFailed(OperatorError):
 
 class ProgressFileError(OperatorError):
     """A progress file cannot be read or belongs to something else."""
+
+
+class UnsafeName(OperatorError):
+    """A document names a file that would lie outside its folder."""
 
 
 class InUse(OperatorError):

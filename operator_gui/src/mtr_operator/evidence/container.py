@@ -9,6 +9,8 @@ import shutil
 import zipfile
 from typing import BinaryIO, Callable, Iterable, Mapping, Union
 
+from mtr_operator.storage.inside import below
+
 from .manifest import FileEntry, copied_entry
 
 SUFFIX = ".mtr.zip"
@@ -59,6 +61,17 @@ def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: Binar
             info = _info(name, container.getinfo(name).file_size)
             with container.open(name) as source, copy.open(info, "w") as target:
                 shutil.copyfileobj(source, target, _BLOCK)
+
+
+def unpack(container: zipfile.ZipFile, folder: pathlib.Path) -> None:
+    """Write all files into a folder; UnsafeName, before anything is written, when one would lie outside it.
+
+    OSError when one cannot be written.
+    """
+    for name, target in [(name, below(folder, name)) for name in container.namelist()]:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        with container.open(name) as source, open(target, "xb") as copy:
+            shutil.copyfileobj(source, copy, _BLOCK)
 
 
 def packing_problem(container: zipfile.ZipFile, file: BinaryIO) -> str:

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import json
+import logging
 import pathlib
 from typing import Any, Callable, Mapping, NamedTuple
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.identity.file_name import name_problem, shown, to_file_name
+from mtr_operator.domain.identity.identity import NOBODY
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import CAR_PROFILE_FILES, SUBSTITUTE
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.report.assessed import assess
 from mtr_operator.report.files import report_files
+from mtr_operator.storage.inside import stays_inside
 from mtr_operator.storage.journal.journal_file import journal_path
-from mtr_operator.storage.photos import photo_folder
+from mtr_operator.storage.photos import photo_folder, recorded_content
 from mtr_operator.storage.recorded.kept_car import FOLDER as CAR_FOLDER
 from mtr_operator.storage.recorded.kept_car import car_folder, digest_text
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs, recording_folder
@@ -33,6 +37,8 @@ RECORD = "record.json"
 RESULTS_TABLE, POSES_TABLE = "results.parquet", "poses.parquet"
 # Only where something is left out: why, by the name of what is missing.
 LEFT_OUT = "left_out.json"
+# Of the text of a defect, characters.
+_MAX_SAID = 300
 
 
 class Tested(NamedTuple):
@@ -53,20 +59,25 @@ class Contents:
         self.left_out: dict[str, str] = {}
 
     def add(self, name: str, make: Callable[[], Source]) -> None:
-        """A file; when it cannot be made it is left out."""
+        """A file; when it cannot be made it is left out with the reason, and the rest of the bundle is written."""
         try:
             self.sources[name] = make()
         except OperatorError as error:
             self.left_out[name] = str(error)
+        # A defect of one picture must not cost the evidence of the whole test.
+        except Exception as error:
+            logging.exception("Part %s of a bundle was not made because of a defect of the application.", name)
+            self.left_out[name] = f"It cannot be made: {type(error).__name__}: {str(error)[:_MAX_SAID]}"
 
 
 def contents_of(test: Tested, station: str) -> Contents:
     """All of a test that a bundle holds; station: who signs it."""
-    path, scenario, progress, assessment, profile = test
+    path, scenario, progress, assessment, _ = test
     found, record = Contents(), record_of(scenario, progress, assessment)
     found.sources.update(_of_record(scenario, progress, record))
     _add_report(found, test)
     _add_files(found, path)
+    _check_photos(found, test)
     _add_profile(found, test)
     runs = recorded_runs(recording_folder(path))
     for run in runs:
@@ -74,7 +85,8 @@ def contents_of(test: Tested, station: str) -> Contents:
     found.add(RESULTS_TABLE, lambda: parquet_of(results_table(scenario, progress, assessment)))
     if runs:
         found.add(POSES_TABLE, lambda: parquet_of(poses_table([run.course for run in runs])))
-    found.sources.update(_adapted(record, station))
+    for name, adapt in _adapters(record, station).items():
+        found.add(name, adapt)
     if found.left_out:
         found.sources[LEFT_OUT] = as_json(found.left_out)
     return found
@@ -102,33 +114,61 @@ def _add_report(found: Contents, test: Tested) -> None:
 
 
 def _add_files(found: Contents, path: pathlib.Path) -> None:
-    """Findings, recording and photos, as they are on disk."""
-    found.sources.update({file.name: file for file in (path, journal_path(path)) if file.is_file()})
-    for folder, kept in ((recording_folder(path), "recording"), (photo_folder(path), "photos")):
-        found.sources.update({f"{kept}/{file.name}": file for file in sorted(folder.glob("*")) if file.is_file()})
+    """Findings, recording, photos and the kept profile, as they are on disk. Links to other folders are never followed."""
+    found.sources.update({file.name: file for file in (path,) if file.is_file()})
+    _add_own(found, journal_path(path), "")
+    for folder, kept in ((recording_folder(path), "recording"), (photo_folder(path), "photos"),
+                         (car_folder(path), CAR_FOLDER)):
+        if not stays_inside(path.parent, folder):
+            found.left_out[kept] = f"The folder {folder} is a link that leads elsewhere."
+            continue
+        for file in sorted(folder.glob("*")):
+            _add_own(found, file, f"{kept}/")
+
+
+def _add_own(found: Contents, file: pathlib.Path, prefix: str) -> None:
+    """A file of the test's own folder, if it is there."""
+    problem = name_problem(file.name)
+    if problem:
+        found.left_out[f"{prefix}{shown(file.name)}"] = f"The file name {shown(file.name)} is refused. {problem}."
+    elif not stays_inside(file.parent, file):
+        found.left_out[f"{prefix}{file.name}"] = f"The file {file} is a link that leads elsewhere."
+    elif file.is_file():
+        found.sources[f"{prefix}{file.name}"] = file
+
+
+def _check_photos(found: Contents, test: Tested) -> None:
+    """Leave out photos whose content is not the recorded one."""
+    identity = test.progress.identity or NOBODY
+    for photo in identity.photos:
+        name = f"photos/{photo.name}"
+        if name in found.sources:
+            try:
+                recorded_content(photo, photo_folder(test.path))
+            except OperatorError as error:
+                del found.sources[name]
+                found.left_out[name] = str(error)
 
 
 def _add_profile(found: Contents, test: Tested) -> None:
-    """The Car's profile and its databases as they were kept when the test began; of an older test, as they are now."""
-    from mtr_operator.car_link.profile import profile_files
-    kept = [file for file in sorted(car_folder(test.path).glob("*")) if file.is_file()]
-    if kept:
-        found.sources.update({f"{CAR_FOLDER}/{file.name}": file for file in kept})
-        return
+    """The Car's profile and its databases as they were kept when the test began; of an older test, as they are now.
+
+    The record may come from somebody else: nothing is added that is no profile and no CAN database.
+    """
+    from mtr_operator.car_link.profile import bundled_files
     profile, recorded = test.profile, test.progress.session.get(CAR_PROFILE_FILES, "").split(", ")
-    try:
-        files = () if profile in ("", SUBSTITUTE) else profile_files(profile)
-    except OperatorError as error:
-        found.left_out[f"{CAR_FOLDER}/{pathlib.Path(profile).name}"] = str(error)
+    if profile in ("", SUBSTITUTE) or any(name.startswith(f"{CAR_FOLDER}/") for name in found.sources):
         return
-    for file in files:
-        name = f"{CAR_FOLDER}/{file.name}"
-        if not file.is_file():
-            found.left_out[name] = f"The file {file} is not there any more."
-        elif recorded != [""] and digest_text({file.name: file.read_bytes()}) not in recorded:
-            found.left_out[name] = f"The file {file} has changed since the test was begun."
+    try:
+        files, left_out = bundled_files(profile)
+    except OperatorError as error:
+        files, left_out = {}, {to_file_name(pathlib.PurePath(profile).name, "profile"): str(error)}
+    for name, file in files.items():
+        if recorded != [""] and digest_text({file.name: file.read_bytes()}) not in recorded:
+            left_out[name] = f"The file {file} has changed since the test was begun."
         else:
-            found.sources[name] = file
+            found.sources[f"{CAR_FOLDER}/{name}"] = file
+    found.left_out.update({f"{CAR_FOLDER}/{name}": reason for name, reason in left_out.items()})
 
 
 def _add_course(found: Contents, run: RecordedRun) -> None:
@@ -142,10 +182,11 @@ def _add_course(found: Contents, run: RecordedRun) -> None:
     found.add(f"recording/{run.course.stem}.mcap", lambda: mcap_of(run.course, scans))
 
 
-def _adapted(record: Mapping[str, Any], station: str) -> dict[str, Source]:
-    """The record for other tools."""
-    return {"adapters/openhtf.json": as_json(openhtf_of(record, station)),
-            "adapters/junit.xml": junit_of(record, station), "adapters/ods.json": as_json(ods_of(record, station))}
+def _adapters(record: Mapping[str, Any], station: str) -> dict[str, Callable[[], Source]]:
+    """What makes the record for other tools."""
+    return {"adapters/openhtf.json": lambda: as_json(openhtf_of(record, station)),
+            "adapters/junit.xml": lambda: junit_of(record, station),
+            "adapters/ods.json": lambda: as_json(ods_of(record, station))}
 
 
 def as_json(value: Any) -> bytes:

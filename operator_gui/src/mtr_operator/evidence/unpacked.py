@@ -10,7 +10,7 @@ from typing import Iterator
 
 from mtr_operator.domain.errors import OperatorError
 
-from .container import SUFFIX
+from .container import SUFFIX, unpack
 from .verification import verify_bundle
 
 
@@ -28,7 +28,6 @@ def unpacked(path: pathlib.Path) -> Iterator[pathlib.Path]:
     if problems:
         raise NotIntact(f"{path} is not as it was signed, and nothing is computed from it: {problems[0]}")
     with tempfile.TemporaryDirectory() as folder:
-        # Its names are those of the manifest; zipfile keeps them within the folder.
         with zipfile.ZipFile(path) as container:
-            container.extractall(folder)
+            unpack(container, pathlib.Path(folder))
         yield pathlib.Path(folder)

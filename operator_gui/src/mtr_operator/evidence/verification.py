@@ -11,6 +11,8 @@ import zlib
 from dataclasses import dataclass, field
 from typing import Any, BinaryIO, Callable, Sequence
 
+from mtr_operator.domain.identity.file_name import name_problem, shown
+
 from .container import copy_container, first_difference, packing_problem
 from .manifest import (
     FORMAT,
@@ -126,9 +128,16 @@ def _verified(names: Sequence[str], read: Callable[[str], bytes],
             problems.append(f"{name} is changed.")
     known = {MANIFEST, SIGNATURE, *manifest.files}
     problems += [f"{name} was added." for name in names if name not in known]
+    problems += [f"The file name {shown(name)} is refused. {problem}." for name in manifest.files
+                 if (problem := _name_problem(name))]
     if len(set(names)) != len(names):
         problems.append("A file is in it twice.")
     return Verification(manifest, sha256_of(content), tuple(problems))
+
+
+def _name_problem(name: str) -> str:
+    """Reason why a file must not be unpacked under its name; empty when it may."""
+    return next(filter(None, map(name_problem, name.split("/"))), "")
 
 
 def _is_signed(manifest: Manifest, content: bytes, signature: Any) -> bool:

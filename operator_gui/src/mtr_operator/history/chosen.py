@@ -5,7 +5,9 @@ from __future__ import annotations
 import pathlib
 from typing import TYPE_CHECKING, Callable, Sequence
 
+from mtr_operator.domain.identity.file_name import to_file_name
 from mtr_operator.storage.atomic import output_folder
+from mtr_operator.storage.inside import inside
 from mtr_operator.storage.progress_file import free_path
 
 from .comparison import Comparison, compare
@@ -59,7 +61,8 @@ def brought(entry: TestEntry, folder: pathlib.Path) -> pathlib.Path:
     if not entry.store:
         return entry.file
     moment = entry.started[:_SECOND].replace("T", "_").replace(":", "-")
+    name = to_file_name(f"{entry.scenario}_{moment}", "test")
     with output_folder(folder):
-        path = free_path(folder / f"{entry.scenario}_{moment}.json")
+        path = free_path(inside(folder, f"{name}.json"))
         fetch(entry, path)
     return path

@@ -48,7 +48,9 @@ def write_bytes(path: pathlib.Path, content: bytes) -> None:
     # Always the same name: what a killed application has left is overwritten by the next one.
     temporary = path.with_name(f".{path.name}.part")
     try:
-        with open(temporary, "wb") as file:
+        # Never follow a link that somebody has put there under this name.
+        temporary.unlink(missing_ok=True)
+        with open(temporary, "xb") as file:
             file.write(content)
             file.flush()
             os.fsync(file.fileno())

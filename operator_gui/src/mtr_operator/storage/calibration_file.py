@@ -12,6 +12,7 @@ import yaml
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.estimation.budget.calibration import CalibrationRecord
 from mtr_operator.domain.estimation.budget.calibration_document import calibration_from
+from mtr_operator.domain.identity.file_name import to_file_name
 
 from .atomic import write_bytes
 from .given_files import load_calibration
@@ -28,7 +29,7 @@ def new_record(robot: str, by: str, today: datetime.date) -> CalibrationRecord:
 
 def record_path(folder: pathlib.Path, robot: str) -> pathlib.Path:
     """Where the record of a robot is kept."""
-    return folder / f"{_NO_FILE_NAME.sub('_', robot.strip()) or 'robot'}.yaml"
+    return folder / f"{to_file_name(_NO_FILE_NAME.sub('_', robot.strip()), 'robot')}.yaml"
 
 
 def save_calibration(path: pathlib.Path, record: CalibrationRecord) -> None:

@@ -13,6 +13,10 @@ from mtr_operator.domain.errors import InUse, OutputError
 # Attempts to lock a file that another application takes away just then.
 _ATTEMPTS = 10
 _MAX_OWNER_BYTES = 32
+# Windows refuses to delete a file that is open.
+_CAN_UNLINK_OPEN_FILES = sys.platform != "win32"
+# A link under this name is not ours, whatever it leads to.
+_FLAGS = os.O_RDWR | os.O_CREAT | getattr(os, "O_NOFOLLOW", 0)
 
 
 class Lock:
@@ -38,17 +42,27 @@ class Lock:
 
     def __exit__(self, *_: object) -> None:
         descriptor, self._descriptor = self._descriptor, None
-        if descriptor is not None:
-            # First, so that who locks the file after this finds that it is not the one in the folder. The last one of
-            # those that share it does so.
-            with contextlib.suppress(OSError):
-                if not self._is_shared or _lock(descriptor):
-                    self._path.unlink()
+        if descriptor is None:
+            return
+        is_last = self._is_last(descriptor)
+        if not _CAN_UNLINK_OPEN_FILES:
             os.close(descriptor)
+        # Before it is closed where possible: an application that locks the file after this finds that it is gone.
+        if is_last:
+            with contextlib.suppress(OSError):
+                self._path.unlink()
+        if _CAN_UNLINK_OPEN_FILES:
+            os.close(descriptor)
+
+    def _is_last(self, descriptor: int) -> bool:
+        """True for the last one of those that share it, who takes the file away; on Windows nobody shares it."""
+        with contextlib.suppress(OSError):
+            return not self._is_shared or not _CAN_UNLINK_OPEN_FILES or _lock(descriptor)
+        return False
 
     def _take(self) -> bool:
         """True when it is ours; False when the file was not the one in the folder any more."""
-        descriptor = os.open(self._path, os.O_RDWR | os.O_CREAT, 0o644)
+        descriptor = os.open(self._path, _FLAGS, 0o644)
         try:
             if not _lock(descriptor, self._is_shared):
                 raise InUse(self.sentence)

@@ -15,7 +15,7 @@ from mtr_operator.domain.errors import (
 )
 from mtr_operator.domain.estimation.budget.calibration_document import calibration_from
 from mtr_operator.domain.identity.identity_document import identity_from
-from mtr_operator.domain.results.document import read_record
+from mtr_operator.domain.results.document import read_record, shown_text
 from mtr_operator.domain.results.frame_record import record_from
 from mtr_operator.domain.results.line_result import LineResult, result_from_document
 from mtr_operator.domain.results.progress import FORMAT, VERSION, JournalMark, Progress, car_from
@@ -81,9 +81,10 @@ def progress_from_document(document: Any, scenario: AnyScenario, parameters: dic
                             identity=_given(document, "identity", identity_from),
                             skipped=_numbers_from(document.get("skipped", [])))
         _check_lines(progress, scenario)
-    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError, InvalidLimits,
-            InvalidCalibration, InvalidIdentity):
+    except (LookupError, TypeError, ValueError, AttributeError, ArithmeticError, RecursionError):
         raise ProgressFileError(DAMAGED) from None
+    except (InvalidLimits, InvalidCalibration, InvalidIdentity) as error:
+        raise ProgressFileError(f"It is damaged: {error}") from None
     return progress
 
 
@@ -95,7 +96,7 @@ def _given(document: Mapping[str, Any], name: str, read: Callable[[Any], Given])
 def _session_from(session: Any) -> dict[str, str]:
     if not isinstance(session, dict) or not all(isinstance(text, str) for text in session.values()):
         raise TypeError("session")
-    return dict(session)
+    return {shown_text(name): shown_text(text) for name, text in session.items()}
 
 
 def _numbers_from(numbers: Any) -> list[int]:

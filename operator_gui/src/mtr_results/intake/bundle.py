@@ -18,10 +18,11 @@ from ..errors import StoreAway, StoreError
 def unpacked(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pathlib.Path]:
     """Context with a folder that holds the files of a bundle; see source.opened."""
     _verify(path, stations)
+    from mtr_operator.evidence.container import unpack
     with tempfile.TemporaryDirectory(prefix="mtr_bundle_") as folder:
         try:
             with zipfile.ZipFile(path) as container:
-                container.extractall(folder)
+                unpack(container, pathlib.Path(folder))
         except OSError as error:
             raise StoreAway(f"The bundle {path} cannot be unpacked into {folder}: "
                             f"{error.strerror or error}.") from None

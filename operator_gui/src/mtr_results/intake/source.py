@@ -6,7 +6,9 @@ import contextlib
 import pathlib
 from typing import Collection, Iterator
 
+from mtr_operator.domain.identity.file_name import name_problem
 from mtr_operator.history.places import stamps
+from mtr_operator.storage.inside import stays_inside
 from mtr_operator.storage.journal.journal_file import SUFFIX
 from mtr_operator.storage.photos import photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME
@@ -50,10 +52,11 @@ def opened(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pathl
 
 def files_of(path: pathlib.Path) -> dict[str, pathlib.Path]:
     """Files of the test with this progress file, by their names: all of its folder when it has one of its own, else
-    those that bear its name; photos included, what is hidden not."""
+    those that bear its name; photos included. Hidden files, names that are refused (see inside) and links that lead out
+    of the folder are left out."""
     record = progress_path(path)
     beside = ([*record.parent.iterdir()] if record.name == FILE_NAME else [record, record.with_suffix(SUFFIX)])
     photos = photo_folder(record)
-    inside = [*photos.iterdir()] if photos.is_dir() else []
-    return {str(found.relative_to(record.parent)): found for found in sorted([*beside, *inside])
-            if found.is_file() and not found.name.startswith(".")}
+    of_photos = [*photos.iterdir()] if photos.is_dir() and stays_inside(record.parent, photos) else []
+    return {found.relative_to(record.parent).as_posix(): found for found in sorted([*beside, *of_photos])
+            if not name_problem(found.name) and stays_inside(found.parent, found) and found.is_file()}

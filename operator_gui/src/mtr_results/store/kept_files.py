@@ -6,14 +6,18 @@ import contextlib
 import hashlib
 import os
 import pathlib
+import re
 import tempfile
 from typing import Mapping
+
+from mtr_operator.domain.identity.file_name import shown
 
 from ..errors import StoreAway, StoreError
 
 # A photo of a good camera has 20 MB, a recording more than a store of results wants.
 MAX_BYTES = 64 * 1024 * 1024
 MAX_FILES = 200
+_SHA256 = re.compile("[0-9a-f]{64}")
 
 
 class KeptFiles:
@@ -29,7 +33,9 @@ class KeptFiles:
         return [{"name": name, **self._keep(path)} for name, path in files.items()]
 
     def path_of(self, sha256: str) -> pathlib.Path:
-        """Where a content lies, if it is kept."""
+        """Where a content lies, if it is kept; StoreError for what is no check sum."""
+        if not _SHA256.fullmatch(sha256):
+            raise StoreError(f"The store names the content {shown(sha256)}, which is no SHA-256 check sum.")
         return self.folder / sha256[:2] / sha256
 
     def read(self, sha256: str) -> bytes:

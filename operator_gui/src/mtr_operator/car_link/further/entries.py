@@ -6,8 +6,9 @@ import os
 import pathlib
 from typing import Any, Iterable, Mapping, Sequence, TypeVar
 
-from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.errors import ConnectionFailed, UnsafeName
 from mtr_operator.domain.ports import LockState
+from mtr_operator.storage.inside import below
 
 from ..database.car_database import CarDatabase
 from ..database.codec import as_decoded
@@ -25,18 +26,23 @@ STATES = {**{state.value: state for state in LockState}, DRIVER_ONLY: LockState.
 
 # Folder in which databases are looked for that do not lie beside their profiles, for every command and the window.
 DATABASES_VARIABLE = "MTR_CAR_DATABASES"
+# Of the shipped profiles and their databases.
+PROFILE_FOLDER = pathlib.Path(__file__).parent.parent / "profiles"
+
+
+def database_folders(profile_folder: pathlib.Path) -> tuple[pathlib.Path, ...]:
+    """Folders in which the databases of a profile in this folder may lie, in the order of the search."""
+    elsewhere = os.environ.get(DATABASES_VARIABLE, "")
+    return profile_folder, *((pathlib.Path(elsewhere),) if elsewhere else ()), PROFILE_FOLDER
 
 
 class Entries:
-    """content: of the YAML file at path. databases: folder of its databases, None for that of the file; then that of
-    MTR_CAR_DATABASES is looked into, too, if that is set."""
+    """content: of the YAML file at path. databases: folder of its databases, None for database_folders()."""
 
     def __init__(self, path: pathlib.Path, content: Mapping[str, Any], databases: pathlib.Path | None = None):
         self.content = content
         self._path = path
-        elsewhere = os.environ.get(DATABASES_VARIABLE, "")
-        self._folders = (databases, path.parent) if databases is not None else \
-            (path.parent, *((pathlib.Path(elsewhere),) if elsewhere else ()))
+        self._folders = database_folders(path.parent) if databases is None else (databases, path.parent)
         self._databases: dict[str, CarDatabase] = {}
 
     def wrong(self, text: str) -> ConnectionFailed:
@@ -91,10 +97,30 @@ class Entries:
         return tuple(table)
 
     def database_path(self, bus: str = FIRST_BUS) -> pathlib.Path:
-        """Of a bus that is declared."""
-        name = str(self.content["database"] if bus == FIRST_BUS else self.content["buses"][bus])
-        paths = [folder / name for folder in self._folders]
+        """Of a bus that is declared; ConnectionFailed for a name that leads out of the folders of databases: a profile
+        may come from somebody else, and its databases are copied into bundles."""
+        name = self.content["database"] if bus == FIRST_BUS else self.content["buses"][bus]
+        try:
+            paths = [below(folder, name) for folder in self._folders]
+        except UnsafeName as error:
+            raise self.wrong(f"CAN databases must be next to the profile or in the folder set by {DATABASES_VARIABLE}. "
+                             f"{error}") from None
         return next((path for path in paths if is_file(path)), paths[0])
+
+    def usable_databases(self) -> tuple[dict[str, pathlib.Path], dict[str, str]]:
+        """Databases of all buses, and why others are left out, by their names: only what can be read as a CAN database
+        is one, whatever the profile names."""
+        files: dict[str, pathlib.Path] = {}
+        left_out: dict[str, str] = {}
+        for bus in (*((FIRST_BUS,) if "database" in self.content else ()), *self.buses):
+            try:
+                path = self.database_path(bus)
+                if not self.database(bus).messages:
+                    raise self.wrong(f"{path.name} holds no CAN messages.")
+                files[path.name] = path
+            except ConnectionFailed as error:
+                left_out[f"CAN database {bus}".rstrip()] = str(error)
+        return files, left_out
 
     def database(self, bus: str = FIRST_BUS) -> CarDatabase:
         """Of CAN messages; for one of another kind an empty one, in which no message is found."""

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import json
-import os
 import pathlib
 import re
 from typing import Mapping, Sequence
@@ -11,7 +11,9 @@ from typing import Mapping, Sequence
 from mtr_operator.domain.errors import InvalidParameter, NothingLearned, OutputError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.storage.atomic import write_bytes
+from mtr_operator.storage.inside import inside
 
+from ..further.entries import database_folders
 from ..profile import CarProfile, load_profile
 from .bits import field_of
 from .counters import Field
@@ -112,7 +114,7 @@ def _own_entries(database: str, best: Candidate) -> list[str]:
 
 def _named_entries(folder: pathlib.Path, names: DatabaseNames, named: Named, best: Candidate) -> list[str]:
     """Of a database that is there already; a name may be a word that YAML takes for something else."""
-    lines = [f"database: {json.dumps(_path_from(folder, names.path), ensure_ascii=False)}",
+    lines = [f"database: {json.dumps(_name_for(folder, names.path), ensure_ascii=False)}",
              f"message: {json.dumps(named.message)}", f"signal: {json.dumps(named.signal)}", *_states(named.values)]
     moving = _moving(best)
     alive = names.counter(best, best.counter, best.counter)
@@ -129,9 +131,14 @@ def _states(values: Mapping[LockState, int]) -> list[str]:
     return ["states:", *(f"  {values[state]}: {state.value}" for state in (LockState.LOCKED, LockState.UNLOCKED))]
 
 
-def _path_from(folder: pathlib.Path, path: pathlib.Path) -> str:
-    """As a profile in the folder names the file; in full when it is on another drive."""
-    try:
-        return pathlib.Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix()
-    except ValueError:
-        return path.resolve().as_posix()
+def _name_for(folder: pathlib.Path, path: pathlib.Path) -> str:
+    """Name of a database in a profile in the folder. A database outside the folders of databases is copied beside the
+    profile; OutputError when another file of that name is there."""
+    for place in database_folders(folder):
+        with contextlib.suppress(ValueError):
+            return path.resolve().relative_to(place.resolve()).as_posix()
+    copy, content = inside(folder, path.name), path.read_bytes()
+    if copy.exists() and copy.read_bytes() != content:
+        raise OutputError(f"The file {copy} is there already; choose another name.")
+    write_bytes(copy, content)
+    return copy.name

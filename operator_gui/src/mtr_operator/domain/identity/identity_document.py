@@ -24,6 +24,7 @@ import re
 from typing import Any, Mapping
 
 from ..errors import InvalidIdentity
+from .file_name import name_problem, shown
 from .identity import (
     BATTERY_V,
     MAX_EQUIPMENT,
@@ -121,4 +122,7 @@ def _photo(entry: Any) -> Photo:
     name, digest = (entry.get(key) if isinstance(entry, Mapping) else None for key in ("name", "sha256"))
     if not isinstance(name, str) or not isinstance(digest, str) or not _SHA256.fullmatch(digest):
         raise InvalidIdentity("photos has to be a list of files with name and sha256.")
+    problem = name_problem(name)
+    if problem:
+        raise InvalidIdentity(f"The file name {shown(name)} under photos is refused. {problem}.")
     return Photo(_text(name, "photos"), digest)

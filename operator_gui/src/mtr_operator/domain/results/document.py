@@ -10,6 +10,9 @@ from typing import Any, Mapping, Optional, Tuple, TypeVar, Union, get_args, get_
 Record = TypeVar("Record")
 # Ids have 64 bits.
 _LARGEST = 2 ** 64
+# The longest sentence of a robot with all its causes has some hundred characters.
+MAX_TEXT = 2000
+_REPLACEMENT = "\N{REPLACEMENT CHARACTER}"
 # Python 3.9 cannot evaluate "float | None", and read_record has to.
 OptionalFloat = Optional[float]
 OptionalInt = Optional[int]
@@ -44,6 +47,28 @@ def plain(value: Any) -> Any:
     if isinstance(value, tuple):
         return list(value)
     return value.value if isinstance(value, enum.Enum) else value
+
+
+def shown_text(text: str) -> str:
+    """A text of a file on one line, as pictures, pages and terminals can show it: at most MAX_TEXT characters.
+
+    Control characters, marks of direction and halves of characters become U+FFFD.
+    """
+    cut = text if len(text) <= MAX_TEXT else f"{text[:MAX_TEXT]}..."
+    return cut if cut.isprintable() else "".join(
+        letter if letter.isprintable() else " " if letter.isspace() else _REPLACEMENT for letter in cut)
+
+
+def with_shown_texts(record: Record) -> Record:
+    """The record with all its texts as shown_text() has them."""
+    changes: dict[str, Any] = {}
+    for field in dataclasses.fields(record):  # type: ignore[arg-type]  # typeshed knows no dataclass instance
+        value = getattr(record, field.name)
+        if type(value) is str and shown_text(value) != value:
+            changes[field.name] = shown_text(value)
+        elif isinstance(value, tuple) and value and all(type(each) is str for each in value):
+            changes[field.name] = tuple(map(shown_text, value))
+    return dataclasses.replace(record, **changes) if changes else record  # type: ignore[type-var]
 
 
 def _value(kind: Any, value: Any) -> Any:

@@ -14,7 +14,7 @@ from typing import Any, Iterator
 from .. import limits
 from ..limits import first_violation
 from ..robot_status import CarCheck
-from .document import OptionalFloat, OptionalInt, read_record
+from .document import OptionalFloat, OptionalInt, read_record, with_shown_texts
 from .frame_history import KnownFrame
 
 _CM_PER_M = 100.0
@@ -123,7 +123,7 @@ def record_from(document: Any) -> FrameRecord:
     if document is None:
         return FrameRecord()
     record = FrameRecord([read_record(FrameEntry, frame) for frame in document["frames"]], dict(document["lines"]),
-                         [read_record(CheckEntry, check) for check in document["checks"]])
+                         [with_shown_texts(read_record(CheckEntry, check)) for check in document["checks"]])
     indices = [*record.lines.values(), *(check.frame for check in record.checks if check.frame is not None)]
     if not all(type(index) is int and 0 <= index < len(record.frames) for index in indices):
         raise ValueError("frame of a line")

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Sequence, TypeVar
 
 from .. import limits
-from .document import OptionalFloat, Texts, plain, read_record
+from .document import OptionalFloat, Texts, plain, read_record, with_shown_texts
 from .quantity import MeasuredQuantity
 
 # Where attempts work as often as they fail: what the distances of a line stand for.
@@ -180,7 +180,7 @@ class OnAxis:
 
 def result_from_document(result_type: type[Result], document: Any) -> Result:
     """Result in a progress file; KeyError, TypeError or ValueError when it is damaged."""
-    result = read_record(result_type, document)
+    result = with_shown_texts(read_record(result_type, document))
     for name, unit in ((item.name, item.unit) for item in result.columns()):
         value = getattr(result, name)
         limit, each = limits.OF_UNIT.get(unit, limits.PLAIN), value if isinstance(value, tuple) else (value,)

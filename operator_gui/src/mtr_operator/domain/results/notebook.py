@@ -8,7 +8,7 @@ from typing import Any, Mapping
 from ..errors import InvalidIdentity
 from ..identity.identity import Identity
 from ..identity.identity_document import identity_from
-from .document import read_record
+from .document import read_record, shown_text
 from .frame_history import frame_from
 from .frame_record import CheckEntry
 from .journal import (
@@ -88,7 +88,7 @@ def _apply_course(progress: Progress, kind: str, values: Mapping[str, Any]) -> N
 def _apply_words(progress: Progress, kind: str, values: Mapping[str, Any]) -> None:
     """What a person said of the test, or was told."""
     if kind == SESSION:
-        progress.session.update({str(name): str(text) for name, text in values.items()})
+        progress.session.update({shown_text(str(name)): shown_text(str(text)) for name, text in values.items()})
     else:
         progress.identity = _identity(values)
 

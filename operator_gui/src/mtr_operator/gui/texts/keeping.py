@@ -45,6 +45,35 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The progress file {} was recovered from its journal. {}"),
     QT_TRANSLATE_NOOP("Sentence", "What was measured last is taken from {}, where it was kept."),
     QT_TRANSLATE_NOOP("Sentence", "Another part of this test, measured apart from this one, is kept in {}."),
+    QT_TRANSLATE_NOOP("Sentence", "{} is not used: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "it is a link"),
+    QT_TRANSLATE_NOOP("Sentence", "it belongs to another user"),
+    QT_TRANSLATE_NOOP("Sentence", "other users may write it"),
+    # Of names and contents in documents of others.
+    QT_TRANSLATE_NOOP("Sentence", "It is damaged: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The file name {} is refused. {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The file name {} under photos is refused. {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The file name {} is refused. It is a link that leads out of {}."),
+    QT_TRANSLATE_NOOP("Sentence", "It is not a text"),
+    QT_TRANSLATE_NOOP("Sentence", "It contains a path separator or a colon"),
+    QT_TRANSLATE_NOOP("Sentence", "It contains an invisible character"),
+    QT_TRANSLATE_NOOP("Sentence", "It begins with a dot"),
+    QT_TRANSLATE_NOOP("Sentence", "It begins or ends with a space, or ends with a dot"),
+    QT_TRANSLATE_NOOP("Sentence", "Windows reserves it for a device"),
+    QT_TRANSLATE_NOOP("Sentence", "File name too long: more than {} bytes"),
+    QT_TRANSLATE_NOOP("Sentence", "The folder {} is refused. It is a link that leads out of {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The folder {} is a link that leads elsewhere; remove it."),
+    QT_TRANSLATE_NOOP("Sentence", "The folder {} is a link that leads elsewhere."),
+    QT_TRANSLATE_NOOP("Sentence", "The file {} is a link that leads elsewhere."),
+    QT_TRANSLATE_NOOP("Sentence", "The photo {} cannot be copied to {}: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "The photo {} is larger than {} MiB."),
+    QT_TRANSLATE_NOOP("Sentence", "The photo {} was changed: its check sum is not the recorded one."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: CAN databases must be next to the profile or in the folder set by "
+                                  "{}. {}"),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} holds no CAN messages."),
+    QT_TRANSLATE_NOOP("Sentence", "The store's record of this test is damaged, or written by a newer version; import "
+                                  "the test again, or update this program."),
+    QT_TRANSLATE_NOOP("Sentence", "The store names the content {}, which is no SHA-256 check sum."),
     QT_TRANSLATE_NOOP("Sentence", "Its Car and its parameters do not fit together. {}"),
     QT_TRANSLATE_NOOP("Sentence", "CAN database {} is larger than {} KiB; leave the messages that the profile does not "
                                   "name out of it."),
@@ -96,7 +125,6 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The package duckdb is not installed; pip install duckdb, then bundle the test "
                                   "anew."),
     QT_TRANSLATE_NOOP("Sentence", "It cannot be made: {}"),
-    QT_TRANSLATE_NOOP("Sentence", "The file {} is not there any more."),
     QT_TRANSLATE_NOOP("Sentence", "The scans {} are damaged in line {}, or of another version."),
     QT_TRANSLATE_NOOP("Sentence", "The scans {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The files are as they were signed, but the zip around them is not as it was "

@@ -6502,11 +6502,6 @@
     </message>
     <message>
         <location filename="../texts/keeping.py" line="5"/>
-        <source>The file {} is not there any more.</source>
-        <translation>Soubor {} už neexistuje.</translation>
-    </message>
-    <message>
-        <location filename="../texts/keeping.py" line="5"/>
         <source>The scans {} are damaged in line {}, or of another version.</source>
         <translation>Skeny {} jsou poškozené na řádku {}, nebo jsou jiné verze.</translation>
     </message>
@@ -7109,6 +7104,136 @@
         <location filename="../texts/application.py" line="9"/>
         <source>The Car&apos;s {} is known to {} cm only (95 %); the robot may touch it nearer than {} m. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
         <translation>Strana auta ({}) je známa jen na {} cm (95 %); blíže než {} m se jí robot může dotknout. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>{} is not used: {}.</source>
+        <translation>{} se nepoužije: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>it is a link</source>
+        <translation>je to odkaz</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>it belongs to another user</source>
+        <translation>patří jinému uživateli</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>other users may write it</source>
+        <translation>mohou do něj zapisovat jiní uživatelé</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It is damaged: {}</source>
+        <translation>Je poškozený: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The file name {} is refused. {}.</source>
+        <translation>Název souboru {} je odmítnut. {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The file name {} under photos is refused. {}.</source>
+        <translation>Název souboru {} v položce photos je odmítnut. {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The file name {} is refused. It is a link that leads out of {}.</source>
+        <translation>Název souboru {} je odmítnut. Je to odkaz, který vede mimo {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It is not a text</source>
+        <translation>Není to text</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It contains a path separator or a colon</source>
+        <translation>Obsahuje oddělovač cesty nebo dvojtečku</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It contains an invisible character</source>
+        <translation>Obsahuje neviditelný znak</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It begins with a dot</source>
+        <translation>Začíná tečkou</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>It begins or ends with a space, or ends with a dot</source>
+        <translation>Začíná nebo končí mezerou, nebo končí tečkou</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Windows reserves it for a device</source>
+        <translation>Windows ho vyhrazují pro zařízení</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>File name too long: more than {} bytes</source>
+        <translation>Název souboru je příliš dlouhý: více než {} bajtů</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The folder {} is refused. It is a link that leads out of {}.</source>
+        <translation>Složka {} je odmítnuta. Je to odkaz, který vede mimo {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The folder {} is a link that leads elsewhere; remove it.</source>
+        <translation>Složka {} je odkaz, který vede jinam; odstraňte ho.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The folder {} is a link that leads elsewhere.</source>
+        <translation>Složka {} je odkaz, který vede jinam.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The file {} is a link that leads elsewhere.</source>
+        <translation>Soubor {} je odkaz, který vede jinam.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The photo {} cannot be copied to {}: {}.</source>
+        <translation>Fotografii {} nelze zkopírovat do {}: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The photo {} is larger than {} MiB.</source>
+        <translation>Fotografie {} je větší než {} MiB.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The photo {} was changed: its check sum is not the recorded one.</source>
+        <translation>Fotografie {} byla změněna: její kontrolní součet není ten zaznamenaný.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Car profile {}: CAN databases must be next to the profile or in the folder set by {}. {}</source>
+        <translation>Profil auta {}: databáze CAN musí být vedle profilu nebo ve složce, kterou určuje {}. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>Car profile {}: {} holds no CAN messages.</source>
+        <translation>Profil auta {}: {} neobsahuje žádné zprávy CAN.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store&apos;s record of this test is damaged, or written by a newer version; import the test again, or update this program.</source>
+        <translation>Záznam tohoto testu v úložišti je poškozený, nebo ho zapsala novější verze; importujte test znovu, nebo aktualizujte tento program.</translation>
+    </message>
+    <message>
+        <location filename="../texts/keeping.py" line="5"/>
+        <source>The store names the content {}, which is no SHA-256 check sum.</source>
+        <translation>Úložiště uvádí obsah {}, což není kontrolní součet SHA-256.</translation>
     </message>
 </context>
 <context>

@@ -29,6 +29,8 @@ SUFFIX = ".journal"
 # long as the test: nothing that is written shall be too long to be read.
 MAX_LINE_BYTES = 16 * 1024 * 1024
 _CRC = b',"crc":"%08x"}\n'
+# A link under the name of a journal may lead to any file; it is never written through.
+_FLAGS = getattr(os, "O_BINARY", 0) | getattr(os, "O_NOFOLLOW", 0)
 _CRC_LENGTH = len(_CRC % 0)
 
 
@@ -152,7 +154,7 @@ class JournalFile:
 
     def _open(self, size: int, how: int) -> None:
         try:
-            self._descriptor = os.open(self._path, os.O_RDWR | how | getattr(os, "O_BINARY", 0), 0o644)
+            self._descriptor = os.open(self._path, os.O_RDWR | how | _FLAGS, 0o644)
             if os.fstat(self._descriptor).st_size != size:
                 os.ftruncate(self._descriptor, size)
             sync_folder(self._path.parent)

@@ -6,10 +6,11 @@ import hashlib
 import pathlib
 from typing import Mapping
 
-from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.errors import OperatorError, OutputError, UnsafeName
 from mtr_operator.domain.results.session_record import SUBSTITUTE
 
 from ..atomic import output_folder, write_bytes
+from ..inside import inside, stays_inside
 
 FOLDER = "car"
 _SUFFIX = ".yaml"
@@ -25,8 +26,12 @@ def kept_profile(path: pathlib.Path, profile: str) -> str:
     """Of the test with this progress file, whose record names the profile by name or path: the file that was kept with
     it, or the profile as it was named where none was."""
     name = pathlib.PurePath(profile).name
-    kept = car_folder(path) / (name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
-    return str(kept) if kept.is_file() else profile
+    folder = car_folder(path)
+    try:
+        kept = inside(folder, name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
+        return str(kept) if kept.is_file() and stays_inside(path.parent, folder) else profile
+    except (UnsafeName, OSError):
+        return profile
 
 
 def profile_content(profile: str) -> dict[str, bytes]:
@@ -54,6 +59,8 @@ def keep_car(path: pathlib.Path, profile: str) -> list[pathlib.Path]:
     A file that is there stays: the test was begun with it. OutputError when that fails.
     """
     folder, made = car_folder(path), []
+    if not stays_inside(path.parent, folder):
+        raise OutputError(f"The folder {folder} is a link that leads elsewhere; remove it.")
     for name, content in profile_content(profile).items():
         if not (folder / name).exists():
             with output_folder(folder):

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import itertools
 import pathlib
 import shutil
 from typing import Iterator, NamedTuple
 
+from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.course import Course
 
+from ..inside import stays_inside
 from .course_file import CourseFile
 from .event_file import EventFile
 from .kept_car import car_folder, keep_car
@@ -64,8 +67,10 @@ class Recording:
 
         OutputError when a log cannot be begun.
         """
+        if not stays_inside(self._folder.parent, self._folder):
+            raise OutputError(f"The folder {self._folder} is a link that leads elsewhere; remove it.")
         self._made += keep_car(self._path, profile)
-        number = 1 + len(recorded_runs(self._folder))
+        number = self._free_number()
         self._course = CourseFile(self._folder / f"{_COURSE}_{number:03d}.jsonl")
         self._scans = ScanFile(self._folder / f"{_SCANS}_{number:03d}.jsonl", self._course)
         self._events = EventFile(self._folder / f"{_EVENTS}_{number:03d}.csv")
@@ -76,6 +81,11 @@ class Recording:
         self._car = car
         self._made += [self._course.path, self._scans.path, self._events.path]
         return self._scans
+
+    def _free_number(self) -> int:
+        """Number of a run of which no file is there, also none that was left of a run without a course."""
+        numbers = itertools.count(1 + len(recorded_runs(self._folder)))
+        return next(number for number in numbers if not any(self._folder.glob(f"*_{number:03d}.*")))
 
     def event(self, entry: EventEntry) -> None:
         """Keep an entry of the event list."""
