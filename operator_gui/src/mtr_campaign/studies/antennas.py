@@ -8,11 +8,10 @@ import math
 import pathlib
 from typing import Any, Mapping, Sequence
 
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 from matplotlib.patches import FancyBboxPatch, Rectangle
 
 from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.report.drawing.plain_figure import plain_figure
 
 from ..errors import CampaignError
 from ..kernels.order import order_of
@@ -51,7 +50,7 @@ def study(options: argparse.Namespace) -> list[str]:
 
 def draw(plan: Plan, before: Done, best: Done, scores: Sequence[float], path: pathlib.Path) -> None:
     """The Car from above with both areas, and how the optimisation went on."""
-    figure = Figure(figsize=(12.0, 6.5), layout="constrained")
+    figure = plain_figure((12.0, 6.5), layout="constrained")
     above, course = figure.subplots(1, 2, width_ratios=(3, 2))
     wanted_m = plan.design.wanted
     above.add_patch(Rectangle((-_LENGTH_M / 2, -_WIDTH_M / 2), _LENGTH_M, _WIDTH_M, facecolor="0.9", edgecolor="0.3"))
@@ -78,7 +77,7 @@ def draw(plan: Plan, before: Done, best: Done, scores: Sequence[float], path: pa
     course.set(xlabel="run", ylabel="off the wanted distance, rms over the lines (m)", title="The optimisation",
                ylim=(0.0, None))
     course.legend()
-    FigureCanvasAgg(figure).print_png(str(path))
+    figure.savefig(str(path))
 
 
 def _score(plan: Plan, done: Done) -> float:

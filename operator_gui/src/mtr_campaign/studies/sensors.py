@@ -10,10 +10,9 @@ from typing import Any, Sequence
 
 import numpy as np
 import numpy.typing as npt
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
 
 from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.report.drawing.plain_figure import plain_figure
 
 from ..errors import CampaignError
 from ..kernels.order import order_of
@@ -107,7 +106,7 @@ def _sides(plan: Plan, lines: Sequence[int]) -> list[str]:
 
 def draw(indices: Sequence[Indices], sigma_mm: float, path: pathlib.Path) -> None:
     """Bars of the indices, and what each error makes of the distances on each side."""
-    figure = Figure(figsize=(13.0, 6.0), layout="constrained")
+    figure = plain_figure((13.0, 6.0), layout="constrained")
     shares, sides = figure.subplots(1, 2, width_ratios=(3, 4))
     places = np.arange(len(indices))[::-1]
     for offset, height, label, value, error in ((0.2, 0.38, "alone (first order)", "first", "first_95"),
@@ -128,4 +127,4 @@ def draw(indices: Sequence[Indices], sigma_mm: float, path: pathlib.Path) -> Non
     sides.set_yticks(range(len(indices)), [_NAMES[each.name] for each in indices])
     sides.set_title("What each alone makes of an unlock distance (mm, 1 sigma), by side")
     figure.colorbar(picture, ax=sides, label="mm")
-    FigureCanvasAgg(figure).print_png(str(path))
+    figure.savefig(str(path))

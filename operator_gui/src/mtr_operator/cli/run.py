@@ -74,14 +74,17 @@ class CommandLineRun:
                     self._measure(display, interrupt, store)
                     display.close()
                     store.save()
-                    assessment = write_report(self._options.out, self._scenario, self._parameters, self._progress)
+                    assessment = write_report(self._options.out, self._scenario, self._parameters, self._progress,
+                                              display.say)
                 except BaseException:
                     display.close()
                     self._keep(display, store)
                     raise
-            if self._options.bundle:
-                display.say(write_for(self._path, self._scenario, self._progress, assessment))
-            self._say_results(assessment)
+            try:
+                if self._options.bundle:
+                    display.say(write_for(self._path, self._scenario, self._progress, assessment))
+            finally:
+                self._say_results(assessment)
             if interrupt.requested:
                 raise Cancelled("Interrupted when all lines were measured; the results are complete.")
         return Verdict.NOT_SET if assessment.judgement is None else assessment.judgement.verdict

@@ -2,9 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import logging
 import pathlib
 from typing import Callable
 
+from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.assessment import Assessment
@@ -13,16 +15,32 @@ from mtr_operator.storage.atomic import write_bytes
 from . import budget_json, results_csv
 from .assessed import assess
 
+# Of an exception's text, characters.
+_MAX_SAID = 300
 PICTURE_NAME, PAGE_NAME = "protocol.png", "protocol.pdf"
 FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, PICTURE_NAME, PAGE_NAME)
 
 
 def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters,
-                 progress: Progress) -> Assessment:
-    """Write results.csv, budget.json and the protocol; OutputError when it fails. What the report says of the test."""
+                 progress: Progress, tell: Callable[[str], None] = logging.warning) -> Assessment:
+    """Write results.csv, budget.json and the protocol; OutputError when it fails. What the report says of the test.
+
+    tell: receives a sentence for each file that cannot be made; the others are written.
+    """
     assessment = assess(scenario, parameters, progress)
     for name, make in report_files(scenario, parameters, progress, assessment).items():
-        write_bytes(folder / name, make())
+        try:
+            content = make()
+        except OperatorError as error:
+            tell(f"{name} is missing: {error}")
+            continue
+        # A defect of a picture must not cost the results of a test.
+        except Exception as error:
+            logging.debug("The file %s was not made.", name, exc_info=True)
+            tell(f"{name} is missing, because the application has a defect: {type(error).__name__}: "
+                 f"{str(error)[:_MAX_SAID]}")
+            continue
+        write_bytes(folder / name, content)
     return assessment
 
 

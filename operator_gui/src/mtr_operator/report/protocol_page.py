@@ -6,7 +6,6 @@ import io
 import math
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 from matplotlib.ticker import MultipleLocator
@@ -18,6 +17,7 @@ from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.verdict.assessment import Assessment
 
 from .car_drawing import draw_car
+from .drawing.plain_figure import plain_figure
 from .error_map.colours import draw_errors, draw_scale
 from .figures import SIGNS, filled
 from .protocol_panel import BAR, BRACKET, INK, INTERVAL, write_panel
@@ -56,8 +56,7 @@ def protocol_pdf(scenario: AnyScenario, parameters: ScenarioParameters, progress
 
 def _page(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
           assessment: Assessment | None) -> Figure:
-    figure = Figure(figsize=_SIZE_INCH, facecolor="white")
-    FigureCanvasAgg(figure)
+    figure = plain_figure(_SIZE_INCH, facecolor="white")
     axes = figure.add_axes(_AXES_BOX)
     picture = scenario.picture(parameters, progress.measured_car, progress.results)
     _draw_stretches(axes, picture)

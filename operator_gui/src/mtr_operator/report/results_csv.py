@@ -16,6 +16,7 @@ from mtr_operator.domain.results.line_result import Column
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
+from mtr_operator.storage.recorded.spreadsheet import guarded
 
 from .assessed_columns import AssessedColumns
 from .figures import meanings
@@ -26,8 +27,6 @@ FILE_NAME = "results.csv"
 _TEXT = "'"
 # Behind what separates cells: a quote, which joins all up to the next one to a cell, and what begins a formula.
 _NO_TEXT = re.compile(r"""(?<=[,;])(?=\s*[=@"]|[-+\t])""")
-# A cell that begins as a formula does; of numbers with a sign there may be several in one.
-_FORMULA = re.compile(r"[=@\t]|[-+](?![-+.\d\s]*$)")
 
 
 def results_csv(scenario: AnyScenario, progress: Progress, assessment: Assessment | None = None) -> str:
@@ -89,8 +88,7 @@ def _cell(column: Column, value: Any) -> str:
         return f"{round(value, column.digits) + 0.0:.{column.digits}f}"
     if isinstance(value, list):
         return " ".join(_cell(column, each) for each in value)
-    text = str(value)
-    return _TEXT + text if _FORMULA.match(text) else text
+    return guarded(str(value))
 
 
 def _one_line(value: Any) -> str:

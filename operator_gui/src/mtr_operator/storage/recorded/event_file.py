@@ -10,6 +10,8 @@ from typing import Iterator, Mapping, TextIO
 from mtr_operator.domain.errors import ProgressFileError
 from mtr_operator.domain.eventlog.entry import SEVERITY_WORDS, EventEntry, EventKind
 
+from .spreadsheet import guarded, unguarded
+
 COLUMNS = ("time", "robot_time_s", "kind", "severity", "source", "text")
 # A robot that says something new with each Status for a day; the rest is not kept.
 MAX_ENTRIES = 1_000_000
@@ -60,7 +62,7 @@ class EventFile:
 def _row(entry: EventEntry) -> tuple[str, ...]:
     robot_time = "" if entry.robot_time_s is None else f"{entry.robot_time_s:.{_ROBOT_TIME_DIGITS}f}"
     return (entry.time.isoformat(timespec="milliseconds"), robot_time, entry.kind.value,
-            SEVERITY_WORDS[entry.severity], entry.source, " ".join(entry.text.split()))
+            SEVERITY_WORDS[entry.severity], guarded(entry.source), guarded(" ".join(entry.text.split())))
 
 
 def read_events(path: pathlib.Path) -> Iterator[EventEntry]:
@@ -89,4 +91,4 @@ def _entries(path: pathlib.Path, file: TextIO) -> Iterator[EventEntry]:
 def _entry(row: Mapping[str, str]) -> EventEntry:
     return EventEntry(datetime.datetime.fromisoformat(row["time"]),
                       float(row["robot_time_s"]) if row["robot_time_s"] else None, EventKind(row["kind"]),
-                      _SEVERITIES[row["severity"]], row["source"], row["text"])
+                      _SEVERITIES[row["severity"]], unguarded(row["source"]), unguarded(row["text"]))
