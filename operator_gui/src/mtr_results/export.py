@@ -14,6 +14,7 @@ from sqlalchemy import Boolean, Connection, Float, Integer, LargeBinary, Table, 
 
 from .errors import StoreError
 from .model.tables import EXPORTED
+from .store.text_order import ordering
 
 SUFFIX = ".parquet"
 # Rows that are in memory at once.
@@ -71,7 +72,7 @@ def _write_rows(connection: Connection, table: Table, path: pathlib.Path) -> int
     count = 0
     columns = _exported(table)
     with open(path, "w", encoding="utf-8") as file:
-        wanted = select(*columns).order_by(*table.primary_key)
+        wanted = select(*columns).order_by(*ordering(table.primary_key))
         for row in connection.execution_options(yield_per=_CHUNK).execute(wanted).mappings():
             file.write(json.dumps(dict(row)) + "\n")
             count += 1

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Iterable, Sequence
 
+from mtr_operator.domain.results.session_record import in_utc
+from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.progress_file import FILE_NAME
 
 from .bundles import is_bundle
@@ -20,7 +22,7 @@ def listed(entries: Iterable[TestEntry]) -> list[TestEntry]:
             broken.append(entry)
         elif entry.test_id not in tests or _reach(entry) > _reach(tests[entry.test_id]):
             tests[entry.test_id] = entry
-    return [*sorted(tests.values(), key=lambda entry: (entry.started, entry.path), reverse=True),
+    return [*sorted(tests.values(), key=_moment, reverse=True),
             *sorted(broken, key=lambda entry: entry.path)]
 
 
@@ -42,7 +44,7 @@ def repetitions(entries: Sequence[TestEntry], entry: TestEntry) -> list[TestEntr
     alike = [each for each in entries if not each.problem and each.done
              and all(getattr(each, name) == getattr(entry, name) for name in ("scenario", "car", "key"))
              and (each.parameters == entry.parameters or "" in (each.parameters, entry.parameters))]
-    return sorted(alike, key=lambda each: (each.started, each.path))[-MAX_TESTS:]
+    return sorted(alike, key=_moment)[-MAX_TESTS:]
 
 
 def unreadable(entries: Sequence[TestEntry], text: str = "") -> list[TestEntry]:
@@ -61,9 +63,18 @@ def problems_of(entries: Sequence[TestEntry]) -> list[str]:
     return [entry.problem for entry in entries if entry.problem]
 
 
+def _moment(entry: TestEntry) -> tuple[str, str, str]:
+    """Local times repeat when clocks are set back, and differ between time zones."""
+    return in_utc(entry.started), entry.started, entry.path
+
+
 def _reach(entry: TestEntry) -> tuple[int, int]:
-    """A copy beside a report has the name of a file, and no journal to go on with, and one in a bundle stays as it is:
-    of equals the other one counts. A test of the store has to be fetched first."""
+    """Of copies that reach equally far, the original counts: it has the journal beside it. The others in this order: a
+    file of a name of its own, the copy in a report, one in a bundle, and one of the store, which has to be fetched."""
     if entry.store:
         return entry.entries, -1
-    return entry.entries, 0 if is_bundle(entry.file) else 1 if entry.file.name == FILE_NAME else 2
+    if is_bundle(entry.file):
+        return entry.entries, 0
+    if journal_path(entry.file).exists():
+        return entry.entries, 3
+    return entry.entries, 1 if entry.file.name == FILE_NAME else 2

@@ -2,9 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import contextlib
 import dataclasses
-import datetime
 import hashlib
 import json
 import pathlib
@@ -15,13 +13,13 @@ from typing import Any, Mapping
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.identity.identity import NOBODY, Identity
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE, STARTED
+from mtr_operator.domain.results.session_record import ROBOT_SOFTWARE, STARTED, in_utc
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.line_pairs import Side, open_side
 from mtr_operator.history.reading import entry_of
 from mtr_operator.storage.journal.journal_file import Entry, journal_of
-from mtr_operator.storage.progress_document import progress_from_document
+from mtr_operator.storage.progress_document import MAX_BYTES, progress_from_document
 from mtr_operator.storage.recovery import progress_path
 
 from ..errors import StoreError
@@ -103,13 +101,6 @@ def _session(progress: Progress) -> Row:
             "robot_software": session.get(ROBOT_SOFTWARE, "")}
 
 
-def in_utc(moment: str) -> str:
-    """An ISO moment in UTC, by which tests of several places are ordered; empty when it is none."""
-    with contextlib.suppress(ValueError):
-        return datetime.datetime.fromisoformat(moment).astimezone(datetime.timezone.utc).isoformat()
-    return ""
-
-
 def _equipment(identity: Identity) -> list[Row]:
     return [{name: "" if value is None else str(value) for name, value in dataclasses.asdict(each).items()}
             for each in identity.equipment]
@@ -117,7 +108,19 @@ def _equipment(identity: Identity) -> list[Row]:
 
 def side_of(document: bytes) -> Side:
     """The test in a compressed document, as it was when it was imported."""
-    stored: dict[str, Any] = json.loads(zlib.decompress(document))
-    scenario = SCENARIOS[stored["scenario"]]
-    parameters = scenario.parameters_type.from_mapping(stored["parameters"])
+    try:
+        stored: dict[str, Any] = json.loads(_decompressed(document))
+        scenario = SCENARIOS[stored["scenario"]]
+        parameters = scenario.parameters_type.from_mapping(stored["parameters"])
+    except (ValueError, LookupError, TypeError, AttributeError, RecursionError, zlib.error):
+        raise StoreError("The store's record of this test is damaged, or written by a newer version; import the test "
+                         "again, or update this program.") from None
     return Side(scenario, parameters, progress_from_document(stored, scenario, parameters.to_mapping()))
+
+
+def _decompressed(document: bytes) -> bytes:
+    """ValueError for more than a progress file may hold: a few bytes can expand to gigabytes."""
+    content = zlib.decompressobj().decompress(document, MAX_BYTES + 1)
+    if len(content) > MAX_BYTES:
+        raise ValueError("too long")
+    return content

@@ -13,6 +13,8 @@ from ..errors import StoreError
 from ..intake.record import side_of
 from ..model.subjects import Campaign, Car, Equipment, Key, TestEquipment
 from ..model.tests import File, Line, Measurement, Test, Trial, Verdict
+from .period import first_moment, next_moment
+from .text_order import ByCodePoint, ordering
 
 Row = dict[str, Any]
 PAGE = 100
@@ -29,7 +31,7 @@ class Search:
 
     Attributes:
         text: words that all have to occur. car: model and VIN as they are listed; software: of the Car.
-        since, until: ISO days or moments, UTC; until counts whole. limit: 0 for all.
+        since, until: years, months, days or moments, UTC; until counts whole. limit: 0 for all.
     """
 
     text: str = ""
@@ -47,11 +49,13 @@ class Search:
 
 
 def find(connection: Connection, search: Search, further: Sequence[str] = ()) -> list[Row]:
-    """Tests that fit, newest first. further: columns of the table of tests beside those that are listed."""
+    """Tests that fit, newest first; StoreError for a period that is none. further: columns of the table of tests beside
+    those that are listed."""
     columns = [getattr(Test, name) for name in (*LISTED, *further)]
     found = select(*columns, _CAR, Car.software.label("car_software"), Key.serial.label("key"),
                    Campaign.name.label("campaign"))
-    ordered = _fitting(found, search).order_by(Test.started_utc.desc(), Test.id.desc()).offset(search.offset)
+    newest_first = ByCodePoint(Test.started_utc).desc(), Test.id.desc()
+    ordered = _fitting(found, search).order_by(*newest_first).offset(search.offset)
     rows = connection.execute(ordered.limit(search.limit) if search.limit else ordered)
     return [{**row, "campaign": row["campaign"] or ""} for row in rows.mappings()]
 
@@ -108,7 +112,9 @@ def test_row(connection: Connection, number: int) -> Row:
         raise StoreError(f"There is no test {number} in the store; mtr-results list shows their numbers.")
     equipment = connection.execute(select(Equipment.name, Equipment.serial, Equipment.calibrated, Equipment.valid_until)
                                    .join(TestEquipment, TestEquipment.equipment_id == Equipment.id)
-                                   .where(TestEquipment.test_id == number).order_by(Equipment.name))
+                                   .where(TestEquipment.test_id == number)
+                                   .order_by(*ordering((Equipment.name, Equipment.serial, Equipment.calibrated,
+                                                        Equipment.valid_until))))
     return {**found, "campaign": found["campaign"] or "", "equipment": [dict(row) for row in equipment.mappings()]}
 
 
@@ -125,7 +131,7 @@ def files(connection: Connection, number: int) -> dict[str, str]:
 
 
 def _rows(connection: Connection, table: Any, number: int) -> list[Row]:
-    wanted = select(table.__table__).where(table.test_id == number).order_by(*table.__table__.primary_key)
+    wanted = select(table.__table__).where(table.test_id == number).order_by(*ordering(table.__table__.primary_key))
     return [{name: value for name, value in row.items() if name != "test_id"}
             for row in connection.execute(wanted).mappings()]
 
@@ -144,11 +150,12 @@ def _fitting(wanted: Select[Any], search: Search) -> Select[Any]:
             found = found.where(column == value)
     for word in _words(search.text):
         found = found.where(Test.words.like(f"%{word}%", escape="\\"))
+    started = ByCodePoint(Test.started_utc)
     if search.since:
-        found = found.where(Test.started_utc >= search.since)
+        found = found.where(started >= first_moment("since", search.since))
     if search.until:
-        # A day holds all moments that begin with it.
-        found = found.where(Test.started_utc < search.until + "~")
+        # A test whose start is unknown is in no period.
+        found = found.where(started < next_moment("until", search.until), Test.started_utc != "")
     return found
 
 
