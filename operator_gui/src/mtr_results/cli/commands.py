@@ -8,6 +8,7 @@ import pathlib
 
 from mtr_operator.domain.limits import DISTANCE
 
+from ..store.database import shown_address
 from ..store.place import ADDRESS_VARIABLE, default_address, default_spool
 from ..store.reading import PAGE
 from ..store.sets import FACTORS
@@ -55,7 +56,8 @@ def _importing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def _add_spool(command: argparse.ArgumentParser) -> None:
     command.add_argument("--spool", type=pathlib.Path, default=None,
-                         help=f"folder in which tests wait while the store is away (default {default_spool()})")
+                         help="folder in which tests wait while the store is away (default "
+                              f"{plain_help(default_spool())})")
 
 
 def _listing(commands: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -143,11 +145,16 @@ def _exporting(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     command.set_defaults(run=query)
 
 
+def plain_help(text: object) -> str:
+    """A text of this computer as argparse shows it: a percent sign begins a field there."""
+    return str(text).replace("%", "%%")
+
+
 def _of_store() -> argparse.ArgumentParser:
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("--store", default=default_address(), metavar="PATH|URL",
-                        help=f"file of SQLite or postgresql://USER:PASSWORD@HOST/DATABASE; default %(default)s, or "
-                             f"the variable {ADDRESS_VARIABLE}")
+                        help=f"file of SQLite or postgresql://USER:PASSWORD@HOST/DATABASE; default "
+                             f"{plain_help(shown_address(default_address()))}, or the variable {ADDRESS_VARIABLE}")
     common.add_argument("--files", type=pathlib.Path, default=None,
                         help="folder of the contents of files; default beside the file of SQLite, on a server none")
     common.add_argument("--json", action="store_true", help="for a program")

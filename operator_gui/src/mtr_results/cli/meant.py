@@ -7,6 +7,8 @@ import argparse
 from ..store.place import Place
 from ..store.reading import Search
 
+# More tests than any store holds; databases take no larger number.
+_MOST = 10 ** 9
 # Name of the argument, and of the attribute of Search -> what it means.
 FILTERS = {"scenario": "its name: autolock, key_press, zone_map, handle_request, digital_key, sleep_time, "
                         "relay_resistance",
@@ -23,5 +25,5 @@ def place_of(options: argparse.Namespace) -> Place:
 
 def search_of(options: argparse.Namespace) -> Search:
     """The tests."""
-    return Search(" ".join(options.words), limit=max(0, options.limit),
+    return Search(" ".join(options.words), limit=min(max(0, options.limit), _MOST),
                   **{name: getattr(options, name) for name in FILTERS})

@@ -49,8 +49,20 @@ def _url(address: str) -> URL:
             return url
     except (ArgumentError, ValueError):
         pass
-    raise StoreError(f"{address.rpartition('@')[2]} is no address of a store; give the path of a file, or "
+    raise StoreError(f"{shown_address(address)} is no address of a store; give the path of a file, or "
                      "postgresql://USER:PASSWORD@HOST/DATABASE.")
+
+
+def shown_address(address: str) -> str:
+    """A path or URL as it may be shown: without its password, and without options, which may hold one."""
+    if "://" not in address:
+        return address
+    try:
+        url = make_url(address)
+    except (ArgumentError, ValueError):
+        # Not even its parts can be told apart.
+        return address.partition("?")[0].rpartition("@")[2]
+    return url.set(query={}).render_as_string(hide_password=True)
 
 
 def _set_up_sqlite(connection: Any, _record: Any) -> None:
@@ -90,7 +102,7 @@ class Database:
     def __init__(self, engine: Engine):
         self._engine = engine
         self._writer = engine.execution_options(**{_WRITES: True})
-        self.where = engine.url.render_as_string(hide_password=True)
+        self.where = shown_address(engine.url.render_as_string(hide_password=False))
 
     @property
     def file(self) -> pathlib.Path | None:

@@ -8,6 +8,7 @@ from typing import Callable, Mapping
 
 from starlette.applications import Starlette
 from starlette.concurrency import run_in_threadpool
+from starlette.convertors import IntegerConvertor, register_url_convertor
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response, StreamingResponse
 from starlette.routing import Route
@@ -28,6 +29,17 @@ HEADERS = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inl
 LIVE_HEADERS = {**HEADERS, "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
     "default-src 'none';", "default-src 'none'; script-src 'self'; connect-src 'self';")}
 Answer = Callable[[Request], Response]
+
+
+class TestNumber(IntegerConvertor):
+    """A number that every database takes; a longer one is no address of this server."""
+
+    # The name would make pytest collect it.
+    __test__ = False
+    regex = "[0-9]{1,9}"
+
+
+register_url_convertor("test", TestNumber())
 
 
 def application(pages: Pages, live: LivePages, token: str = "", hosts: frozenset[str] = frozenset()) -> Starlette:
@@ -52,13 +64,13 @@ def application(pages: Pages, live: LivePages, token: str = "", hosts: frozenset
         route("/live/{name}/events", lambda request: _events(live, request.path_params["name"])),
         route("/report/compare.html", lambda request: _download(
             pages.comparison(request.query_params, served=False).encode(), "comparison.html")),
-        route("/report/{number:int}.html", lambda request: _download(
+        route("/report/{number:test}.html", lambda request: _download(
             pages.test(request.path_params["number"], served=False).encode(),
             f"test_{request.path_params['number']}.html")),
-        route("/tests/{number:int}", lambda request: HTMLResponse(pages.test(request.path_params["number"]))),
-        route("/tests/{number:int}.json", lambda request: JSONResponse(
+        route("/tests/{number:test}", lambda request: HTMLResponse(pages.test(request.path_params["number"]))),
+        route("/tests/{number:test}.json", lambda request: JSONResponse(
             pages.test_document(request.path_params["number"]))),
-        route("/tests/{number:int}/files/{name:path}", lambda request: _download(
+        route("/tests/{number:test}/files/{name:path}", lambda request: _download(
             pages.file(request.path_params["number"], request.path_params["name"]), request.path_params["name"]))])
 
 
