@@ -29,7 +29,7 @@ _PICTURES = {PNG: export.png, PDF: export.pdf, SVG: export.svg}
 class ReportWriter(WaitedThread):
     """Signals: written(paths), refused(text): of the files; not_annotated(text): nothing was written, for the notes or
     photos could not be kept. bundling(percent): how much of the bundle is done. bundled(Bundled): it is written, before
-    written. not_bundled(text): the other files are written, and no bundle."""
+    written. not_bundled(text): the other files are written, and no bundle, or not all of the files."""
 
     written = pyqtSignal(list)
     refused = pyqtSignal(str)
@@ -73,10 +73,12 @@ class ReportWriter(WaitedThread):
     def _write_all(self) -> None:
         try:
             with output_folder(self._folder):
-                paths = [self._write(kind) for kind in self._kinds if kind != BUNDLE]
+                self._write_record()
+                written = [self._written(kind) for kind in self._kinds if kind != BUNDLE]
         except OutputError as error:
             self.refused.emit(str(error))
             return
+        paths = [path for path in written if path is not None]
         try:
             paths += [self._bundle()] if BUNDLE in self._kinds else []
         except OperatorError as error:
@@ -94,6 +96,24 @@ class ReportWriter(WaitedThread):
             raise OutputError("The bundle was given up, for the window closes.")
         self.bundling.emit(int(share * _PERCENT))
 
+    def _written(self, kind: str) -> pathlib.Path | None:
+        """None for a file that a defect keeps from being made: the others and the bundle are written."""
+        try:
+            return self._write(kind)
+        except OutputError:
+            raise
+        except Exception as error:
+            logging.exception("The file of the kind %s was not made because of a defect of the application.", kind)
+            self.not_bundled.emit(f"The application has a defect: {type(error).__name__}: {error}")
+            return None
+
+    def _write_record(self) -> None:
+        """A copy of the record, with its photos: it tells whose report the folder holds."""
+        progress, copy = self._protocol.progress, self._folder / progress_file.FILE_NAME
+        progress_file.save_progress(copy, progress)
+        if progress.identity is not None:
+            copy_photos(progress.identity.photos, photo_folder(self._test.path), photo_folder(copy))
+
     def _write(self, kind: str) -> pathlib.Path:
         protocol = self._protocol
         if kind == CSV:
@@ -102,10 +122,6 @@ class ReportWriter(WaitedThread):
             write_bytes(path, text.encode("utf-8"))
             budgets = budget_json.budget_json(protocol.progress, protocol.assessment)
             write_bytes(self._folder / budget_json.FILE_NAME, budgets.encode("utf-8"))
-            copy = self._folder / progress_file.FILE_NAME
-            progress_file.save_progress(copy, protocol.progress)
-            if protocol.progress.identity is not None:
-                copy_photos(protocol.progress.identity.photos, photo_folder(self._test.path), photo_folder(copy))
             return path
         path = self._folder / f"protocol.{kind}"
         write_bytes(path, _PICTURES[kind](ProtocolSheet(protocol)))

@@ -5,14 +5,16 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import itertools
+import os
 import pathlib
 from dataclasses import dataclass, field
 from typing import Iterator
 
+from mtr_operator.domain.identity.file_name import to_file_name
 from mtr_operator.domain.identity.identity import Identity, Photo
 from mtr_operator.domain.results.journal import IDENTITY
 from mtr_operator.domain.results.progress import Progress
-from mtr_operator.domain.results.session_record import ANNOTATED, SUBSTITUTE, now, session_record, written
+from mtr_operator.domain.results.session_record import ANNOTATED, STARTED, SUBSTITUTE, now, session_record, written
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -20,6 +22,7 @@ from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.given_files import Given
 from mtr_operator.storage.identity_file import GivenIdentity
 from mtr_operator.storage.journal.beside import JournalBeside
+from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.means import Means
 from mtr_operator.storage.photos import copy_photos, discard_photos, keep_photos, photo_folder
 from mtr_operator.storage.progress_file import FILE_NAME, free_path, holds_no_other, open_progress
@@ -33,6 +36,7 @@ from .identity_entry import Annotation
 
 NOTHING_SAID = GivenIdentity()
 _MOMENT = "%Y-%m-%d_%H-%M-%S"
+_SECOND = len("2026-11-22T15:36:05")
 
 
 @dataclass
@@ -163,10 +167,25 @@ def new_test(scenario: AnyScenario, parameters: ScenarioParameters, folder: path
 
 
 def report_folder(folder: pathlib.Path, test: Test) -> pathlib.Path:
-    """Folder for the report of a test: of its name, or with a number where another test's report is."""
-    others = (folder / f"{test.name}_{number}" for number in itertools.count(2))
-    return next(place for place in itertools.chain([folder / test.name], others)
-                if holds_no_other(place / FILE_NAME, test.progress))
+    """Folder for the report of a test: of its name, or with a number where something else is.
+
+    Progress files of the command line all have the same name; their reports are named after scenario and start.
+    """
+    name = test.name
+    if test.path.name == FILE_NAME:
+        started = test.progress.session.get(STARTED, "")[:_SECOND].replace("T", "_").replace(":", "-")
+        name = f"{test.scenario.name}_{started}" if started else test.path.parent.name
+    name = to_file_name(name, test.scenario.name)
+    others = (folder / f"{name}_{number}" for number in itertools.count(2))
+    return next(place for place in itertools.chain([folder / name], others) if _is_free(place, test))
+
+
+def _is_free(place: pathlib.Path, test: Test) -> bool:
+    """True for a new or empty folder, and for the one with this test's report, which holds its record."""
+    if os.path.lexists(place / FILE_NAME):
+        # With a journal it is a test, and no report.
+        return not os.path.lexists(journal_path(place / FILE_NAME)) and holds_no_other(place / FILE_NAME, test.progress)
+    return not os.path.lexists(place) or (place.is_dir() and not any(place.iterdir()))
 
 
 def profile_name(can: CanChoice | None) -> str:

@@ -82,7 +82,12 @@ def holds_no_other(path: pathlib.Path, progress: Progress) -> bool:
         document = read_document(path)
     except ProgressFileError:
         return False
-    session = document.get("session") if isinstance(document, dict) else None
+    if not isinstance(document, dict):
+        return False
+    mark = document.get("journal")
+    if progress.kept is not None and isinstance(mark, dict) and mark.get("id") != progress.kept.id:
+        return False
+    session = document.get("session")
     return (isinstance(session, dict) and document.get("scenario") == progress.scenario
             and session.get(STARTED) == progress.session.get(STARTED))
 
