@@ -16,7 +16,7 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
 
 from .journal.journal_file import SUFFIX, Recovered, journal_of
-from .journal.second_place import kept_journals
+from .journal.second_place import distrusted, kept_journals
 from .progress_document import DAMAGED, mark_in, progress_from_document, read_document
 
 
@@ -62,6 +62,7 @@ class Recovery:
         if not marks:
             return
         mine, reach = self._journal.content, max(mark.entries for mark in marks)
+        self._notices += distrusted(marks[0])
         farther = [(place, kept) for place, kept in kept_journals(marks[0]) if kept.entries[-1].sequence > reach]
         continuing = [(place, kept) for place, kept in farther if kept.content.startswith(mine)]
         if continuing:
