@@ -55,8 +55,8 @@ def order_of(run: Run) -> Order:
         elif name in (CAR, SEED, PLACE):
             alone[name] = value
         else:
-            raise CampaignError(f"The setting {name} is unknown; allowed are {CAR}, {SEED}, {PLACE}, and names that "
-                                f"begin with {', '.join(f'{each}.' for each in groups)}.")
+            raise CampaignError(f"The setting {name:.60} is unknown; allowed are {CAR}, {SEED}, {PLACE}, and names "
+                                f"that begin with {', '.join(f'{each}.' for each in groups)}.")
     scenario = SCENARIOS[run.scenario]
     file = _car_file(str(alone.get(CAR, _USUAL_CAR)), groups, alone)
     try:

@@ -23,8 +23,8 @@ def grid_size(factors: Mapping[str, Factor]) -> int:
     """Without making them; CampaignError for a factor that has no values to combine."""
     for name, factor in factors.items():
         if not isinstance(factor, Values):
-            raise CampaignError(f"{name} is a range, of which a grid cannot take all values; list some, or choose the "
-                                "design latin_hypercube.")
+            raise CampaignError(f"{name:.60} is a range, of which a grid cannot take all values; list some, or choose "
+                                "the design latin_hypercube.")
     return math.prod(len(factor.values) for factor in factors.values() if isinstance(factor, Values))
 
 

@@ -73,29 +73,29 @@ def factor_from(name: str, content: Any) -> Factor:
     """The factor that a plan describes; CampaignError says what it may be."""
     if isinstance(content, list) and content and all(is_single(each) for each in content):
         if len({(type(each), each) for each in content}) != len(content):
-            raise CampaignError(f"The values of {name} hold one twice; each is run once.")
+            raise CampaignError(f"The values of {name:.60} hold one twice; each is run once.")
         return Values(tuple(content))
     if not isinstance(content, dict):
-        raise CampaignError(f"{name} is {short(content)}; allowed is {_WAYS}.")
+        raise CampaignError(f"{name:.60} is {short(content)}; allowed is {_WAYS}.")
     if set(content) == {"from", "to"} and all(_is_whole(each) for each in content.values()):
         return _whole_numbers(name, content["from"], content["to"])
     if set(content) == {"low", "high"} and all(is_number(each) for each in content.values()):
         if content["low"] >= content["high"]:
-            raise CampaignError(f"{name} reaches from {content['low']:g} to {content['high']:g}; low has to be the "
+            raise CampaignError(f"{name:.60} reaches from {content['low']:g} to {content['high']:g}; low has to be the "
                                 "smaller one.")
         return Uniform(float(content["low"]), float(content["high"]))
     if set(content) == {"mean", "sigma"} and all(is_number(each) for each in content.values()):
         if content["sigma"] <= 0.0:
-            raise CampaignError(f"sigma of {name} is {content['sigma']:g}; allowed is more than 0.")
+            raise CampaignError(f"sigma of {name:.60} is {content['sigma']:g}; allowed is more than 0.")
         return Normal(float(content["mean"]), float(content["sigma"]))
-    raise CampaignError(f"{name} is {short(content)}; allowed is {_WAYS}.")
+    raise CampaignError(f"{name:.60} is {short(content)}; allowed is {_WAYS}.")
 
 
 def _whole_numbers(name: str, first: int, last: int) -> Values:
     if not first <= last:
-        raise CampaignError(f"{name} reaches from {first} to {last}; allowed is up to a larger number.")
+        raise CampaignError(f"{name:.60} reaches from {first} to {last}; allowed is up to a larger number.")
     if last - first >= MAX_VALUES:
-        raise CampaignError(f"{name} has {count_text(last - first + 1)} values; allowed are at most {MAX_VALUES}.")
+        raise CampaignError(f"{name:.60} has {count_text(last - first + 1)} values; allowed are at most {MAX_VALUES}.")
     # Made when they are asked for: a plan may be refused for its size.
     return Values(range(first, last + 1))
 

@@ -115,7 +115,7 @@ def plan_from(content: Any, usual_name: str) -> Plan:
         raise CampaignError("It has to consist of lines of the form 'entry: value'.")
     unknown = sorted(str(name) for name in set(content) - set(_ENTRIES))
     if unknown:
-        raise CampaignError(f"Entry {unknown[0]} is unknown; allowed are {', '.join(_ENTRIES)}.")
+        raise CampaignError(f"Entry {unknown[0]:.60} is unknown; allowed are {', '.join(_ENTRIES)}.")
     name = content.get("name", usual_name)
     if not isinstance(name, str) or not _NAME.fullmatch(name):
         raise CampaignError(f"name is {short(name)}; allowed are up to 64 letters, digits, dots and dashes.")
@@ -126,7 +126,7 @@ def plan_from(content: Any, usual_name: str) -> Plan:
     factors = {str(key): factor_from(str(key), value) for key, value in _table(content, "vary").items()}
     both = sorted(set(fixed) & set(factors))
     if both:
-        raise CampaignError(f"{both[0]} is under set and under vary; it can stand under one of them.")
+        raise CampaignError(f"{both[0]:.60} is under set and under vary; it can stand under one of them.")
     plan = Plan(name, str(kernel), scenario, fixed, factors, _design(_table(content, "design")))
     if not factors and plan.design.kind != GRID:
         raise CampaignError(f"The design {plan.design.kind} needs something under vary.")
@@ -142,7 +142,7 @@ def _design(content: Mapping[str, Any]) -> Design:
     entries = _DESIGN_ENTRIES[kind]
     for name, value in given.items():
         if name not in entries:
-            raise CampaignError(f"Entry {name} of the design {kind} is unknown; allowed are "
+            raise CampaignError(f"Entry {name!s:.60} of the design {kind} is unknown; allowed are "
                                 f"{', '.join(['kind', *entries])}.")
         allowed, is_right = _KINDS[entries[name]]
         if not is_right(value):
@@ -167,4 +167,4 @@ def _table(content: Mapping[str, Any], name: str) -> Mapping[Any, Any]:
 def _value(name: str, value: Any) -> Value:
     if is_single(value) or (isinstance(value, list) and value and all(map(is_single, value))):
         return value  # type: ignore[no-any-return]  # a list is what some parameters are
-    raise CampaignError(f"{name} is {short(value)}; allowed is a number, a text, true or false.")
+    raise CampaignError(f"{name:.60} is {short(value)}; allowed is a number, a text, true or false.")
