@@ -114,7 +114,7 @@ def _add_report(found: Contents, test: Tested) -> None:
 
 
 def _add_files(found: Contents, path: pathlib.Path) -> None:
-    """Findings, recording, photos and the kept profile, as they are on disk. Links to other folders are never followed."""
+    """Findings, recording, photos and kept profile, as they are on disk. Links to other folders are never followed."""
     found.sources.update({file.name: file for file in (path,) if file.is_file()})
     _add_own(found, journal_path(path), "")
     for folder, kept in ((recording_folder(path), "recording"), (photo_folder(path), "photos"),
