@@ -9,7 +9,9 @@ from locator_surfels import LENGTH_M, ORIGIN, WIDTH_M, box, prior, surfels
 
 from mtr_car_locator.find.fit import fit_car
 from mtr_car_locator.measure.axles import Axles
+from mtr_car_locator.measure.data_sheet import warning_of
 from mtr_car_locator.measure.ends import EndEvidence, Estimate, ends_of
+from mtr_car_locator.measure.measurement import ends_in
 from mtr_car_locator.measure.overhangs import ends_on
 from mtr_car_locator.measure.side import SideExtent
 from mtr_car_locator.parameters import DataSheet, LocatorParameters
@@ -111,8 +113,22 @@ def test_plane_that_is_longer_than_the_data_sheet_leaves_both_ends_unsure_by_hal
 
 @pytest.mark.parametrize("beyond_m", [0.05, 0.2])
 def test_bumper_beyond_the_front_of_the_data_sheet_is_contradictory(beyond_m):
-    assert evidence(2.25 + beyond_m, FRONT_SIGMA_M, Estimate(2.25, 0.006)).beyond_m == pytest.approx(beyond_m)
-    assert evidence(2.26, FRONT_SIGMA_M, Estimate(2.25, 0.006)).beyond_m == 0.0
+    for is_axle_sure in (False, True):
+        seen, near = (evidence(level_m, FRONT_SIGMA_M, Estimate(2.25, 0.006)) for level_m in (2.25 + beyond_m, 2.26))
+        assert seen.contradiction_m(is_axle_sure=is_axle_sure) == pytest.approx(beyond_m)
+        assert near.contradiction_m(is_axle_sure=is_axle_sure) == 0.0
+
+
+# The bumper's level ahead of the origin, and where a front axle and an overhang of 0.9 m put the front.
+@pytest.mark.parametrize(("axle_m", "front_m", "wheelbase_m"), [
+    (1.35, 2.25, 0.0), (1.35, 2.25, 2.7), (1.50, 2.40, 0.0), (1.9, 2.15, 0.0), (1.9, 2.8, 2.7), (1.1, 2.15, 2.7)])
+def test_front_by_an_axle_that_the_bumper_contradicts_is_not_used(axle_m, front_m, wheelbase_m):
+    extents = {"front": SideExtent(2.15, LEVEL_SIGMA_M), "rear": SideExtent(2.25, LEVEL_SIGMA_M)}
+    sheet = DataSheet(front_overhang_m=0.9, wheelbase_m=wheelbase_m)
+    ends = ends_in(extents, Axles(axle_m, axle_m - 2.7, 0.004, 0.004), sheet)
+    assert ends.front_m == pytest.approx(front_m, abs=0.002)
+    assert bool(ends.front_beyond_m) is (front_m == 2.15)
+    assert ("front_overhang_m" in warning_of(extents, ends, sheet)) is (front_m != 2.25)
 
 
 # Length, wheelbase and front overhang by makers' data sheets, or with an overhang that is usual for the class: two

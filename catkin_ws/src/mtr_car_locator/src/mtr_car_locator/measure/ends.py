@@ -19,6 +19,8 @@ from .side import SideExtent
 
 # A bumper that the plane meets so far beyond where axles and data sheet put its end contradicts them.
 CONTRADICTION_SIGMAS = 4.0
+# A larger inset, in sigmas of its prior, is that of a false axle rather than of a car.
+IMPLAUSIBLE_SIGMAS = 3.0
 GRID_POINTS, GRID_SIGMAS = 2001, 5.0
 
 
@@ -52,14 +54,17 @@ class EndEvidence:
             return None
         return Estimate(self.level.level, math.hypot(self.level.sigma, self.inset_sigma_m))
 
-    @property
-    def beyond_m(self) -> float:
-        """How far the bumper was seen beyond where its axle puts the end, if that is no chance; else 0."""
+    def contradiction_m(self, *, is_axle_sure: bool) -> float:
+        """How far the bumper was seen beyond where its axle puts the end, if that is no chance; else 0.
+
+        Negative when it was seen so far inside that the axle is more likely a false one; is_axle_sure: it is none.
+        """
         if self.level is None or self.by_axle is None:
             return 0.0
         beyond_m = self.level.level - self.by_axle.value_m
         allowed_m = CONTRADICTION_SIGMAS * math.hypot(self.level.sigma, self.by_axle.sigma_m)
-        return beyond_m if beyond_m > allowed_m else 0.0
+        is_inside = beyond_m < -allowed_m - IMPLAUSIBLE_SIGMAS * self.inset_sigma_m
+        return beyond_m if beyond_m > allowed_m or (is_inside and not is_axle_sure) else 0.0
 
     def log_likelihood(self, outward_m: FloatArray, common_sigma_m: float = 0.0) -> FloatArray:
         """Of the end at these distances; common_sigma_m is added to each of its errors."""
@@ -90,8 +95,8 @@ class EndEvidence:
 class Ends:
     """Front and rear along the x axis, and 1 sigma of each and of their distance, m.
 
-    front_beyond_m: how far the bumper was seen beyond where axle and overhang put the front, when these were not used
-        because they contradict it; else 0.
+    front_beyond_m: how far the bumper was seen beyond where axle and overhang put the front, or negative inside of it,
+        when these were not used because they contradict it; else 0.
     """
 
     front_m: float

@@ -201,7 +201,8 @@ def ends_in(extents: Dict[str, SideExtent], axles: Optional[Axles], sheet: DataS
     ahead, behind = outwards_of(axles, sheet) if axles else (None, None)
     at_front = EndEvidence(front, sheet.front_inset_sigma_m, ahead if sheet.front_overhang_m or not front else None)
     at_rear = EndEvidence(rear, sheet.rear_inset_sigma_m, None if rear else behind)
-    beyond_m = at_front.beyond_m
+    # With the known wheelbase what stands as wheels do is the Car's wheels.
+    beyond_m = at_front.contradiction_m(is_axle_sure=bool(sheet.wheelbase_m))
     if beyond_m:
         at_front = replace(at_front, by_axle=None)
     ordinary = Estimate(sheet.length_m, UNSEEN_SIGMA_M[ENDS])
