@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
-	bench bench-kills fuzz fuzz-commands bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
+	bench bench-kills fuzz fuzz-commands hostile-texts bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
 	bench-truth red-team sanitize bench-link bench-real bench-results bench-campaign browser-test bench-faults fault-matrix soak bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
@@ -237,6 +237,9 @@ FUZZ ?=
 fuzz: setup build ## Spoilt bytes at every border of the project; figures in out/bench/fuzz.json, FUZZ takes borders and options
 	@mkdir -p out/bench
 	@$(RUN) python tests/fuzz/run.py --seed $(SEED) --out out/bench $(FUZZ) 2> >(grep -v 'libprotobuf ERROR' >&2)
+
+hostile-texts: setup build ## Each text of received documents replaced by each hostile value, then opened, saved, bundled, stored, served
+	@$(RUN) MTR_HOSTILE=all QT_QPA_PLATFORM=offscreen python -m pytest -q operator_gui/tests/unit/test_received_texts.py
 
 fuzz-commands: setup build ## 100,000 mutated Commands at the dispatcher's core; figures in out/bench/fuzz_commands.json
 	@$(RUN) python catkin_ws/src/mtr_dispatcher/tests/unit/command_fuzz.py --seed $(SEED) --out out/bench

@@ -24,6 +24,7 @@ from .header.stop_button import add_stop
 from .i18n import Language
 from .stopping import Stopping
 from .theme.appearance import Appearance
+from .theme.plain_labels import PlainLabels
 from .theme.sheet import ICON
 from .threads.waited_thread import WaitedThread
 from .windows.connection_window import ConnectionWindow
@@ -45,6 +46,7 @@ class Application:
         self.appearance = Appearance()
         self.language = Language()
         self.screens = ScreenWatch()
+        self.labels = PlainLabels()
         self.defects = Defects()
         self.defects.found.connect(self.flow.keep_after_defect)
         self.window: QWidget | None = None
@@ -54,6 +56,7 @@ class Application:
         self.defects.install()
         self.stopping.install()
         self.screens.install()
+        self.labels.install()
         self._store.load()
         settings = self._store.settings
         self.language.use(settings.language)
@@ -70,6 +73,7 @@ class Application:
         self.flow.close()
         self.stopping.remove()
         self.screens.remove()
+        self.labels.remove()
         WaitedThread.finish_all()
         self.defects.remove()
 
