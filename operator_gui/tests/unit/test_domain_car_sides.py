@@ -35,7 +35,8 @@ AXLES = ("front_overhang_m", "wheelbase_m")
 
 @pytest.mark.parametrize(("known", "keys"), [
     (EXACT, ()), (LENGTH_ALONE, AXLES), (NO_SHEET, ("known_length_m", *AXLES, "known_width_m")),
-    (WHEELS, ("known_length_m", *AXLES, "known_width_m")), (NO_LENGTH, ("known_length_m",))])
+    (WHEELS, ("known_length_m", *AXLES, "known_width_m")), (NO_LENGTH, ("known_length_m",)),
+    (car(0.009, 0.0106, length_sigma=0.005), AXLES)])
 def test_measures_that_help_are_those_that_are_missing(known, keys):
     assert missing_measures(known) == keys
     assert bool(size_excess(known)) is bool(keys)

@@ -51,7 +51,7 @@ def missing_measures(car: CarDimensions, sides: Iterable[str] = SIDES) -> tuple[
     if vague & {FRONT, REAR}:
         # The axles tell the front, and with the length the rear.
         found += [LENGTH] if REAR in vague and _SIGMAS_OF_95 * car.length_sigma > _TOLD_FROM_M else []
-        found += AXLES if _SIGMAS_OF_95 * car.front_sigma > _TOLD_FROM_M else ()
+        found += AXLES if _SIGMAS_OF_95 * car.front_sigma > _TOLD_FROM_M or not found else ()
     return (*found, *((WIDTH,) if vague & {LEFT, RIGHT} else ()))
 
 
