@@ -10,12 +10,16 @@ from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.geometry.axes import axes_around
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.results.journal import plain_fields
-from mtr_operator.domain.results.progress import car_document, car_from
+from mtr_operator.domain.results.line_result import LineStatus
+from mtr_operator.domain.results.progress import Progress, car_document, car_from
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.scenarios.autolock_result import AutolockResult
+from mtr_operator.domain.verdict.assessment import Assessor
 from mtr_operator.station.checks.finding import Check, Finding, State
 from mtr_operator.station.checks.robot_checks import size
 from mtr_operator.station.estimate import plan_of
+from mtr_operator.storage.given_files import load_calibration
 
 
 def car(front, rear, side=0.003, length_sigma=None, width_sigma=0.005):
@@ -87,6 +91,24 @@ def test_test_does_not_begin_at_a_car_whose_rear_may_be_where_the_key_goes(run_s
 def test_axes_of_the_usual_car_are_measured_without_a_data_sheet():
     lines = [axis.ray for axis in axes_around(NO_SHEET, 0.5)]
     assert nearness_of(lines, SCENARIOS["autolock"].parameters_type().minimum_distance_m, NO_SHEET) is None
+
+
+def test_budget_counts_the_side_once_and_as_common_to_its_lines():
+    """The recorded uncertainty of 0.111 m holds the front of 0.11 m; what is left is this line's own."""
+    scenario = SCENARIOS["autolock"]
+    parameters = scenario.parameters_type()
+    number = next(axis.number for axis in axes_around(NO_SHEET, parameters.measurements_distance_m)
+                  if (axis.side, axis.ray.origin_y) == ("front", 0.0))
+    result = AutolockResult(number, "front", 2.25, 0.0, 1.0, 0.0, LineStatus.OK, 1.5, 0.111, 12.0,
+                            LineStatus.NOT_REACHED, None, None, None, "")
+    progress = Progress("autolock", parameters.to_mapping(), {}, NO_SHEET, [result])
+    assessor = Assessor(scenario, parameters, NO_SHEET, load_calibration())
+    terms = {term.name: term for term in assessor.assess(progress).budget(number, "unlock").terms}
+    assert terms["front of the Car"].contribution_m == pytest.approx(0.11) and terms["front of the Car"].is_common
+    assert terms["place and instant of the key"].sigma == pytest.approx(math.sqrt(0.111 ** 2 - 0.11 ** 2))
+    assert "length of the Car" not in terms and "rear of the Car" not in terms
+    lasting = assessor.lasting_sigmas(result, "unlock")
+    assert (lasting.outline_m, lasting.outline_in_place_m) == (pytest.approx(0.11), 0.0)
 
 
 @pytest.mark.parametrize("known", [WHEELS, CarDimensions(4.5, 1.8, 0.07, 0.07, ((1.0, 0.0), (0.0, 1.0), (0.0, 0.0)))])
