@@ -26,12 +26,14 @@ AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unl
                     "unlock_key_number,unlock_doors,lock_key_number,lock_doors,"
                     "unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
                     "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason,"
-                    "unlock_to_outline_m,lock_to_outline_m")
+                    "unlock_to_outline_m,lock_to_outline_m,looks,look_percent,unlock_look_low_m,unlock_look_high_m,"
+                    "lock_look_low_m,lock_look_high_m")
 KEY_PRESS_COLUMNS = ("radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                      "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
                      "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
                      "unconfirmed_m,key_number,doors,"
-                     "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m")
+                     "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m,"
+                     "looks,look_percent,press_look_low_m,press_look_high_m")
 
 
 @pytest.fixture(scope="module")

@@ -39,12 +39,14 @@ HEADERS = {
                 "unlock_key_number,unlock_doors,lock_key_number,lock_doors,"
                 "unlock_own_sigma_m,unlock_common_sigma_m,unlock_expanded_m,"
                 "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason,"
-                "unlock_to_outline_m,lock_to_outline_m",
+                "unlock_to_outline_m,lock_to_outline_m,looks,look_percent,unlock_look_low_m,unlock_look_high_m,"
+                "lock_look_low_m,lock_look_high_m",
     "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                  "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
                  "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
                  "unconfirmed_m,key_number,doors,"
-                 "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m",
+                 "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m,"
+                 "looks,look_percent,press_look_low_m,press_look_high_m",
     "zone_map": "zone,side,height_m,status,presses,distance_m,low_m,high_m,uncertainty_m,coverage,coverage_low,"
                 "coverage_high,reach_own_sigma_m,reach_common_sigma_m,reach_expanded_m,verdict,verdict_reason,"
                 "reach_to_outline_m",
@@ -53,7 +55,7 @@ HEADERS = {
                       "heading_offset_deg,cause,reach,d50_m,d50_sigma_m,d50_low_m,d50_high_m,d95_m,d95_low_m,"
                       "d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,unconfirmed_m,origin_x_m,origin_y_m,"
                       "direction_x,direction_y,key_number,doors,handle_own_sigma_m,handle_common_sigma_m,handle_expanded_m,verdict,"
-                      "verdict_reason,handle_to_outline_m",
+                      "verdict_reason,handle_to_outline_m,looks,look_percent,handle_look_low_m,handle_look_high_m",
     "digital_key": "position,side,nominal_m,key_height_m,status,answer,samples,reported_m,reported_spread_m,"
                    "reported_sigma_m,age_s,reference_m,uncertainty_m,error_m,error_low_m,error_high_m,robot_time_s,x_m,"
                    "y_m,along_m,lateral_offset_m,heading_offset_deg,phone_own_sigma_m,phone_common_sigma_m,"
@@ -100,8 +102,8 @@ def test_values_are_written_with_points_and_missing_ones_are_empty():
     scenario = SCENARIOS["autolock"]
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
     assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
-        "-0.0123,,,,passive_entry,,,,,,0,,,,,,,,,,0,,,,,,,,,,,,,,,,,,,,,,,,not_set,,,"
-    passes = "0" + 10 * "," + "0" + 24 * "," + "not_set,,,"
+        "-0.0123,,,,passive_entry,,,,,,0,,,,,,,,,,0,,,,,,,,,,,,,,,,,,,,,,,,not_set,,,,,,,,,"
+    passes = "0" + 10 * "," + "0" + 24 * "," + "not_set,,,,,,,,,"
     assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 11 * "," + passes
 
 

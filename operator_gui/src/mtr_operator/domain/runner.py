@@ -36,6 +36,7 @@ from .results.session_record import (
     ENDED_BY,
     MEASURED_AGAIN,
     RECOVERED,
+    WIDENED,
     again_text,
     clock_record,
     controller_record,
@@ -44,7 +45,12 @@ from .results.session_record import (
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
 from .verdict.assessment import Assessor
+from .verdict.looking import Looking
 from .verdict.suitability import check_lines
+from .verdict.widening import widened_text
+
+# One Status.
+_SOON_S = 0.01
 
 
 class Runner:
@@ -67,6 +73,7 @@ class Runner:
         loop.refusals = Refusals(progress.session, self._notebook)
         self._robot = Robot(loop, progress.results)
         self._car = Car(loop)
+        self._looking = Looking(scenario, parameters, progress, self._revise, lambda: self._robot.wait(_SOON_S))
         self._total = 0
         self._again = list(again)
 
@@ -135,12 +142,19 @@ class Runner:
     def _conclude(self) -> None:
         """The robot stands: what takes long may."""
         revised = self._scenario.concluded(self._parameters, self._progress.results)
+        widened = widened_text(self._scenario.line_word, self._progress.results, revised)
+        if widened:
+            self._warn(widened)
+            self._notebook.add(SESSION, {WIDENED: widened})
         for result in revised:
-            self._notebook.add(REVISED, {"result": result.to_document()})
+            self._revise(result)
         self._notebook.wait()
         self._notebook.check()
         if revised:
             self._save(self._progress)
+
+    def _revise(self, result: LineResult) -> None:
+        self._notebook.add(REVISED, {"result": result.to_document()})
 
     def _check_car(self) -> None:
         check = check_car(self._robot)
@@ -220,20 +234,23 @@ class Runner:
     def _measure_further(self, lines: Sequence[Line]) -> None:
         """More attempts on the lines about whose limits nobody knows, until they are decided or the time is over."""
         progress = self._progress
-        if progress.limits is None or progress.calibration is None:
+        if progress.limits is None or progress.calibration is None or progress.limits.further_time_limit_s <= 0.0:
             return
         assessor = Assessor(self._scenario, self._parameters, progress.measured_car, progress.calibration)
         until_s = self._loop.waited_s + progress.limits.further_time_limit_s
         waiting = {line.number: line for line in lines if line.number not in progress.skipped}
+        self._looking.look_first(assessor.assess(progress).decided())
         while self._loop.waited_s < until_s:
             undecided = assessor.assess(progress).undecided()
             number = next((number for number in waiting if number in undecided), None)
             if number is None:
-                return
+                break
             line = waiting.pop(number)
             # To the end of the queue: each line has its turn before one has its second.
             if self._measure_line_further(line):
                 waiting[number] = line
+        self._looking.look_last()
+        self._save(progress)
 
     def _measure_line_further(self, line: Line) -> bool:
         """True when the line has a new result, and more attempts may tell more; none of another Car frame may."""
@@ -246,7 +263,7 @@ class Runner:
             result = self._scenario.measure_further(line, self._parameters, self._robot, self._car, so_far)
         if result is None or not self._is_in_its_frame(line):
             return False
-        self._keep_line(result)
+        self._keep_line(result if result.invalid_count else self._looking.next(so_far, result))
         return not result.invalid_count
 
     def _is_in_its_frame(self, line: Line) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any, Generic, Protocol, Sequence, TypeVar
+from typing import Any, Generator, Generic, Protocol, Sequence, TypeVar
 
 from .actions.car import Car
 from .actions.robot import Robot
@@ -84,6 +84,17 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
                         so_far: Result) -> Result | None:
         """Make the interval of a measured line narrower by more attempts; None when more would not make it so."""
         return None
+
+    def share_of_most(self, parameters: Parameters, result: Result) -> float | None:
+        """Of the most attempts that measure_further allows a line, those that its result rests on; None where it is
+        not measured further, the default."""
+        return None
+
+    def looked(self, parameters: Parameters, results: Sequence[Result], number: int) -> Generator[None, None, Result]:
+        """The result of a line whose looks have changed, with its intervals at the level of the last one. A part of
+        the work with each step, for the robot waits for no long one."""
+        yield from ()
+        return next(result for result in results if result.number == number)
 
     def cautions(self, parameters: Parameters, facts: LockFacts) -> Sequence[str]:
         """Sentences, before the start, on what these parameters cannot give on a Car with these facts; none by

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any, Iterator
 
-from mtr_operator.domain.results.line_result import Column, LineResult
+from mtr_operator.domain.results.line_result import Column, LineResult, Looked
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.domain.verdict.verdict import Verdict
@@ -20,6 +20,9 @@ class AssessedColumns:
                         Column("verdict", "", "pass, inconclusive or fail by the limits; not_set without"),
                         Column("verdict_reason", "", "why the line did not pass"),
                         *(_to_outline(word) for word in self._words))
+        self._has_looks = issubclass(scenario.result_type, Looked)
+        if self._has_looks:
+            self.columns += (*_LOOKS, *(column for word in self._words for column in _look_ends(word)))
 
     def metadata(self) -> Iterator[str]:
         """Lines above the table."""
@@ -44,7 +47,13 @@ class AssessedColumns:
         verdict = Verdict.NOT_SET if judgement is None else judgement.of_line(result.number)
         outlines = {} if assessment is None else assessment.to_outline_m
         return [*values, verdict.word, "" if judgement is None else judgement.reason_of(result.number),
-                *(outlines.get((result.number, word)) for word in self._words)]
+                *(outlines.get((result.number, word)) for word in self._words), *self._looks(result)]
+
+    def _looks(self, result: LineResult) -> list[Any]:
+        if not self._has_looks or not isinstance(result, Looked):
+            return []
+        ends = [end_m for distance in result.distances for end_m in distance.look_m or (None, None)]
+        return [len(result.looks) or None, result.look_percent, *ends]
 
 
 def _of_distance(word: str) -> tuple[Column, ...]:
@@ -53,6 +62,17 @@ def _of_distance(word: str) -> tuple[Column, ...]:
             Column(f"{word}_expanded_m", "m", "expanded uncertainty, 95 % coverage, of all that budget.json lists; "
                    "it holds what other attempts would do only where the method gives an interval; empty where one "
                    "end of that is open"))
+
+
+_LOOKS = (Column("looks", "", "looks at this line for its verdict, one before and one after each further attempts; "
+                 "empty when it was judged once, by the 95 % interval"),
+          Column("look_percent", "%", "confidence of the interval by which the last look judges: all looks together "
+                 "err as rarely as one by the 95 % interval", 2))
+
+
+def _look_ends(word: str) -> tuple[Column, ...]:
+    return tuple(Column(f"{word}_look_{end}_m", "m", f"{side} end of the interval of look_percent; empty when it lies "
+                        "beyond the places") for end, side in (("low", "lower"), ("high", "upper")))
 
 
 def _to_outline(word: str) -> Column:

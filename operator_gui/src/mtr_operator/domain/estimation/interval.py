@@ -38,9 +38,12 @@ class Interval:
         """Half of the distance between the ends; NaN when nothing is known."""
         return (self.high_m - self.low_m) / 2.0
 
-    def widened(self, sigma_m: float) -> Interval:
-        """With an independent normal error of this sigma added; NaN leaves nothing known of the ends."""
-        reach_m = SIGMAS_OF_LEVEL * sigma_m
+    def widened(self, sigma_m: float, sigmas: float = SIGMAS_OF_LEVEL) -> Interval:
+        """With an independent normal error of this sigma added; NaN leaves nothing known of the ends.
+
+        sigmas: how many of them the interval reaches to each side, by default those of 95 %.
+        """
+        reach_m = sigmas * sigma_m
         return Interval(self.value_m, self.value_m - math.hypot(self.value_m - self.low_m, reach_m),
                         self.value_m + math.hypot(self.high_m - self.value_m, reach_m),
                         math.hypot(self.sigma_m, sigma_m), self.shared_m)

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import math
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any, ClassVar, Sequence, TypeVar
+from typing import Any, ClassVar, Sequence, Tuple, TypeVar
 
 from .. import limits
-from .document import OptionalFloat, Texts, plain, read_record, with_shown_texts
+from ..estimation.looks import Look, are_possible, confidence_percent
+from .document import Floats, OptionalFloat, Texts, plain, read_record, with_shown_texts
 from .quantity import MeasuredQuantity
 
 # Where attempts work as often as they fail: what the distances of a line stand for.
@@ -36,6 +38,9 @@ class Column:
     digits: int = 4
 
 
+Ends = Tuple[OptionalFloat, OptionalFloat]
+
+
 @dataclass(frozen=True)
 class MeasuredDistance:
     """One distance of a line, in m with 1 sigma; None where nothing was measured.
@@ -46,7 +51,8 @@ class MeasuredDistance:
     common_sigma_m: 1 sigma of what the attempts of all lines leave open alike. is_place: the distance is that of the
     farthest place that worked, and the boundary lies between it and failed_m, the next farther one that failed: None
     when none did. Of a boundary that was not reached failed_m is the nearest place that failed. key_m: where on its
-    line the key was when the distance is not its own, but told by somebody; None when it is.
+    line the key was when the distance is not its own, but told by somebody; None when it is. look_m: ends of the
+    interval at the level of the line's last look, by which a limit is judged, None for an open one; None without looks.
     """
 
     word: str
@@ -60,6 +66,7 @@ class MeasuredDistance:
     failed_m: OptionalFloat = None
     is_boundary: bool = False
     key_m: OptionalFloat = None
+    look_m: Ends | None = None
 
     @property
     def is_open(self) -> bool:
@@ -68,7 +75,7 @@ class MeasuredDistance:
 
 
 def boundary(word: str, status: LineStatus, distance_m: OptionalFloat, sigma_m: OptionalFloat,
-             ends_m: tuple[OptionalFloat, OptionalFloat]) -> MeasuredDistance:
+             ends_m: Ends) -> MeasuredDistance:
     """A boundary with its interval. Where an end of that is open the ends are all that is said: an estimate is no
     measured value."""
     is_open = None in ends_m
@@ -139,9 +146,14 @@ class LineResult(ABC):
         return ()
 
     @property
+    def looks(self) -> tuple[Look, ...]:
+        """At which the line was judged; none before more attempts were made for a verdict."""
+        return ()
+
+    @property
     def is_possible(self) -> bool:
         """False for a result from a file that cannot be one, beside what has to hold for each scenario's."""
-        return True
+        return are_possible(self.looks)
 
     @property
     def invalid_count(self) -> int:
@@ -159,6 +171,38 @@ class LineResult(ABC):
         names = self.FILE_ORDER or tuple(item.name for item in _fields(type(self)))
         defaults = {item.name: item.default for item in _fields(type(self))}
         return {name: plain(getattr(self, name)) for name in names if getattr(self, name) != defaults[name]}
+
+
+class Looked:
+    """Result of a line that may get more attempts for its verdict; before LineResult among the bases.
+
+    Attributes:
+        look_shares, look_spent: of each look, see Look.
+    """
+
+    look_shares: Floats
+    look_spent: Floats
+
+    @property
+    def looks(self) -> tuple[Look, ...]:
+        """See LineResult."""
+        if len(self.look_shares) != len(self.look_spent):
+            # No looks at all are possible that way.
+            return (Look(math.inf, math.inf),)
+        return tuple(Look(share, spent) for share, spent in zip(self.look_shares, self.look_spent))
+
+    @property
+    def look_percent(self) -> float | None:
+        """Confidence of the interval by which the last look judges; None without looks."""
+        return confidence_percent(self.looks) if self.looks else None
+
+
+def at_looks(result: Result, looks: Sequence[Look]) -> Result:
+    """The same measurements with these looks; the ends of its intervals have to be found anew."""
+    # The derived classes are dataclasses.
+    changed: Result = dataclasses.replace(  # type: ignore[type-var]
+        result, look_shares=tuple(look.share for look in looks), look_spent=tuple(look.spent for look in looks))
+    return changed
 
 
 class OnAxis:
@@ -204,9 +248,10 @@ def _check(distance: MeasuredDistance) -> None:
         raise ValueError(f"distance of {distance.word}")
     if distance.uncertainty_m is not None and not limits.DISTANCE_SIGMA.allows(distance.uncertainty_m):
         raise ValueError(f"uncertainty of {distance.word}")
-    ends = [end for end in (distance.low_m, distance.high_m) if end is not None]
-    if not all(limits.DISTANCE.allows(end) for end in ends) or sorted(ends) != ends:
-        raise ValueError(f"interval of {distance.word}")
+    for both in ((distance.low_m, distance.high_m), distance.look_m or ()):
+        ends = [end for end in both if end is not None]
+        if not all(limits.DISTANCE.allows(end) for end in ends) or sorted(ends) != ends:
+            raise ValueError(f"interval of {distance.word}")
 
 
 def _fields(result_type: type[LineResult]) -> tuple[dataclasses.Field[Any], ...]:

@@ -9,7 +9,7 @@ from typing import Iterator, Sequence
 from ..geometry.pose import Point
 from ..geometry.ray import Ray
 from .figure import Figure
-from .line_result import MeasuredDistance
+from .line_result import Ends, MeasuredDistance
 
 
 class PointRole(enum.Enum):
@@ -83,6 +83,13 @@ def bars_along(measured: Sequence[tuple[Ray, MeasuredDistance]]) -> tuple[tuple[
 
 
 def intervals_along(measured: Sequence[tuple[Ray, MeasuredDistance]]) -> tuple[tuple[Point, Point], ...]:
-    """Ends of the 95 % interval of each measured point along its ray."""
-    return tuple((ray.point(distance.low_m), ray.point(distance.high_m)) for ray, distance in measured
-                 if distance.distance_m is not None and distance.low_m is not None and distance.high_m is not None)
+    """Ends of the interval of each measured point along its ray: the one by which a limit is judged, if that is known
+    at both ends, else the 95 % interval."""
+    return tuple((ray.point(low_m), ray.point(high_m)) for ray, distance in measured
+                 for low_m, high_m in (_drawn_ends(distance),)
+                 if distance.distance_m is not None and low_m is not None and high_m is not None)
+
+
+def _drawn_ends(distance: MeasuredDistance) -> Ends:
+    judged = distance.look_m
+    return (distance.low_m, distance.high_m) if judged is None or None in judged else judged

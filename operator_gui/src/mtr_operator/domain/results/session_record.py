@@ -15,6 +15,7 @@ STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
 # Only in the record of a test in which it happened.
 ENDED_BY, RECOVERED = "ended before its end", "recovered"
 MEASURED_AGAIN = "measured again"
+WIDENED = "wider intervals"
 ANNOTATED = "notes and photos added"
 REFUSED_STATUSES = "messages of the robot that were not used"
 REFUSED_COMMANDS = "messages that the robot refused"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Any, Sequence
+from typing import Any, Generator, Sequence
 
 from ..actions.car import Car
 from ..actions.distance import Distance, recorded_values
@@ -86,6 +86,17 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         result = replace(so_far, **{name: getattr(so_far, name) + values for name, values in added.items()})
         return with_boundaries([each if each.number != line.number else result for each in robot.results
                                 if isinstance(each, AutolockResult)], parameters, [result])[0]
+
+    def share_of_most(self, parameters: AutolockParameters, result: AutolockResult) -> float | None:
+        """See Scenario."""
+        can_be_more = result.lock_distance_m is not None and bool(self.judged_shares(parameters))
+        return len(result.passes(UNLOCK)) / _MAX_PASSES if can_be_more else None
+
+    def looked(self, parameters: AutolockParameters, results: Sequence[AutolockResult],
+               number: int) -> Generator[None, None, AutolockResult]:
+        """See Scenario."""
+        yield
+        return with_boundaries(results, parameters, [each for each in results if each.number == number])[0]
 
     def judged_shares(self, parameters: AutolockParameters) -> tuple[int, ...]:
         """See Scenario: at the static boundary half of the polls notice the key; one speed does not tell it."""

@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from typing import Any, Iterator, Sequence
 
+from ..estimation.interval import UNKNOWN
+from ..estimation.looks import deviate
 from ..estimation.passes.boundary import NO_BOUNDARY, Boundary, BoundaryCampaign, Pass
 from ..estimation.passes.delay import has_two_speeds
 from ..estimation.passes.steps import Steps
@@ -34,9 +36,11 @@ def _boundaries(results: Sequence[AutolockResult], word: str, parameters: Autolo
         campaign.keep(each.axis, passes)
         tells_reaction = tells_reaction or _tell_reaction(passes)
     for result in wanted:
-        boundary = campaign.boundary(result.axis) if tells_reaction else NO_BOUNDARY
+        sigmas, place_m = deviate(result.looks), _place_sigma(result, word)
+        boundary = campaign.boundary(result.axis, sigmas) if tells_reaction else NO_BOUNDARY
+        look = boundary.look.widened(place_m, sigmas) if result.looks else UNKNOWN
         yield {f"{word}_passes": len(result.passes(word)),
-               **_columns(word, replace(boundary, static=boundary.static.widened(_place_sigma(result, word))))}
+               **_columns(word, replace(boundary, static=boundary.static.widened(place_m), look=look))}
 
 
 def _passes(result: AutolockResult, word: str, parameters: AutolockParameters) -> Iterator[Pass]:
@@ -66,6 +70,7 @@ def _columns(word: str, boundary: Boundary) -> dict[str, Any]:
     values = {"static_m": static.value_m, "static_low_m": static.low_m, "static_high_m": static.high_m,
               "static_sigma_m": static.sigma_m, "reaction_s": reaction.value_m, "reaction_low_s": reaction.low_m,
               "reaction_high_s": reaction.high_m, "static_common_sigma_m": boundary.common_m,
-              "static_shared_sigma_m": static.shared_m}
+              "static_shared_sigma_m": static.shared_m, "static_look_low_m": boundary.look.low_m,
+              "static_look_high_m": boundary.look.high_m}
     return {f"{word}_{name}": round(value, _DIGITS) if math.isfinite(value) else None
             for name, value in values.items()}

@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..geometry.ray import Ray
 from ..results.carried import CAUSE_DOC, DOORS_DOC, HEADING_DOC, HEIGHT_DOC, KEY_NUMBER_DOC, LATERAL_DOC, SPEED_DOC
 from ..results.document import Floats, OptionalFloat, OptionalInt, Texts
-from ..results.line_result import LineResult, LineStatus, MeasuredDistance, OnAxis, column, stored
+from ..results.line_result import LineResult, LineStatus, Looked, MeasuredDistance, OnAxis, column, stored
 
 UNLOCK, LOCK = "unlock", "lock"
 
@@ -42,7 +42,7 @@ _OF_PASSES = tuple(f"{word}_{name}" for word in (UNLOCK, LOCK) for name in (
 
 
 @dataclass(frozen=True)
-class AutolockResult(OnAxis, LineResult):
+class AutolockResult(OnAxis, Looked, LineResult):
     """Distances are those of the Remote key from the Car's side or corner, along the axis."""
 
     FILE_ORDER = ("axis", "side", "origin_x_m", "origin_y_m", "direction_x", "direction_y", "reason",
@@ -51,7 +51,8 @@ class AutolockResult(OnAxis, LineResult):
                   "unlock_lateral_offset_m", "unlock_heading_offset_deg", "unlock_key_height_m", "unlock_speed_mps",
                   "unlock_cause", "lock_lateral_offset_m", "lock_heading_offset_deg", "lock_key_height_m",
                   "lock_speed_mps", "lock_cause", *_OF_PASSES, "unlock_key_number", "unlock_doors",
-                  "lock_key_number", "lock_doors", "told_every_s", "evidence")
+                  "lock_key_number", "lock_doors", "told_every_s", "evidence", "look_shares", "look_spent",
+                  *(f"{word}_static_look_{end}_m" for word in (UNLOCK, LOCK) for end in ("low", "high")))
 
     axis: int = column("number of the axis, clockwise around the Car")
     side: str = column("side or corner of the Car that the axis belongs to")
@@ -111,6 +112,12 @@ class AutolockResult(OnAxis, LineResult):
                              "its bus does not tell them apart", default="")
     told_every_s: OptionalFloat = stored(None)
     evidence: Texts = stored(())
+    look_shares: Floats = stored(())
+    look_spent: Floats = stored(())
+    unlock_static_look_low_m: OptionalFloat = stored(None)
+    unlock_static_look_high_m: OptionalFloat = stored(None)
+    lock_static_look_low_m: OptionalFloat = stored(None)
+    lock_static_look_high_m: OptionalFloat = stored(None)
 
     @property
     def ray(self) -> Ray:
@@ -130,6 +137,8 @@ class AutolockResult(OnAxis, LineResult):
         static_m, *of_passes = (getattr(self, f"{word}_static_{name}")
                                 for name in ("m", "sigma_m", "low_m", "high_m", "common_sigma_m"))
         if static_m is not None and status is LineStatus.OK:
-            return MeasuredDistance(word, status, static_m, *of_passes)
+            ends_m = getattr(self, f"{word}_static_look_low_m"), getattr(self, f"{word}_static_look_high_m")
+            measured = MeasuredDistance(word, status, static_m, *of_passes)
+            return replace(measured, look_m=ends_m) if self.looks else measured
         return MeasuredDistance(word, status, getattr(self, f"{word}_distance_m"),
                                 getattr(self, f"{word}_uncertainty_m"))

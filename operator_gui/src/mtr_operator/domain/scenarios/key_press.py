@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Sequence
+from typing import Generator, Sequence
 
 from ..actions.car import Car
 from ..actions.distance import Distance, distance_to_outline, recorded_values
@@ -84,6 +84,15 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         if so_far.method != ADAPTIVE:
             return None
         return search.measure_further(RadialTrial(line, parameters), robot, so_far)
+
+    def share_of_most(self, parameters: KeyPressParameters, result: KeyPressResult) -> float | None:
+        """See Scenario."""
+        return search.share_of_most(parameters, result)
+
+    def looked(self, parameters: KeyPressParameters, results: Sequence[KeyPressResult],
+               number: int) -> Generator[None, None, KeyPressResult]:
+        """See Scenario."""
+        return campaign.looked(parameters.search_plan, results, number)
 
     def cautions(self, parameters: KeyPressParameters, facts: LockFacts) -> Sequence[str]:
         """See Scenario."""

@@ -36,6 +36,10 @@ class Assessment:
     judgement: TestJudgement | None
     to_outline_m: Mapping[tuple[int, str], float] = field(default_factory=dict)
 
+    def decided(self) -> list[int]:
+        """Numbers of the lines that pass or fail."""
+        return [] if self.judgement is None else self.judgement.decided()
+
     def undecided(self) -> list[int]:
         """Numbers of the lines that more measurements may decide."""
         return [] if self.judgement is None else self.judgement.undecided()

@@ -2,8 +2,10 @@
 
 A distance passes a limit when its whole interval keeps it, and fails when its whole interval breaks it; in between
 nobody knows. So a Car that lies just beyond a limit passes in at most 2.5 % of the tests, and one that lies just inside
-fails in as many. Sources: JCGM 106:2012, 8.3 (guarded acceptance); ISO 14253-1, whose guard band is the expanded
-uncertainty. Another quantity is judged by its own interval in the same way; what that is worth its scenario says.
+fails in as many. A line that is judged again after more attempts is judged by wider intervals, so that all looks at it
+together err as rarely (looks). Sources: JCGM 106:2012, 8.3 (guarded acceptance); ISO 14253-1, whose guard band is the
+expanded uncertainty. Another quantity is judged by its own interval in the same way; what that is worth its scenario
+says.
 
 Where nothing was reached the boundary lies beyond the end of the test, and one end of the interval is open. A key that
 sleeps looks like that as well: "at most" is passed by silence only when the key worked on some line of the test.
@@ -16,6 +18,7 @@ from dataclasses import dataclass, replace
 from typing import Callable, Sequence
 
 from ..estimation.interval import SIGMAS_OF_LEVEL
+from ..estimation.looks import deviate, is_spent
 from ..results.line_result import LineResult, LineStatus, MeasuredDistance
 from ..results.quantity import MeasuredQuantity
 from ..scenario import Line
@@ -90,6 +93,11 @@ class TestJudgement:
         verdicts = [self.of_line(number) for number in dict.fromkeys(each.line for each in self.judgements)]
         return {verdict: verdicts.count(verdict) for verdict in Verdict if verdict in verdicts}
 
+    def decided(self) -> list[int]:
+        """Numbers of the lines that pass or fail."""
+        numbers = dict.fromkeys(judgement.line for judgement in self.judgements)
+        return [number for number in numbers if self.of_line(number) in (Verdict.PASS, Verdict.FAIL)]
+
     def undecided(self) -> list[int]:
         """Numbers of the lines that more measurements may decide; none that fails anyway."""
         numbers = dict.fromkeys(judgement.line for judgement in self.judgements if judgement.is_undecided)
@@ -121,13 +129,20 @@ def _judge_line(requirement: Requirement, result: LineResult, alive: set[str],
     obstacle = _obstacle(requirement, result, distance, alive)
     if distance is None or obstacle:
         return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, obstacle)
-    low_m, high_m = guarded(distance, SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, distance.word))
+    guard_m = deviate(result.looks) * circumstances.guard_sigma_m(result, distance.word)
+    low_m, high_m = guarded(_at_look(distance), guard_m)
     holes_m = result.holes_nearer_than(requirement.limit) if requirement.is_at_least else ()
     if holes_m:
         return Judgement(requirement, result.number, Verdict.FAIL,
                          f"Wanted is {requirement.text}; at {holes_m[0]:.2f} m attempts failed again and again.")
     judged = _compared(requirement, result, low_m, high_m)
-    return replace(judged, is_undecided=judged.verdict is Verdict.INCONCLUSIVE)
+    return replace(judged, is_undecided=judged.verdict is Verdict.INCONCLUSIVE and not is_spent(result.looks))
+
+
+def _at_look(distance: MeasuredDistance) -> MeasuredDistance:
+    """With the interval by which a limit is judged: at the level of the last look, where there was one."""
+    return distance if distance.look_m is None else replace(distance, low_m=distance.look_m[0],
+                                                            high_m=distance.look_m[1])
 
 
 def _judge_quantity(requirement: Requirement, result: LineResult, quantity: MeasuredQuantity,

@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 from typing import Sequence
 
 import numpy as np
+from scipy.special import ndtr
 
-from ..interval import UNKNOWN, FloatArray, Interval, interval_of
+from ..interval import SIGMAS_OF_LEVEL, UNKNOWN, FloatArray, Interval, interval_of
 from .delay import reaction_times
 from .likelihood import Circumstances, Pass, evidence_of, likelihood_of
 from .parts import parts_of
@@ -30,12 +31,14 @@ _UNLIKELY = -14.0
 class Boundary:
     """What passes say of an axis.
 
-    common_m: the part of static.sigma_m, in squares, that all axes have alike: the Car's timing.
+    common_m: the part of static.sigma_m, in squares, that all axes have alike: the Car's timing. look: static with an
+    interval that reaches as many sigmas as were asked for.
     """
 
     static: Interval
     reaction_s: Interval
     common_m: float
+    look: Interval = UNKNOWN
 
 
 NO_BOUNDARY = Boundary(UNKNOWN, UNKNOWN, math.nan)
@@ -53,7 +56,7 @@ class BoundaryCampaign:
         """Take or replace all passes of an axis in one direction."""
         self._passes[axis] = tuple(passes)
 
-    def boundary(self, axis: int) -> Boundary:
+    def boundary(self, axis: int, sigmas: float = SIGMAS_OF_LEVEL) -> Boundary:
         """With what the other axes say of the Car; NO_BOUNDARY for an axis without passes."""
         if not self._passes.get(axis):
             return NO_BOUNDARY
@@ -68,19 +71,22 @@ class BoundaryCampaign:
         total = log + others[likely, :, None]
         weights = np.exp(total - np.max(total))
         common_m, shared_m = parts_of(boundary_m, weights, [each[likely] for each in evidence])
-        return Boundary(replace(self._static(axis, boundary_m, np.sum(weights, axis=(0, 1))), shared_m=shared_m),
-                        _reaction(given.reactions_s, np.sum(weights, axis=(0, 2))), common_m)
+        edges_m, counts = self._static(axis, boundary_m, np.sum(weights, axis=(0, 1)))
+        return Boundary(replace(interval_of(edges_m, counts), shared_m=shared_m),
+                        _reaction(given.reactions_s, np.sum(weights, axis=(0, 2))), common_m,
+                        interval_of(edges_m, counts, 1.0 - 2.0 * float(ndtr(-sigmas))))
 
     def _given(self) -> Circumstances:
         reactions_s = reaction_times([[(each.along_m, each.speed_mps) for each in passes if each.steps is None]
                                       for passes in self._passes.values()])
         return Circumstances(self._cycle_s, self._sigma_m, reactions_s)
 
-    def _static(self, axis: int, places_m: FloatArray, counts: FloatArray) -> Interval:
+    def _static(self, axis: int, places_m: FloatArray, counts: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Histogram of the boundary: edges in m, and what lies between them."""
         half_m = (places_m[1] - places_m[0]) / 2.0
         if not self._passes[axis][0].outward:
             places_m, counts = -places_m[::-1], counts[::-1]
-        return interval_of(np.append(places_m - half_m, places_m[-1] + half_m), counts)
+        return np.append(places_m - half_m, places_m[-1] + half_m), counts
 
 
 def _reaction(reactions_s: Sequence[float], weights: FloatArray) -> Interval:

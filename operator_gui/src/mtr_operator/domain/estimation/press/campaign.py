@@ -38,11 +38,11 @@ class Campaign:
         logs = np.log(hypotheses.width_m)
         kernel = np.exp(-0.5 * ((logs[:, None] - logs) / SPREAD) ** 2)
         self._kernel: FloatArray = kernel / np.sum(kernel, axis=0)
+        self._hypotheses = hypotheses
         self._evidence: dict[int, FloatArray] = {}
-        self._places: dict[int, FloatArray] = {}
+        self._places: dict[int, tuple[Hypotheses, FloatArray]] = {}
         self._shape_priors: dict[int, FloatArray] = {}
         self._place_priors: dict[int, FloatArray] = {}
-        self._count = len(hypotheses.d50_m)
 
     def keep_evidence(self, radial: int, log_evidence: FloatArray) -> None:
         """Take or replace what a radial says of the shape; axes [shared, lapse, width]."""
@@ -50,9 +50,9 @@ class Campaign:
         self._evidence[radial] = np.log(np.maximum(evidence @ self._kernel, _TINY))
         self._forget_priors_beside(radial)
 
-    def keep_place(self, radial: int, d50: FloatArray) -> None:
-        """Take or replace a radial's probabilities of d50."""
-        self._places[radial] = d50
+    def keep_place(self, radial: int, d50: FloatArray, hypotheses: Hypotheses | None = None) -> None:
+        """Take or replace a radial's probabilities of d50, on its own grid or on the campaign's."""
+        self._places[radial] = hypotheses or self._hypotheses, d50
         self._forget_priors_beside(radial)
 
     def log_shape_prior(self, radial: int) -> FloatArray:
@@ -61,10 +61,10 @@ class Campaign:
             self._shape_priors[radial] = self._log_shape_prior(radial)
         return self._shape_priors[radial]
 
-    def log_place_prior(self, radial: int) -> FloatArray:
-        """What all other radials say of where one's d50 lies."""
+    def log_place_prior(self, radial: int, hypotheses: Hypotheses | None = None) -> FloatArray:
+        """What all other radials say of where one's d50 lies, on that one's grid; a radial has but one."""
         if radial not in self._place_priors:
-            self._place_priors[radial] = self._log_place_prior(radial)
+            self._place_priors[radial] = self._log_place_prior(radial, hypotheses or self._hypotheses)
         return self._place_priors[radial]
 
     def _forget_priors_beside(self, radial: int) -> None:
@@ -80,10 +80,20 @@ class Campaign:
         any_width = np.mean(like_others, axis=-1, keepdims=True)
         return np.asarray(np.log((1.0 - UNLIKE_WIDTH) * like_others + UNLIKE_WIDTH * any_width))
 
-    def _log_place_prior(self, radial: int) -> FloatArray:
-        even = np.full(self._count, 1.0 / self._count)
-        others = [place for number, place in self._places.items() if number != radial]
+    def _log_place_prior(self, radial: int, hypotheses: Hypotheses) -> FloatArray:
+        count = len(hypotheses.d50_m)
+        even = np.full(count, 1.0 / count)
+        others = [_on_grid(place, grid, hypotheses) for number, (grid, place) in self._places.items()
+                  if number != radial]
         if not others:
             return np.asarray(np.log(even))
-        near = gaussian_filter1d(np.mean(others, axis=0), NEAR * self._count, mode="constant")
+        near = gaussian_filter1d(np.mean(others, axis=0), NEAR * count, mode="constant")
         return np.asarray(np.log((1.0 - UNLIKE_PLACE) * near + UNLIKE_PLACE * even))
+
+
+def _on_grid(places: FloatArray, own: Hypotheses, wanted: Hypotheses) -> FloatArray:
+    """The probabilities of d50 on another grid over the same range, with even density in each step."""
+    if own is wanted or len(own.d50_m) == len(wanted.d50_m):
+        return places
+    below = np.concatenate(([0.0], np.cumsum(places)))
+    return np.asarray(np.diff(np.interp(wanted.edges_m, own.edges_m, below)))

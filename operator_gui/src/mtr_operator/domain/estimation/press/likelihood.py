@@ -47,15 +47,14 @@ class Press:
 class _Place:
     """Presses that share the fading of their half wavelength.
 
-    log: of the likelihood; axes [shared, lapse, width, d50]. steep: for each part of the fading that stays, the sum of
-    the logarithms of the presses' steep likelihoods before the convolution; axes [lapse, width, d50]. Made when the
-    second press comes.
+    log: of the likelihood; axes [shared, lapse, width, d50], or 0 for all.
+    sums: for each steepness of the curve, the sum of the logarithms of the presses' likelihoods; axes [lapse, width,
+    d50].
     """
 
-    first: Press
-    log: FloatArray
-    steep: dict[float, FloatArray] = field(default_factory=dict)
-    presses: int = 1
+    presses: list[Press] = field(default_factory=list)
+    log: FloatArray | float = 0.0
+    sums: dict[float, tuple[int, FloatArray | float]] = field(default_factory=dict)
 
 
 class PressLikelihood:
@@ -77,42 +76,44 @@ class PressLikelihood:
         """Presses so far that share the fading with a distance."""
         number = self.lattice.place_of(distance_m)
         place = self._places.get(number)
-        return self._between[number] + (0 if place is None else place.presses)
+        return self._between[number] + (0 if place is None else len(place.presses))
 
-    def add(self, press: Press) -> None:
-        """Take a press; one between the places is only counted."""
-        number = self.lattice.place_of(press.distance_m)
-        if self.lattice.is_between(press.distance_m):
-            self._between[number] += 1
-            return
-        # The fading of one press alone is part of the curve.
-        alone = self._log_factor(press, 1.0)
-        place = self._places.get(number)
-        if place is None:
-            self._places[number] = _Place(press, np.broadcast_to(alone, self.log.shape))
-            self.log += alone
-            return
-        log = np.stack([self._shared_log(place, press, alone, row, float(share))
-                        for row, share in enumerate(self._hypotheses.shared)])
-        place.presses += 1
-        self.log += log - place.log
-        place.log = log
+    def add(self, *presses: Press) -> None:
+        """Take presses; one between the places is only counted."""
+        changed = {}
+        for press in presses:
+            number = self.lattice.place_of(press.distance_m)
+            if self.lattice.is_between(press.distance_m):
+                self._between[number] += 1
+            else:
+                changed[number] = self._places.setdefault(number, _Place())
+                changed[number].presses.append(press)
+        for place in changed.values():
+            log = np.stack([self._log_at(place, float(share)) for share in self._hypotheses.shared])
+            self.log += log - place.log
+            place.log = log
 
     def without(self, distance_m: float) -> FloatArray:
         """The logarithm without the presses that share the fading of a place."""
         place = self._places.get(self.lattice.place_of(distance_m))
         return self.log if place is None else self.log - place.log
 
-    def _shared_log(self, place: _Place, press: Press, alone: FloatArray, row: int, share: float) -> FloatArray:
-        """Logarithm for a place with one press more, for one part of the fading that stays."""
-        if share <= 0.0:
-            return np.asarray(place.log[row] + alone)
-        steepness = math.sqrt(1.0 - share)
-        if share not in place.steep:
-            place.steep[share] = self._log_factor(place.first, steepness)
-        place.steep[share] = place.steep[share] + self._log_factor(press, steepness)
-        peak = np.max(place.steep[share], axis=-1, keepdims=True)
-        return np.asarray(np.log(self._blurred(np.exp(place.steep[share] - peak), share)) + peak)
+    def _log_at(self, place: _Place, share: float) -> FloatArray:
+        """Logarithm for the presses of a place, for one part of the fading that stays; axes [lapse, width, d50]."""
+        if share <= 0.0 or len(place.presses) == 1:
+            # The fading of one press alone is part of the curve.
+            return self._sum(place, 1.0)
+        steep = self._sum(place, math.sqrt(1.0 - share))
+        peak = np.max(steep, axis=-1, keepdims=True)
+        return np.asarray(np.log(self._blurred(np.exp(steep - peak), share)) + peak)
+
+    def _sum(self, place: _Place, steepness: float) -> FloatArray:
+        """Of the logarithms of the presses' likelihoods, before the convolution."""
+        count, total = place.sums.get(steepness, (0, 0.0))
+        for press in place.presses[count:]:
+            total = total + self._log_factor(press, steepness)
+        place.sums[steepness] = len(place.presses), total
+        return np.asarray(total)
 
     def _log_factor(self, press: Press, steepness: float) -> FloatArray:
         """Logarithm of the likelihood of one press; axes [lapse, width, d50]."""

@@ -40,10 +40,14 @@ _TINY = 1e-9
 
 
 class LineBoundary:
-    """Draws of the line's own curve after the presses made; as many as count."""
+    """Draws of the line's own curve after the presses made; as many as count.
 
-    def __init__(self, posterior: RadialPosterior, presses: Sequence[Press], lattice: Lattice, count: int):
-        chance = np.random.default_rng(_SEED)
+    part: draws of different parts are independent. d50_m, d95_m: of each draw.
+    """
+
+    def __init__(self, posterior: RadialPosterior, presses: Sequence[Press], lattice: Lattice, count: int,
+                 part: int = 0):
+        chance = np.random.default_rng(_SEED + part)
         grid = posterior.hypotheses
         self._distances_m = np.arange(grid.edges_m[0], grid.edges_m[-1], grid.step_m)
         first, last = lattice.place_of(grid.edges_m[0]), lattice.place_of(grid.edges_m[-1])
@@ -54,19 +58,20 @@ class LineBoundary:
         self._logits: SingleArray = (beyond_m * WIDTH_PER_SCALE / draws.own_width_m[:, None]).astype(np.float32)
         self._works: SingleArray = np.float32(0.5) + np.float32(0.5) * np.tanh(np.float32(0.5) * self._logits)
         self._sure_of_button = (1.0 - draws.lapse).astype(np.float32)[:, None]
-        self._d50_m, self._d95_m = self._crossing(HALF), self._crossing(SURE)
+        below = np.cumsum(self._works, axis=1, dtype=np.float64)
+        self.d50_m, self.d95_m = self._crossing(below, HALF), self._crossing(below, SURE)
 
     def d50(self) -> Interval:
         """Of the distance at which half of the presses work, lapses apart."""
-        return interval_of_draws(self._d50_m)
+        return interval_of_draws(self.d50_m)
 
     def d95(self) -> Interval:
         """Of the distance at which 95 % of them work."""
-        return interval_of_draws(self._d95_m)
+        return interval_of_draws(self.d95_m)
 
     def likely_ends_m(self, quantiles: FloatArray) -> FloatArray:
         """Quantiles of the distance at which half of the presses work."""
-        return np.asarray(np.quantile(self._d50_m, quantiles))
+        return np.asarray(np.quantile(self.d50_m, quantiles))
 
     def information(self, places_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Probability that a press works, and what it would tell of d50 and d95 in nats, at each place."""
@@ -74,13 +79,16 @@ class LineBoundary:
         works = self._sure_of_button * self._works[:, columns]
         mean = np.mean(works, axis=0, dtype=np.float64)
         told = sum(part * (_entropy(mean) - _mean_entropy_within(works, distance_m))
-                   for part, distance_m in ((1.0, self._d50_m), (SURE_PART, self._d95_m)))
+                   for part, distance_m in ((1.0, self.d50_m), (SURE_PART, self.d95_m)))
         return mean, np.maximum(told, 0.0)
 
-    def _crossing(self, level: float) -> FloatArray:
-        """Of each draw the distance at which its falling curve passes the level, at an end when it does not."""
+    def _crossing(self, below: FloatArray, level: float) -> FloatArray:
+        """Of each draw the distance at which its falling curve passes the level, at an end when it does not.
+
+        below: sums of the curve up to each distance.
+        """
         logits, distances_m = self._logits, self._distances_m
-        last = np.argmax(np.cumsum(self._works - np.float32(level), axis=1, dtype=np.float64), axis=1)
+        last = np.argmax(below - level * np.arange(1.0, below.shape[1] + 1.0), axis=1)
         rows, following = np.arange(len(logits)), np.minimum(last + 1, logits.shape[1] - 1)
         # Between two distances the logit is a straight line, however steep the curve is.
         here, after = logits[rows, last].astype(float), logits[rows, following].astype(float)

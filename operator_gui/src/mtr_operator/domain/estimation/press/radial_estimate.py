@@ -12,13 +12,13 @@ from __future__ import annotations
 import enum
 import math
 import statistics
-from dataclasses import dataclass
-from typing import Sequence
+from dataclasses import dataclass, replace
+from typing import Generator, Sequence
 
 import numpy as np
 from scipy.special import bdtrc, ndtr
 
-from ..interval import Interval
+from ..interval import Interval, interval_of_draws
 from .likelihood import Press
 from .plan import SearchPlan
 from .posterior import RadialPosterior
@@ -48,6 +48,7 @@ class RadialEstimate:
         holes_m: places inside that failed again and again although farther ones worked.
         lapse: share of presses that fail at any distance.
         quality: share of radials on the curve found that would fit worse.
+        look: d50 and d95 with intervals that reach as many sigmas as the last look at the line asks for; None without.
     """
 
     reach: Reach
@@ -59,16 +60,35 @@ class RadialEstimate:
     holes_m: tuple[float, ...]
     lapse: float
     quality: float
+    look: tuple[Interval, Interval] | None = None
 
 
 def estimate(plan: SearchPlan, search: RadialSearch) -> RadialEstimate:
     """With what the other radials say by now."""
-    posterior, presses = search.revisit(), search.presses
+    search.revisit()
+    boundary = search.boundary()
+    return _estimated(plan, search, boundary.d50(), boundary.d95())
+
+
+def estimate_at_look(plan: SearchPlan, search: RadialSearch, sigmas: float) -> Generator[None, None, RadialEstimate]:
+    """The same, with the intervals that reach so many sigmas besides; a part of the work with each step."""
+    search.revisit()
+    d50_m, d95_m = [], []
+    tail = float(ndtr(-sigmas))
+    for boundary in search.boundaries(tail):
+        d50_m.append(boundary.d50_m)
+        d95_m.append(boundary.d95_m)
+        yield
+    draws_m = np.concatenate(d50_m), np.concatenate(d95_m)
+    d50_look, d95_look = (interval_of_draws(each_m, 1.0 - 2.0 * tail) for each_m in draws_m)
+    return replace(_estimated(plan, search, *map(interval_of_draws, draws_m)), look=(d50_look, d95_look))
+
+
+def _estimated(plan: SearchPlan, search: RadialSearch, d50: Interval, d95: Interval) -> RadialEstimate:
+    posterior, presses = search.posterior(), search.presses
     worked = [press.distance_m for press in presses if press.worked]
     failed = [press.distance_m for press in presses if not press.worked]
-    boundary = search.boundary()
-    d50 = boundary.d50()
-    return RadialEstimate(_reach(plan, d50, presses), d50, boundary.d95(), max(worked, default=None),
+    return RadialEstimate(_reach(plan, d50, presses), d50, d95, max(worked, default=None),
                           min(failed, default=None), len(presses), _holes(search), posterior.lapse,
                           _quality(posterior, presses))
 

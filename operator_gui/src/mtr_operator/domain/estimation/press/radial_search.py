@@ -8,7 +8,8 @@ nothing worked at all the nearest place is tried several times, so that a key th
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Sequence
+import math
+from typing import Iterator, Sequence
 
 import numpy as np
 
@@ -40,6 +41,8 @@ _LAPSES_RARELY = 0.01
 # this times what is wanted, and at the end.
 _WORTH_DRAWING = 3.0
 _DRAWS, _FINAL_DRAWS = 200, 1000
+# A look at a line before its last one decides by tails of 0.3 %, of which 1000 draws have three: 20 000 at most.
+_DRAWS_IN_TAIL, _LEAST_TAIL = 30, 1.5e-3
 
 
 class RadialSearch:
@@ -71,7 +74,7 @@ class RadialSearch:
             self._posterior = self._given(self._likelihood.log)
             if self.presses:
                 self._campaign.keep_evidence(self._radial, self._posterior.log_evidence)
-                self._campaign.keep_place(self._radial, self._posterior.places())
+                self._campaign.keep_place(self._radial, self._posterior.places(), self._hypotheses)
         return self._posterior
 
     def posterior_without(self, distance_m: float) -> RadialPosterior:
@@ -92,13 +95,19 @@ class RadialSearch:
         """See line_boundary: the line's own d50 and d95."""
         return self._boundary_of(_FINAL_DRAWS)
 
+    def boundaries(self, tail: float) -> Iterator[LineBoundary]:
+        """So many draws that a tail of this probability is known, in parts of some hundredths of a second each."""
+        parts = math.ceil(_DRAWS_IN_TAIL / (max(tail, _LEAST_TAIL) * _FINAL_DRAWS))
+        for part in range(parts):
+            yield self._boundary_of(_FINAL_DRAWS, part)
+
     def _boundary_so_far(self) -> LineBoundary:
         if self._boundary is None:
             self._boundary = self._boundary_of(_DRAWS)
         return self._boundary
 
-    def _boundary_of(self, draws: int) -> LineBoundary:
-        return LineBoundary(self.posterior(), self.presses, self._likelihood.lattice, draws)
+    def _boundary_of(self, draws: int, part: int = 0) -> LineBoundary:
+        return LineBoundary(self.posterior(), self.presses, self._likelihood.lattice, draws, part)
 
     def add(self, press: Press) -> None:
         """Take what a press did."""
@@ -135,8 +144,7 @@ class RadialSearch:
 
     def recall(self, presses: Sequence[Press]) -> None:
         """Take presses of a radial that has come to its end; nothing is doubted any more."""
-        for press in presses:
-            self._likelihood.add(press)
+        self._likelihood.add(*presses)
         self.presses.extend(presses)
         self.revisit()
 
@@ -168,7 +176,7 @@ class RadialSearch:
 
     def _given(self, log_likelihood: FloatArray) -> RadialPosterior:
         return RadialPosterior(self._hypotheses, log_likelihood, self._campaign.log_shape_prior(self._radial),
-                               self._campaign.log_place_prior(self._radial))
+                               self._campaign.log_place_prior(self._radial, self._hypotheses))
 
     @property
     def _worth_drawing_m(self) -> float:

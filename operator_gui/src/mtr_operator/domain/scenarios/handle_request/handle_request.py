@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Sequence
+from typing import Generator, Sequence
 
 from ...actions.car import Car
 from ...actions.robot import Robot
@@ -57,6 +57,15 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
                   results: Sequence[HandleRequestResult]) -> Sequence[HandleRequestResult]:
         """See Scenario: how softly the zone ends each axis learns from all others."""
         return campaign.concluded(parameters.search_plan, results)
+
+    def share_of_most(self, parameters: HandleRequestParameters, result: HandleRequestResult) -> float | None:
+        """See Scenario."""
+        return search.share_of_most(parameters, result)
+
+    def looked(self, parameters: HandleRequestParameters, results: Sequence[HandleRequestResult],
+               number: int) -> Generator[None, None, HandleRequestResult]:
+        """See Scenario."""
+        return campaign.looked(parameters.search_plan, results, number)
 
     def cautions(self, parameters: HandleRequestParameters, facts: LockFacts) -> Sequence[str]:
         """See Scenario."""

@@ -63,6 +63,13 @@ class HandleRequestResult(OnAxis, SearchedResult):
     failed_at_m: Floats = stored(())
     place_sigma_m: OptionalFloat = stored(None)
     evidence: Texts = stored(())
+    wanted_interval_m: OptionalFloat = stored(None)
+    look_shares: Floats = stored(())
+    look_spent: Floats = stored(())
+    d50_look_low_m: OptionalFloat = stored(None)
+    d50_look_high_m: OptionalFloat = stored(None)
+    d95_look_low_m: OptionalFloat = stored(None)
+    d95_look_high_m: OptionalFloat = stored(None)
 
     @property
     def is_possible(self) -> bool:

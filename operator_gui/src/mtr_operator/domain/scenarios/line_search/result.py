@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any, ClassVar
 
 from ... import limits
 from ...estimation.press.likelihood import Press
 from ...estimation.press.radial_estimate import Reach
 from ...results.document import Floats, OptionalFloat
-from ...results.line_result import BOUNDARY_PERCENT, LineResult, LineStatus, MeasuredDistance, boundary, column
+from ...results.line_result import (
+    BOUNDARY_PERCENT,
+    Ends,
+    LineResult,
+    LineStatus,
+    Looked,
+    MeasuredDistance,
+    boundary,
+    column,
+)
 
 # Shares of the attempts for whose distances there are intervals; the last is that at d95.
 SHARES = (5, 50, 95)
 SURE_PERCENT = SHARES[-1]
 REACHES = ("", *(reach.value for reach in Reach))
+# Half of an interval that a search may aim at; it divides the range into a grid.
+_WANTED = limits.Limit("half of the interval wanted", 0.01, 10.0, "m")
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 # Far beyond any attempts_limit.
 _MAX_ATTEMPTS = 1000
@@ -41,7 +53,7 @@ class SearchColumns:
                                     "counted", "m", default="")
 
 
-class SearchedResult(LineResult):
+class SearchedResult(Looked, LineResult):
     """What a search finds; a scenario's dataclass declares each, those of SearchColumns and three with its own words.
 
     Attributes:
@@ -52,6 +64,9 @@ class SearchedResult(LineResult):
         unconfirmed_m: places of attempts that worked against all expectation, and not again; likewise.
         worked_at_m, failed_at_m: of all attempts that count.
         place_sigma_m: largest 1 sigma of these places.
+        wanted_interval_m: half the width of the interval for which the line was measured last, with whose grid it is
+            estimated; None for that of the parameters.
+        d50_look_low_m and so on: ends of the intervals at the level of the last look.
     """
 
     WORD: ClassVar[str]
@@ -69,6 +84,11 @@ class SearchedResult(LineResult):
     worked_at_m: Floats
     failed_at_m: Floats
     place_sigma_m: OptionalFloat
+    wanted_interval_m: OptionalFloat
+    d50_look_low_m: OptionalFloat
+    d50_look_high_m: OptionalFloat
+    d95_look_low_m: OptionalFloat
+    d95_look_high_m: OptionalFloat
 
     @property
     def was_searched(self) -> bool:
@@ -85,26 +105,34 @@ class SearchedResult(LineResult):
     def is_possible(self) -> bool:
         """See LineResult."""
         places_m = (*self.worked_at_m, *self.failed_at_m)
-        return (self.reach in REACHES and len(places_m) <= _MAX_ATTEMPTS
+        return (super().is_possible and self.reach in REACHES and len(places_m) <= _MAX_ATTEMPTS
                 and all(limits.DISTANCE.allows(place_m) for place_m in places_m)
+                and (self.wanted_interval_m is None or _WANTED.allows(self.wanted_interval_m))
                 and (self.place_sigma_m is None or limits.DISTANCE_SIGMA.allows(self.place_sigma_m)))
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
         """See LineResult: where half of the attempts work."""
-        return (boundary(self.WORD, self.status, self.d50_m, self.d50_sigma_m, (self.d50_low_m, self.d50_high_m)),)
+        half = boundary(self.WORD, self.status, self.d50_m, self.d50_sigma_m, (self.d50_low_m, self.d50_high_m))
+        return (replace(half, look_m=self._look(self.d50_look_low_m, self.d50_look_high_m)),)
 
     def distances_at(self, share_percent: int) -> tuple[MeasuredDistance, ...]:
         """See LineResult. The curve is symmetrical: 5 % work as far beyond d50 as 95 % do nearer than it; the ends of
         that interval are the safe ones, for how the errors of d50 and d95 go together is not kept."""
         if not self.was_searched or share_percent == BOUNDARY_PERCENT or share_percent not in SHARES:
             return super().distances_at(share_percent)
-        sure = boundary(self.WORD, self.status, self.d95_m, None, (self.d95_low_m, self.d95_high_m))
+        sure = replace(boundary(self.WORD, self.status, self.d95_m, None, (self.d95_low_m, self.d95_high_m)),
+                       look_m=self._look(self.d95_look_low_m, self.d95_look_high_m))
         if share_percent == SURE_PERCENT:
             return (sure,)
         half = self.distances[0]
-        return (boundary(self.WORD, self.status, _mirrored(half.distance_m, sure.distance_m), None,
-                          (_mirrored(half.low_m, sure.high_m), _mirrored(half.high_m, sure.low_m))),)
+        look_m = None if half.look_m is None or sure.look_m is None else _mirrored_ends(half.look_m, sure.look_m)
+        rare = boundary(self.WORD, self.status, _mirrored(half.distance_m, sure.distance_m), None,
+                        _mirrored_ends((half.low_m, half.high_m), (sure.low_m, sure.high_m)))
+        return (replace(rare, look_m=look_m),)
+
+    def _look(self, low_m: OptionalFloat, high_m: OptionalFloat) -> Ends | None:
+        return (low_m, high_m) if self.looks else None
 
     def holes_nearer_than(self, distance_m: float) -> tuple[float, ...]:
         """See LineResult."""
@@ -120,6 +148,10 @@ def _ends_of(distance: str) -> tuple[Any, Any]:
     low, high = (_distance(f"{end} end of the 95 % interval of the {distance}, empty when it lies beyond the places")
                  for end in ("lower", "upper"))
     return low, high
+
+
+def _mirrored_ends(half_m: Ends, sure_m: Ends) -> Ends:
+    return _mirrored(half_m[0], sure_m[1]), _mirrored(half_m[1], sure_m[0])
 
 
 def _mirrored(half_m: float | None, sure_m: float | None) -> float | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Generic, Sequence
+from typing import Any, Generic, Sequence
 
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
@@ -13,10 +13,11 @@ from ...estimation.press.radial_estimate import Reach, answers_nowhere, estimate
 from ...estimation.press.radial_search import RadialSearch
 from ...results.line_result import LineStatus
 from .attempt import AttemptMade, AttemptsMade
-from .campaign import LineCampaign, Searched, with_estimate
+from .campaign import DIGITS, LineCampaign, Searched, plan_of, with_estimate
 from .moves import drive, wake_key
+from .result import SearchedResult
 from .silence import ask_when_lasting
-from .trial import Trial
+from .trial import SearchParameters, Trial
 
 # Of a line that is measured further: attempts each time, part of the interval so far that is wanted next, its least,
 # and how many times the attempts allowed it gets in all.
@@ -62,14 +63,27 @@ def measure_by_search(trial: Trial[Searched], robot: Robot) -> Searched:
 
 def measure_further(trial: Trial[Searched], robot: Robot, so_far: Searched) -> Searched | None:
     """More attempts on a line for a narrower interval; None when it has had as many as make sense."""
-    count = len(so_far.attempts_made)
-    if so_far.invalid_count or count >= _FURTHER_TIMES * trial.parameters.attempts_limit:
+    count, most = len(so_far.attempts_made), _FURTHER_TIMES * trial.parameters.attempts_limit
+    if so_far.invalid_count or count >= most:
         return None
-    plan = trial.parameters.search_plan
-    if so_far.d50_low_m is not None and so_far.d50_high_m is not None:
-        narrower_m = _FURTHER_PART * (so_far.d50_high_m - so_far.d50_low_m) / 2.0
-        plan = replace(plan, interval_m=max(min(_MIN_INTERVAL_M, plan.interval_m), min(narrower_m, plan.interval_m)))
-    return _measured(trial, replace(plan, attempts_limit=count + _FURTHER_ATTEMPTS), robot, so_far)
+    plan = further_plan(trial.parameters.search_plan, so_far)
+    return _measured(trial, replace(plan, attempts_limit=min(count + _FURTHER_ATTEMPTS, most)), robot, so_far)
+
+
+def further_plan(plan: SearchPlan, so_far: SearchedResult) -> SearchPlan:
+    """What is wanted of a line that is measured further: half of its interval, and no more than before."""
+    plan = plan_of(plan, so_far)
+    if so_far.d50_low_m is None or so_far.d50_high_m is None:
+        return plan
+    narrower_m = round(_FURTHER_PART * (so_far.d50_high_m - so_far.d50_low_m) / 2.0, DIGITS)
+    return replace(plan, interval_m=max(min(_MIN_INTERVAL_M, plan.interval_m), min(narrower_m, plan.interval_m)))
+
+
+def share_of_most(parameters: SearchParameters, result: SearchedResult) -> float | None:
+    """See Scenario.share_of_most."""
+    if result.invalid_count or not result.was_searched:
+        return None
+    return len(result.attempts_made) / (_FURTHER_TIMES * parameters.attempts_limit)
 
 
 def can_go_on(trial: Trial[Searched], robot: Robot) -> bool:
@@ -78,8 +92,8 @@ def can_go_on(trial: Trial[Searched], robot: Robot) -> bool:
 
 
 def _measured(trial: Trial[Searched], plan: SearchPlan, robot: Robot, so_far: Searched | None = None) -> Searched:
-    campaign = LineCampaign(plan)
-    line = _Line(trial, plan, campaign.search(trial.number), trial.first_places_m if so_far is None else ())
+    campaign = LineCampaign(trial.parameters.search_plan)
+    line = _Line(trial, plan, campaign.search(trial.number, plan), trial.first_places_m if so_far is None else ())
     robot.say(trial.start)
     try:
         trial.begin(robot)
@@ -94,7 +108,15 @@ def _measured(trial: Trial[Searched], plan: SearchPlan, robot: Robot, so_far: Se
     if answers_nowhere(plan, line.search.presses):
         return _silent(line, robot)
     result = trial.result(line.attempts())
-    return with_estimate(plan, result if so_far is None else trial.joined(so_far, result), estimate(plan, line.search))
+    if so_far is not None:
+        # The derived classes are dataclasses.
+        result = replace(trial.joined(so_far, result), **_of_further(so_far, plan))  # type: ignore[type-var]
+    return with_estimate(plan, result, estimate(plan, line.search))
+
+
+def _of_further(so_far: SearchedResult, plan: SearchPlan) -> dict[str, Any]:
+    """Columns that a line keeps, or gets, when it is measured further."""
+    return {"wanted_interval_m": plan.interval_m, "look_shares": so_far.look_shares, "look_spent": so_far.look_spent}
 
 
 def _earlier(trial: Trial[Searched], robot: Robot) -> Sequence[Searched]:
