@@ -33,7 +33,7 @@ KEY_PRESS_COLUMNS = ("radial,angle_deg,status,distance_m,failed_distance_m,uncer
                      "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
                      "unconfirmed_m,key_number,doors,"
                      "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m,"
-                     "looks,look_percent,press_look_low_m,press_look_high_m")
+                     "looks,look_percent,press_look_low_m,press_look_high_m,boundaries,hole_from_m,hole_to_m")
 
 
 @pytest.fixture(scope="module")

@@ -46,7 +46,7 @@ HEADERS = {
                  "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
                  "unconfirmed_m,key_number,doors,"
                  "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m,"
-                 "looks,look_percent,press_look_low_m,press_look_high_m",
+                 "looks,look_percent,press_look_low_m,press_look_high_m,boundaries,hole_from_m,hole_to_m",
     "zone_map": "zone,side,height_m,status,presses,distance_m,low_m,high_m,uncertainty_m,coverage,coverage_low,"
                 "coverage_high,reach_own_sigma_m,reach_common_sigma_m,reach_expanded_m,verdict,verdict_reason,"
                 "reach_to_outline_m",
@@ -55,7 +55,8 @@ HEADERS = {
                       "heading_offset_deg,cause,reach,d50_m,d50_sigma_m,d50_low_m,d50_high_m,d95_m,d95_low_m,"
                       "d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,unconfirmed_m,origin_x_m,origin_y_m,"
                       "direction_x,direction_y,key_number,doors,handle_own_sigma_m,handle_common_sigma_m,handle_expanded_m,verdict,"
-                      "verdict_reason,handle_to_outline_m,looks,look_percent,handle_look_low_m,handle_look_high_m",
+                      "verdict_reason,handle_to_outline_m,looks,look_percent,handle_look_low_m,handle_look_high_m,"
+                      "boundaries,hole_from_m,hole_to_m",
     "digital_key": "position,side,nominal_m,key_height_m,status,answer,samples,reported_m,reported_spread_m,"
                    "reported_sigma_m,age_s,reference_m,uncertainty_m,error_m,error_low_m,error_high_m,robot_time_s,x_m,"
                    "y_m,along_m,lateral_offset_m,heading_offset_deg,phone_own_sigma_m,phone_common_sigma_m,"

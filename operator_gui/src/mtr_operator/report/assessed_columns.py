@@ -6,6 +6,7 @@ from typing import Any, Iterator
 
 from mtr_operator.domain.results.line_result import Column, LineResult, Looked
 from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.scenarios.line_search.result import SearchedResult
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.domain.verdict.verdict import Verdict
 
@@ -23,6 +24,8 @@ class AssessedColumns:
         self._has_looks = issubclass(scenario.result_type, Looked)
         if self._has_looks:
             self.columns += (*_LOOKS, *(column for word in self._words for column in _look_ends(word)))
+        if issubclass(scenario.result_type, SearchedResult):
+            self.columns += _HOLES
 
     def metadata(self) -> Iterator[str]:
         """Lines above the table."""
@@ -53,7 +56,7 @@ class AssessedColumns:
         if not self._has_looks or not isinstance(result, Looked):
             return []
         ends = [end_m for distance in result.distances for end_m in distance.look_m or (None, None)]
-        return [len(result.looks) or None, result.look_percent, *ends]
+        return [len(result.looks) or None, result.look_percent, *ends, *_hole(result)]
 
 
 def _of_distance(word: str) -> tuple[Column, ...]:
@@ -68,6 +71,14 @@ _LOOKS = (Column("looks", "", "looks at this line for its verdict, one before an
                  "empty when it was judged once, by the 95 % interval"),
           Column("look_percent", "%", "confidence of the interval by which the last look judges: all looks together "
                  "err as rarely as one by the 95 % interval", 2))
+_HOLES = (Column("boundaries", "", "several: one falling curve does not describe the line; its interval reaches from "
+                 "the nearest boundary to the farthest; empty for one boundary"),
+          Column("hole_from_m", "m", "farthest attempt that worked before the nearest hole of such a line, if any"),
+          Column("hole_to_m", "m", "nearest attempt that worked beyond that hole"))
+
+
+def _hole(result: LineResult) -> list[Any]:
+    return [result.boundaries, result.hole_from_m, result.hole_to_m] if isinstance(result, SearchedResult) else []
 
 
 def _look_ends(word: str) -> tuple[Column, ...]:

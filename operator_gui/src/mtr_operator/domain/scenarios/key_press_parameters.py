@@ -21,6 +21,9 @@ _ANSWER_S = 0.4
 # What a press that fails takes beside the response time: the order's way to the servo.
 _ORDER_S = 0.1
 _MIN_PLACES = 3
+# The outermost distance at which the ground's reflection cancels the wave is the product of both heights by half the
+# wavelength (plane earth); no Receiver is higher than this, and the null ends so much farther out.
+_RECEIVER_M, _NULLS_END = 1.6, 1.25
 _ONLY_SCAN, _ONLY_ADAPTIVE = ("method", SCAN), ("method", ADAPTIVE)
 
 
@@ -95,8 +98,9 @@ class KeyPressParameters(ScenarioParameters):
         """What is wanted of each radial with the method adaptive."""
         times = RobotTimes(self.maximum_speed_mps, settle_s=self.settle_time_s, answer_s=_ANSWER_S,
                            timeout_s=_ORDER_S + self.response_timeout_s)
+        half_wavelength_m = _LIGHT_MPS / (2.0 * self.key_frequency_hz)
         return SearchPlan(self.minimum_distance_m, self.press_distances_m[0], self.interval_m, self.attempts_limit,
-                          _LIGHT_MPS / (2.0 * self.key_frequency_hz), times)
+                          half_wavelength_m, times, _NULLS_END * self.key_height_m * _RECEIVER_M / half_wavelength_m)
 
     @property
     def press_distances_m(self) -> list[float]:

@@ -26,8 +26,8 @@ class KeyPressResult(SearchedResult):
                   "method", "reach", "d50_m", "d50_sigma_m", "d50_low_m", "d50_high_m", "d95_m", "d95_low_m",
                   "d95_high_m", "nearest_failure_m", "holes_m", "lapse", "fit_quality", "unconfirmed_m",
                   "key_number", "doors", "worked_at_m", "failed_at_m", "place_sigma_m", "evidence",
-                  "wanted_interval_m", "look_shares", "look_spent", "d50_look_low_m", "d50_look_high_m",
-                  "d95_look_low_m", "d95_look_high_m")
+                  "wanted_interval_m", "boundaries", "hole_from_m", "hole_to_m", "look_shares", "look_spent",
+                  "d50_look_low_m", "d50_look_high_m", "d95_look_low_m", "d95_look_high_m")
 
     radial: int = column("number of the radial, clockwise from the Car's front")
     angle_deg: float = column("angle of the radial, clockwise from the Car's front", "deg", digits=3)
@@ -67,6 +67,9 @@ class KeyPressResult(SearchedResult):
     place_sigma_m: OptionalFloat = stored(None)
     evidence: Texts = stored(())
     wanted_interval_m: OptionalFloat = stored(None)
+    boundaries: str = stored("")
+    hole_from_m: OptionalFloat = stored(None)
+    hole_to_m: OptionalFloat = stored(None)
     look_shares: Floats = stored(())
     look_spent: Floats = stored(())
     d50_look_low_m: OptionalFloat = stored(None)

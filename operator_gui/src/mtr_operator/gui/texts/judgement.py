@@ -48,4 +48,10 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "A motion lock stopped the robot during the measurement."),
     QT_TRANSLATE_NOOP("Sentence", "The board of lift and servos restarted during the measurement."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's clock was set during the measurement."),
+    QT_TRANSLATE_NOOP("Sentence", "more than one boundary; the interval reaches from the nearest to the farthest"),
+    QT_TRANSLATE_NOOP("Sentence", "more than one boundary, a hole from {} to {} m; the interval reaches from the "
+                                  "nearest boundary to the farthest"),
+    QT_TRANSLATE_NOOP("Sentence", "more than one boundary, a hole up to {} m; the interval reaches from the nearest "
+                                  "boundary to the farthest"),
+    QT_TRANSLATE_NOOP("Sentence", "The last estimate, with all lines, has wider 95 % intervals: {}."),
 )

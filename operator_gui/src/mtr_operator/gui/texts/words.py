@@ -93,6 +93,7 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "continued"),
     QT_TRANSLATE_NOOP("Word", "car profile files"),
     QT_TRANSLATE_NOOP("Word", "measured again"),
+    QT_TRANSLATE_NOOP("Word", "wider intervals"),
     QT_TRANSLATE_NOOP("Word", "notes and photos added"),
     QT_TRANSLATE_NOOP("Word", "ended before its end"),
     QT_TRANSLATE_NOOP("Word", "recovered"),

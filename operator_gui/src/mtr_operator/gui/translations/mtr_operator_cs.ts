@@ -7235,6 +7235,26 @@
         <source>The store names the content {}, which is no SHA-256 check sum.</source>
         <translation>Úložiště uvádí obsah {}, což není kontrolní součet SHA-256.</translation>
     </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>more than one boundary; the interval reaches from the nearest to the farthest</source>
+        <translation>více než jedna hranice; interval sahá od nejbližší po nejvzdálenější</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>more than one boundary, a hole from {} to {} m; the interval reaches from the nearest boundary to the farthest</source>
+        <translation>více než jedna hranice, mezera od {} do {} m; interval sahá od nejbližší hranice po nejvzdálenější</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>more than one boundary, a hole up to {} m; the interval reaches from the nearest boundary to the farthest</source>
+        <translation>více než jedna hranice, mezera až do {} m; interval sahá od nejbližší hranice po nejvzdálenější</translation>
+    </message>
+    <message>
+        <location filename="../texts/judgement.py" line="5"/>
+        <source>The last estimate, with all lines, has wider 95 % intervals: {}.</source>
+        <translation>Poslední odhad ze všech přímek má širší 95% intervaly: {}.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -8311,6 +8331,11 @@
         <location filename="../texts/words.py" line="7"/>
         <source>right of the Car</source>
         <translation>pravý bok auta</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>wider intervals</source>
+        <translation>širší intervaly</translation>
     </message>
 </context>
 </TS>

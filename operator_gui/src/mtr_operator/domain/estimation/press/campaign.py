@@ -20,6 +20,7 @@ from scipy.ndimage import gaussian_filter1d
 
 from ..interval import FloatArray
 from .hypotheses import Hypotheses
+from .one_boundary import RARE, are_uneven
 
 # Standard deviation of the logarithm of the width among the radials of a Car.
 SPREAD = 0.1
@@ -43,6 +44,7 @@ class Campaign:
         self._places: dict[int, tuple[Hypotheses, FloatArray]] = {}
         self._shape_priors: dict[int, FloatArray] = {}
         self._place_priors: dict[int, FloatArray] = {}
+        self._discord: dict[int, float] = {}
 
     def keep_evidence(self, radial: int, log_evidence: FloatArray) -> None:
         """Take or replace what a radial says of the shape; axes [shared, lapse, width]."""
@@ -54,6 +56,14 @@ class Campaign:
         """Take or replace a radial's probabilities of d50, on its own grid or on the campaign's."""
         self._places[radial] = hypotheses or self._hypotheses, d50
         self._forget_priors_beside(radial)
+
+    def keep_discord(self, radial: int, probability: float) -> None:
+        """Take or replace how probable the order of a radial's presses is on falling curves."""
+        self._discord[radial] = probability
+
+    def is_uneven(self, radial: int) -> bool:
+        """True when one falling curve does not describe a radial, or none of the Car's."""
+        return self._discord.get(radial, 1.0) < RARE or are_uneven(self._discord.values())
 
     def log_shape_prior(self, radial: int) -> FloatArray:
         """What all other radials say of the shape of one; axes [shared, lapse, width]."""

@@ -52,7 +52,7 @@ class LineBoundary:
         self._distances_m = np.arange(grid.edges_m[0], grid.edges_m[-1], grid.step_m)
         first, last = lattice.place_of(grid.edges_m[0]), lattice.place_of(grid.edges_m[-1])
         numbers = np.arange(first - _BEYOND, last + _BEYOND + 1)
-        draws = _faded(_drawn(posterior, count, len(numbers), chance), presses, lattice, numbers, chance)
+        draws = _faded(drawn(posterior, count, len(numbers), chance), presses, lattice, numbers, chance)
         displaced = draws.fading.astype(np.float32) @ lattice.weights(self._distances_m, numbers).astype(np.float32)
         beyond_m = draws.d50_m[:, None] + draws.fading_m.astype(np.float32)[:, None] * displaced - self._distances_m
         self._logits: SingleArray = (beyond_m * WIDTH_PER_SCALE / draws.own_width_m[:, None]).astype(np.float32)
@@ -110,7 +110,7 @@ def _entropy(probability: FloatArray) -> FloatArray:
     return result
 
 
-def _drawn(posterior: RadialPosterior, count: int, places: int, chance: np.random.Generator) -> FadingDraws:
+def drawn(posterior: RadialPosterior, count: int, places: int, chance: np.random.Generator) -> FadingDraws:
     """Systematic draws, evenly over the distance: of a thousand hypotheses each comes as often as is likely."""
     grid = posterior.hypotheses
     by_place = np.moveaxis(posterior.probability, -1, 0)

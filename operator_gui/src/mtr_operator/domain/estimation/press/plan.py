@@ -53,6 +53,8 @@ class SearchPlan:
         interval_m: half the width of the 95 % interval of d50 at which the radial ends.
         attempts_limit: presses after which it ends anyway.
         half_wavelength_m: presses so far apart are independent; 0.35 at 434 MHz, 0.17 at 868 MHz.
+        checked_m: nearer than this the ground may have torn a hole into the range: each part of the way up to it gets a
+            press. 0 where that cannot be.
     """
 
     minimum_m: float
@@ -61,6 +63,7 @@ class SearchPlan:
     attempts_limit: int = 24
     half_wavelength_m: float = 0.35
     times: RobotTimes = RobotTimes()
+    checked_m: float = 0.0
 
     def hypotheses(self) -> Hypotheses:
         """The grid that is fine enough for the interval wanted."""

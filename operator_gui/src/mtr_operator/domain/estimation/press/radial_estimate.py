@@ -20,6 +20,7 @@ from scipy.special import bdtrc, ndtr
 
 from ..interval import Interval, interval_of_draws
 from .likelihood import Press
+from .one_boundary import Uneven
 from .plan import SearchPlan
 from .posterior import RadialPosterior
 from .radial_search import PRESSES_IN_DOUBT, SURE_TO_WORK, RadialSearch
@@ -48,6 +49,7 @@ class RadialEstimate:
         holes_m: places inside that failed again and again although farther ones worked.
         lapse: share of presses that fail at any distance.
         quality: share of radials on the curve found that would fit worse.
+        uneven: where one falling curve does not describe the radial; d50 is of the one that fits best.
         look: d50 and d95 with intervals that reach as many sigmas as the last look at the line asks for; None without.
     """
 
@@ -61,6 +63,8 @@ class RadialEstimate:
     lapse: float
     quality: float
     look: tuple[Interval, Interval] | None = None
+    uneven: Uneven | None = None
+    uneven_look: Uneven | None = None
 
 
 def estimate(plan: SearchPlan, search: RadialSearch) -> RadialEstimate:
@@ -81,7 +85,8 @@ def estimate_at_look(plan: SearchPlan, search: RadialSearch, sigmas: float) -> G
         yield
     draws_m = np.concatenate(d50_m), np.concatenate(d95_m)
     d50_look, d95_look = (interval_of_draws(each_m, 1.0 - 2.0 * tail) for each_m in draws_m)
-    return replace(_estimated(plan, search, *map(interval_of_draws, draws_m)), look=(d50_look, d95_look))
+    return replace(_estimated(plan, search, *map(interval_of_draws, draws_m)), look=(d50_look, d95_look),
+                   uneven_look=search.uneven(sigmas))
 
 
 def _estimated(plan: SearchPlan, search: RadialSearch, d50: Interval, d95: Interval) -> RadialEstimate:
@@ -90,7 +95,7 @@ def _estimated(plan: SearchPlan, search: RadialSearch, d50: Interval, d95: Inter
     failed = [press.distance_m for press in presses if not press.worked]
     return RadialEstimate(_reach(plan, d50, presses), d50, d95, max(worked, default=None),
                           min(failed, default=None), len(presses), _holes(search), posterior.lapse,
-                          _quality(posterior, presses))
+                          _quality(posterior, presses), uneven=search.uneven())
 
 
 def answers_nowhere(plan: SearchPlan, presses: Sequence[Press]) -> bool:

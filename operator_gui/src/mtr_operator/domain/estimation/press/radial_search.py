@@ -13,12 +13,13 @@ from typing import Iterator, Sequence
 
 import numpy as np
 
-from ..interval import FloatArray
+from ..interval import SIGMAS_OF_LEVEL, FloatArray
 from .campaign import Campaign
 from .hypotheses import Hypotheses
 from .information import PressInformation
 from .likelihood import Press, PressLikelihood
 from .line_boundary import LineBoundary
+from .one_boundary import Uneven, parts_m, probability_of, uneven
 from .plan import SearchPlan
 from .posterior import RadialPosterior
 
@@ -147,6 +148,7 @@ class RadialSearch:
         self._likelihood.add(*presses)
         self.presses.extend(presses)
         self.revisit()
+        self._note_discord()
 
     def is_finished(self) -> bool:
         """True when the interval is reached, or no press is left."""
@@ -154,16 +156,20 @@ class RadialSearch:
             return True
         if len(self.presses) < MIN_PRESSES or self._place_in_doubt() is not None:
             return False
-        return self._is_narrow() and self._place_to_prove() is None
+        return self._is_narrow() and self._place_to_prove() is None and not self._places_to_check_m()
 
     def next_place_m(self) -> float:
         """Where the next press tells most per second of robot time."""
         doubted_m = self._place_in_doubt()
         if doubted_m is not None:
             return doubted_m
-        proved_m = self._place_to_prove() if self._is_narrow() else None
+        is_narrow = self._is_narrow()
+        proved_m = self._place_to_prove() if is_narrow else None
         if proved_m is not None:
             return proved_m
+        checked_m = self._place_to_check(is_narrow)
+        if checked_m is not None:
+            return checked_m
         posterior = self.posterior()
         places_m = self._candidates(posterior)
         if posterior.d50().half_width_m <= self._worth_drawing_m:
@@ -197,6 +203,38 @@ class RadialSearch:
         beyond_m = [press.distance_m for press in self.presses if not press.worked and press.distance_m > d50_m]
         nearest_m = min(beyond_m, default=None)
         return nearest_m if nearest_m is not None and self._likelihood.presses_beside(nearest_m) == 1 else None
+
+    def _place_to_check(self, is_narrow: bool) -> float | None:
+        """The nearest place to be checked, when the boundary is known or the presses that are left are for that."""
+        plan = self._plan
+        left = plan.attempts_limit - len(self.presses) - len(self.unconfirmed)
+        places_m = self._places_to_check_m()
+        if not places_m or not (is_narrow or left <= len(places_m)):
+            return None
+        return min(places_m, key=lambda place_m: abs(place_m - self.place_m))
+
+    def _places_to_check_m(self) -> list[float]:
+        """One in each part of the way without a press, as far as holes are possible: on both sides of the boundary, for
+        the hole may be the end that was found."""
+        plan = self._plan
+        edges_m = parts_m(plan.minimum_m, plan.maximum_m)
+        places_m = plan.places_m()
+        open_m = [(low_m + high_m) / 2.0 for low_m, high_m in zip(edges_m, edges_m[1:]) if low_m < plan.checked_m
+                  and not any(low_m <= press.distance_m < high_m for press in self.presses)]
+        return [float(places_m[np.argmin(np.abs(places_m - middle_m))]) for middle_m in open_m]
+
+    def uneven(self, sigmas: float = SIGMAS_OF_LEVEL) -> Uneven | None:
+        """See one_boundary: what the presses say where one falling curve does not describe them, else None."""
+        self._note_discord()
+        if not self._campaign.is_uneven(self._radial):
+            return None
+        return uneven(self.presses, parts_m(self._plan.minimum_m, self._plan.maximum_m), sigmas)
+
+    def _note_discord(self) -> None:
+        plan = self._plan
+        if self.presses and plan.checked_m > plan.minimum_m:
+            self._campaign.keep_discord(self._radial, probability_of(
+                self.posterior(), self.presses, self._likelihood.lattice, parts_m(plan.minimum_m, plan.maximum_m)))
 
     def _place_in_doubt(self) -> float | None:
         if self._awaiting is not None:

@@ -13,11 +13,12 @@ from ...estimation.interval import SIGMAS_OF_LEVEL, Interval
 from ...estimation.looks import deviate
 from ...estimation.press.campaign import Campaign
 from ...estimation.press.hypotheses import Hypotheses
+from ...estimation.press.one_boundary import Uneven
 from ...estimation.press.plan import SearchPlan
 from ...estimation.press.radial_estimate import RadialEstimate, Reach, estimate, estimate_at_look
 from ...estimation.press.radial_search import RadialSearch
 from ...results.line_result import LineStatus
-from .result import SearchedResult
+from .result import SEVERAL_BOUNDARIES, SearchedResult
 
 Searched = TypeVar("Searched", bound=SearchedResult)
 Found = TypeVar("Found")
@@ -100,6 +101,7 @@ def with_estimate(plan: SearchPlan, result: Searched, found: RadialEstimate) -> 
     columns = {"status": _STATUS[found.reach], "reach": found.reach.value, **_distances(plan, found, sigma_m),
                "nearest_failure_m": _known(found.nearest_failure_m), "lapse": _known(found.lapse),
                "holes_m": " ".join(f"{hole_m:.2f}" for hole_m in found.holes_m), "fit_quality": _known(found.quality),
+               **_hole(found.uneven),
                **_at_look(plan, found, sigma_m, deviate(result.looks))}
     # The derived classes are dataclasses.
     changed: Searched = replace(result, **columns)  # type: ignore[type-var]
@@ -111,7 +113,7 @@ def _distances(plan: SearchPlan, found: RadialEstimate, sigma_m: float) -> dict[
     is_measured = found.reach is Reach.MEASURED
     values: dict[str, Any] = {"d50_sigma_m": _known(found.d50.widened(sigma_m).sigma_m) if is_measured else None}
     for name, interval in (("d50", found.d50), ("d95", found.d95)):
-        is_within = is_measured and plan.minimum_m <= interval.value_m
+        is_within = is_measured and plan.minimum_m <= interval.value_m and (name == "d50" or found.uneven is None)
         values.update({f"{name}_m": _known(interval.value_m) if is_within else None,
                        **_ends(plan, found, interval, name, (sigma_m, SIGMAS_OF_LEVEL))})
     return values
@@ -129,11 +131,28 @@ def _at_look(plan: SearchPlan, found: RadialEstimate, sigma_m: float, sigmas: fl
 def _ends(plan: SearchPlan, found: RadialEstimate, interval: Interval, name: str,
           place: tuple[float, float]) -> dict[str, float | None]:
     """place: 1 sigma in m of the key's places, and how many of them the interval reaches."""
+    uneven = found.uneven_look if name.endswith("look") else found.uneven
+    if uneven is not None:
+        interval = _without_curve(plan, interval, uneven, name.startswith("d95"))
     wide = interval.widened(*place)
     has_low = interval.low_m >= plan.minimum_m and found.reach is not Reach.NEARER
     has_high = interval.high_m <= plan.maximum_m and found.reach is not Reach.FARTHER
     return {f"{name}_low_m": _known(wide.low_m) if has_low else None,
             f"{name}_high_m": _known(wide.high_m) if has_high else None}
+
+
+def _without_curve(plan: SearchPlan, interval: Interval, uneven: Uneven, is_sure: bool) -> Interval:
+    """From the nearest boundary to the farthest, open at an end of the places; where 95 % work no curve tells."""
+    is_open = is_sure or uneven.low_m <= plan.minimum_m
+    return replace(interval, low_m=-math.inf if is_open else min(interval.low_m, uneven.low_m),
+                   high_m=max(interval.high_m, math.inf if uneven.high_m >= plan.maximum_m else uneven.high_m))
+
+
+def _hole(uneven: Uneven | None) -> dict[str, Any]:
+    """Columns of a line that no falling curve describes."""
+    from_m, to_m = (None, None) if uneven is None or uneven.hole_m is None else uneven.hole_m
+    return {"boundaries": "" if uneven is None else SEVERAL_BOUNDARIES, "hole_from_m": _known(from_m),
+            "hole_to_m": _known(to_m)}
 
 
 def _known(value: float | None) -> float | None:

@@ -27,6 +27,8 @@ SURE_PERCENT = SHARES[-1]
 REACHES = ("", *(reach.value for reach in Reach))
 # Half of an interval that a search may aim at; it divides the range into a grid.
 _WANTED = limits.Limit("half of the interval wanted", 0.01, 10.0, "m")
+# Of SearchedResult.boundaries.
+SEVERAL_BOUNDARIES = "several"
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
 # Far beyond any attempts_limit.
 _MAX_ATTEMPTS = 1000
@@ -66,6 +68,9 @@ class SearchedResult(Looked, LineResult):
         place_sigma_m: largest 1 sigma of these places.
         wanted_interval_m: half the width of the interval for which the line was measured last, with whose grid it is
             estimated; None for that of the parameters.
+        boundaries: "several" where one falling curve does not describe the line, so that it has more than one boundary.
+        hole_from_m, hole_to_m: extent of the nearest hole of such a line, None where none is seen; hole_from_m alone
+            is None where nothing nearer worked.
         d50_look_low_m and so on: ends of the intervals at the level of the last look.
     """
 
@@ -85,6 +90,9 @@ class SearchedResult(Looked, LineResult):
     failed_at_m: Floats
     place_sigma_m: OptionalFloat
     wanted_interval_m: OptionalFloat
+    boundaries: str
+    hole_from_m: OptionalFloat
+    hole_to_m: OptionalFloat
     d50_look_low_m: OptionalFloat
     d50_look_high_m: OptionalFloat
     d95_look_low_m: OptionalFloat
@@ -105,10 +113,23 @@ class SearchedResult(Looked, LineResult):
     def is_possible(self) -> bool:
         """See LineResult."""
         places_m = (*self.worked_at_m, *self.failed_at_m)
-        return (super().is_possible and self.reach in REACHES and len(places_m) <= _MAX_ATTEMPTS
+        return (super().is_possible and self.reach in REACHES and self.boundaries in ("", SEVERAL_BOUNDARIES)
+                and len(places_m) <= _MAX_ATTEMPTS
                 and all(limits.DISTANCE.allows(place_m) for place_m in places_m)
                 and (self.wanted_interval_m is None or _WANTED.allows(self.wanted_interval_m))
+                and all(end_m is None or limits.DISTANCE.allows(end_m) for end_m in (self.hole_from_m, self.hole_to_m))
                 and (self.place_sigma_m is None or limits.DISTANCE_SIGMA.allows(self.place_sigma_m)))
+
+    @property
+    def findings(self) -> tuple[str, ...]:
+        """See LineResult."""
+        if not self.boundaries:
+            return ()
+        if self.hole_to_m is None:
+            return ("more than one boundary; the interval reaches from the nearest to the farthest",)
+        where = "up to" if self.hole_from_m is None else f"from {self.hole_from_m:.2f} to"
+        return (f"more than one boundary, a hole {where} {self.hole_to_m:.2f} m; the interval reaches from the nearest "
+                "boundary to the farthest",)
 
     @property
     def distances(self) -> tuple[MeasuredDistance, ...]:
