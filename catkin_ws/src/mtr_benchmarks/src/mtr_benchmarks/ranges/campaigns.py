@@ -5,11 +5,14 @@ import multiprocessing
 from typing import Any, Dict, List, NamedTuple, Tuple
 
 from .cars import FADING_SHARE, LAPSE, Polling, Radio
+from .nulls import FREQUENCIES_MHZ, NullDraw, over_ground
+from .nulls import RADIALS as NULL_RADIALS
 from .pass_methods import AXES, AxesDraw, passes, single
+from .pass_verdicts import AxesLimitDraw, axes_at_the_limit
 from .press_methods import RADIALS, Draw, adaptive, scan
 from .referees import neyer, up_and_down
 from .repeated import CAMPAIGNS, SPEEDS_MPS
-from .result import LineFound
+from .verdicts import LimitDraw, at_the_limit
 
 WIDTHS_M = (0.1, 0.4, 1.0, 2.2, 4.0, 6.6)
 FADINGS = {"steady": (0.0, 0.0), "fading": (FADING_SHARE, LAPSE)}
@@ -40,7 +43,12 @@ class Task(NamedTuple):
     is_long: bool = False
 
 
-Found = Dict[Tuple[str, ...], List[List[LineFound]]]
+# Of whole tests at the limit: lines of a test, and a Car whose end is 1 m wide.
+CAMPAIGN_LINES = (4, 8, 16)
+LIMIT_WIDTH_M = 1.0
+# Methods whose lines are no LineFound, and one whose radials have more than one boundary.
+AT_LIMIT, OVER_GROUND = "at_limit", "over_ground"
+Found = Dict[Tuple[str, ...], List[List[Any]]]
 
 
 def measure(amount: Amount) -> Found:
@@ -70,7 +78,28 @@ def tasks(amount: Amount) -> List[Task]:
         noise = seed_of(amount.seed, 70, 0, number)
         made.append(Task(("again_key_press",), Draw(Radio(1.0, 0.0, 0.0), amount.seed, noise)))
         made.append(Task(("again_autolock",), AxesDraw(Polling(), amount.seed, noise, SPEEDS_MPS[number % 5])))
+    return [*made, *_limit_tasks(amount), *_null_tasks(amount)]
+
+
+def _limit_tasks(amount: Amount) -> List[Task]:
+    """Whole tests of Cars at their limits."""
+    made = []
+    for row, lines in enumerate(CAMPAIGN_LINES):
+        for place, (kind, (share, lapse)) in enumerate(FADINGS.items()):
+            for column, search in enumerate(("key_press", "handle_request")):
+                made += [Task((search, kind, f"{lines}"), LimitDraw(
+                    search, Radio(LIMIT_WIDTH_M, share, lapse), lines,
+                    seed_of(amount.seed, 80 + column, 10 * row + place, number)))
+                    for number in range(-(-amount.radials // lines))]
+        made += [Task(("autolock", "poll_300_cycle_200", f"{lines}"), AxesLimitDraw(
+            Polling(), lines, seed_of(amount.seed, 82, row, number))) for number in range(-(-amount.axes // lines))]
     return made
+
+
+def _null_tasks(amount: Amount) -> List[Task]:
+    """Key press over reflecting ground."""
+    return [Task((f"{mhz:.0f}_mhz",), NullDraw(mhz, seed_of(amount.seed, 90, row, number)))
+            for row, mhz in enumerate(FREQUENCIES_MHZ) for number in range(-(-amount.radials // NULL_RADIALS))]
 
 
 def seed_of(*parts: int) -> int:
@@ -81,8 +110,14 @@ def seed_of(*parts: int) -> int:
     return seed
 
 
-def run_task(task: Task) -> Dict[Tuple[str, ...], List[LineFound]]:
+def run_task(task: Task) -> Dict[Tuple[str, ...], List[Any]]:
     """All methods on one campaign."""
+    if isinstance(task.draw, LimitDraw):
+        return {(AT_LIMIT, *task.key): at_the_limit(task.draw)}
+    if isinstance(task.draw, AxesLimitDraw):
+        return {(AT_LIMIT, *task.key): axes_at_the_limit(task.draw)}
+    if isinstance(task.draw, NullDraw):
+        return {(OVER_GROUND, *task.key): over_ground(task.draw)}
     if isinstance(task.draw, AxesDraw):
         found = {("passes", *task.key): passes(task.draw)}
         return found if task.key[0].startswith("again") else {**found, ("single", *task.key): single(task.draw)}

@@ -7,10 +7,11 @@ import numpy as np
 
 from ..harness.report import BenchmarkReport
 from ..harness.rows import Requirement, Row
-from .campaigns import FADINGS, POLLINGS, WIDTHS_M, Found
+from .campaigns import AT_LIMIT, FADINGS, OVER_GROUND, POLLINGS, WIDTHS_M, Found
 from .phones import Coverage
 from .repeated import pairs_agree
 from .result import LineFound, false_passes, figures, share, without_interval
+from .verdicts import Judged
 
 # A share that shall be 95 % has two rows: too few intervals hold, or they are wider than they need to be.
 LEAST = Requirement("least", "(share)", 0.94, 0.92, at_least=True)
@@ -23,6 +24,9 @@ STATIC = Requirement("static boundary, poll 300 ms, cycle 200 ms, rms", "m", 0.0
 # Who gives no interval where it is difficult has easy ones left.
 WITHOUT = Requirement("lines without an interval", "(count)", must=0.0)
 JUDGED = ("adaptive", "adaptive_scan_time", "passes")
+LEAST_WHOLE = Requirement("least", "(share)", 0.94, 0.93, at_least=True)
+WRONG_PASS = Requirement("whole tests at the limit, wrong pass, worst", "(share)", 0.025, 0.05)
+WRONG_FAIL = Requirement("whole tests at the limit, wrong fail, worst", "(share)", 0.025, 0.05)
 FALSE_PASS = Requirement("false pass, worst of Cars and limits", "(share)", 0.025, 0.05)
 
 
@@ -31,10 +35,40 @@ def report(found: Found, phones: Optional[Dict[str, Coverage]] = None) -> Benchm
     pooled = {key: [line for campaign in campaigns for line in campaign] for key, campaigns in found.items()}
     details: Dict[str, Any] = {}
     for (method, *kind), lines in pooled.items():
-        details.setdefault(method, {})["/".join(kind)] = figures(lines)
+        details.setdefault(method, {})["/".join(kind)] = (
+            limit_figures(lines) if method == AT_LIMIT else figures(lines))
     phones = phones or {}
     details["phones"] = {name: each._asdict() for name, each in phones.items()}
-    return BenchmarkReport([*rows(found, pooled, details), *phone_rows(phones)], {"details": details})
+    return BenchmarkReport([*rows(found, pooled, details), *whole_tests(details), *phone_rows(phones)],
+                           {"details": details})
+
+
+def limit_figures(lines: List[Judged]) -> Dict[str, Optional[float]]:
+    """Of whole tests at the limit; names are a promise. A line without an interval holds nothing."""
+    return {"lines": float(len(lines)), "pass": share([line.verdict == "pass" for line in lines]),
+            "fail": share([line.verdict == "fail" for line in lines]),
+            "coverage_95": share([bool(line.holds) for line in lines]),
+            "judged_coverage": share([bool(line.judged_holds) for line in lines]),
+            "half_width_median_m": float(np.nanmedian([line.half_m for line in lines])),
+            "attempts_median": float(np.median([line.presses for line in lines])),
+            "looks_mean": float(np.mean([line.looks for line in lines]))}
+
+
+def whole_tests(details: Dict[str, Any]) -> List[Row]:
+    """Rows of whole tests at the limit, and over reflecting ground; none of what was not measured."""
+    made: List[Row] = []
+    limits = details.get(AT_LIMIT, {})
+    if limits:
+        for requirement, name in ((WRONG_PASS, "pass"), (WRONG_FAIL, "fail")):
+            worst = max(limits, key=lambda kind: float(limits[kind][name]))
+            made.append(Row(requirement, limits[worst][name], remark=worst,
+                            details={kind: each[name] for kind, each in limits.items()}))
+        made += _shares("coverage of whole tests at the limit", {
+            kind: each["coverage_95"] for kind, each in limits.items()}, LEAST_WHOLE)
+    if OVER_GROUND in details:
+        made += _shares("coverage over reflecting ground", {
+            kind: each["coverage_95"] for kind, each in details[OVER_GROUND].items()}, LEAST_WHOLE)
+    return made
 
 
 def phone_rows(phones: Dict[str, Coverage]) -> List[Row]:

@@ -7,7 +7,7 @@ passes and fails wrongly in at most 2.5 % of the lines each, and the recorded in
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
-from typing import Any, Callable, List, NamedTuple, Sequence
+from typing import Any, Callable, List, NamedTuple, Sequence, Tuple, cast
 
 import numpy as np
 
@@ -18,10 +18,15 @@ from mtr_operator.domain.estimation.press.radial_search import RadialSearch
 from mtr_operator.domain.geometry.radials import radials_around
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.results.progress import Progress
+from mtr_operator.domain.scenario import AnyScenario
+from mtr_operator.domain.scenarios.handle_request.handle_request import SCENARIO as HANDLE_REQUEST
+from mtr_operator.domain.scenarios.handle_request.parameters import HandleRequestParameters
+from mtr_operator.domain.scenarios.handle_request.result import HANDLE_WORD, HandleRequestResult
 from mtr_operator.domain.scenarios.key_press import SCENARIO as KEY_PRESS
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import ADAPTIVE, PRESS, KeyPressResult
 from mtr_operator.domain.scenarios.line_search.campaign import LineCampaign, with_estimate
+from mtr_operator.domain.scenarios.line_search.result import SearchedResult
 from mtr_operator.domain.scenarios.line_search.search import further_plan, share_of_most
 from mtr_operator.domain.verdict.judgement import judge
 from mtr_operator.domain.verdict.limits import Limits
@@ -39,12 +44,25 @@ PARAMETERS = KeyPressParameters(
 _SIGMA_M = 0.002
 
 
-class LimitDraw(NamedTuple):
-    """One test: radio of the Car, number of its lines, seed, and rounds of further attempts that its time allows."""
+class Search(NamedTuple):
+    """A scenario that searches: its parameters with so much between lines, a line's result before any attempt, and how
+    much smaller its distances are than those of Radial."""
 
+    scenario: AnyScenario
+    parameters: Any
+    empty: Callable[[int, float], Any]
+    word: str
+    scale: float = 1.0
+
+
+class LimitDraw(NamedTuple):
+    """One test: which search, radio of the Car, number of its lines, seed, and rounds of further attempts that its time
+    allows."""
+
+    search: str
     radio: Radio
     lines: int
-    seed: int
+    place: int
     rounds: int = 8
 
 
@@ -65,26 +83,37 @@ class Judged(NamedTuple):
 
 
 def at_the_limit(draw: LimitDraw) -> List[Judged]:
-    """All lines of one test of Key press, each with its true distance as limit, "at least" and "at most" by turns."""
-    place = np.random.default_rng([draw.seed, 1])
-    radials = [Radial(draw.radio, place, np.random.default_rng([draw.seed, 2, number]))
-               for number in range(draw.lines)]
+    """All lines of one test, each with its true distance as limit, "at least" and "at most" by turns."""
+    search, place = SEARCHES[draw.search], np.random.default_rng([draw.place, 1])
     lines = radials_around(2.0 * math.pi / draw.lines)
-    limits = Limits(tuple(_limit(number, line.clockwise_deg, radial.d50_m)
-                          for number, (line, radial) in enumerate(zip(lines, radials))))
-    parameters = replace(PARAMETERS, angle_between_radials_rad=2.0 * math.pi / draw.lines)
-    progress = Progress(KEY_PRESS.name, parameters.to_mapping())
+    radials = [_Scaled(Radial(draw.radio, place, np.random.default_rng([draw.place, 2, line.number])), search.scale)
+               for line in lines]
+    limits = at_truth(search.word, [(line.clockwise_deg, radial.d50_m) for line, radial in zip(lines, radials)])
+    progress = Progress(search.scenario.name, {})
     for line, radial in zip(lines, radials):
-        progress.record(_measured(parameters, radial, progress.results, _empty(line.number, line.clockwise_deg)))
-    measure_further(progress, Looking(KEY_PRESS, parameters, progress, progress.revise, lambda: None),
+        empty = search.empty(line.number, line.clockwise_deg)
+        progress.record(_searched(search, radial, progress.results, empty, search.parameters.search_plan))
+    measure_further(progress, Looking(search.scenario, search.parameters, progress, progress.revise, lambda: None),
                     lambda: judge(limits, lines, progress.results), draw.rounds,
-                    lambda so_far: _further(parameters, radials[so_far.number - 1], progress.results, so_far))
-    for result in KEY_PRESS.concluded(parameters, progress.results):
+                    lambda so_far: _further(search, radials[so_far.number - 1], progress.results, so_far))
+    for result in search.scenario.concluded(search.parameters, progress.results):
         progress.revise(result)
-    judgement = judge(limits, lines, progress.results)
-    return [judged(result, radial.d50_m, judgement.of_line(result.number).word,
-                   len(result.worked_at_m) + len(result.failed_at_m))
-            for result, radial in zip(progress.results, radials)]
+    judgement, results = judge(limits, lines, progress.results), cast(List[SearchedResult], progress.results)
+    return [judged(result, radial.d50_m, judgement.of_line(result.number).word, len(result.attempts_made))
+            for result, radial in zip(results, radials)]
+
+
+class _Scaled:
+    """A radial whose distances are smaller."""
+
+    def __init__(self, radial: Radial, scale: float):
+        self._radial = radial
+        self._scale = scale
+        self.d50_m = scale * radial.d50_m
+
+    def press(self, distance_m: float) -> bool:
+        """True when it works."""
+        return self._radial.press(distance_m / self._scale)
 
 
 def measure_further(progress: Progress, looking: Looking, judgement: Callable[[], Any], rounds: int,
@@ -120,35 +149,24 @@ def _holds(ends: Any, truth_m: float) -> Any:
     return (ends[0] is None or ends[0] <= truth_m) and (ends[1] is None or truth_m <= ends[1])
 
 
-def _limit(number: int, angle_deg: float, truth_m: float) -> Requirement:
-    is_at_least = number % 2 == 0
-    return Requirement(f"line {number + 1}", PRESS, truth_m if is_at_least else None, None if is_at_least else truth_m,
-                       angles_deg=(angle_deg, angle_deg))
+def at_truth(word: str, truths: Sequence[Tuple[float, float]]) -> Limits:
+    """Limits exactly at the distances of lines, each with its angle; "at least" and "at most" by turns."""
+    return Limits(tuple(
+        Requirement(f"line {number}", word, truth_m if number % 2 else None, None if number % 2 else truth_m,
+                    angles_deg=(angle_deg, angle_deg)) for number, (angle_deg, truth_m) in enumerate(truths, 1)))
 
 
-def _empty(number: int, angle_deg: float) -> KeyPressResult:
-    return KeyPressResult(number, angle_deg, LineStatus.INVALID, None, None, None, 0, None, "", method=ADAPTIVE,
-                          place_sigma_m=_SIGMA_M)
-
-
-def _measured(parameters: KeyPressParameters, radial: Radial, results: Sequence[LineResult],
-              result: KeyPressResult) -> KeyPressResult:
-    return _searched(parameters, radial, results, result, parameters.search_plan)
-
-
-def _further(parameters: KeyPressParameters, radial: Radial, results: Sequence[LineResult],
-             so_far: KeyPressResult) -> Any:
-    count, share = len(so_far.attempts_made), share_of_most(parameters, so_far)
+def _further(search: Search, radial: _Scaled, results: Sequence[LineResult], so_far: Any) -> Any:
+    count, share = len(so_far.attempts_made), share_of_most(search.parameters, so_far)
     if share is None or share >= 1.0:
         return None
-    most = round(count / share)
-    plan = replace(further_plan(parameters.search_plan, so_far), attempts_limit=min(count + FURTHER_PRESSES, most))
-    return _searched(parameters, radial, results, replace(so_far, wanted_interval_m=plan.interval_m), plan)
+    plan = replace(further_plan(search.parameters.search_plan, so_far),
+                   attempts_limit=min(count + FURTHER_PRESSES, round(count / share)))
+    return _searched(search, radial, results, replace(so_far, wanted_interval_m=plan.interval_m), plan)
 
 
-def _searched(parameters: KeyPressParameters, radial: Radial, results: Sequence[Any], result: KeyPressResult,
-              plan: SearchPlan) -> KeyPressResult:
-    campaign = LineCampaign(parameters.search_plan)
+def _searched(wanted: Search, radial: _Scaled, results: Sequence[Any], result: Any, plan: SearchPlan) -> Any:
+    campaign = LineCampaign(wanted.parameters.search_plan)
     for _ in campaign.recall([other for other in results if other.number != result.number]):
         pass
     search: RadialSearch = campaign.search(result.number, plan)
@@ -159,3 +177,18 @@ def _searched(parameters: KeyPressParameters, radial: Radial, results: Sequence[
     found = replace(result, worked_at_m=tuple(press.distance_m for press in search.presses if press.worked),
                     failed_at_m=tuple(press.distance_m for press in search.presses if not press.worked))
     return with_estimate(plan, found, estimate(plan, search))
+
+
+def _empty_radial(number: int, angle_deg: float) -> KeyPressResult:
+    return KeyPressResult(number, angle_deg, LineStatus.INVALID, None, None, None, 0, None, "", method=ADAPTIVE,
+                          place_sigma_m=_SIGMA_M)
+
+
+def _empty_axis(number: int, _: float) -> HandleRequestResult:
+    return HandleRequestResult(number, "left", 1.0, LineStatus.INVALID, 0, 0, 0, place_sigma_m=_SIGMA_M)
+
+
+# A handle's zone ends at 1.6 to 2.8 m.
+SEARCHES = {"key_press": Search(KEY_PRESS, PARAMETERS, _empty_radial, PRESS),
+            "handle_request": Search(HANDLE_REQUEST, HandleRequestParameters(border_requests=0), _empty_axis,
+                                     HANDLE_WORD, 0.2)}
