@@ -49,9 +49,6 @@ from .verdict.looking import Looking
 from .verdict.suitability import check_lines
 from .verdict.widening import widened_text
 
-# One Status.
-_SOON_S = 0.01
-
 
 class Runner:
     """One test from its beginning, or from where its progress ends, to its end.
@@ -73,7 +70,7 @@ class Runner:
         loop.refusals = Refusals(progress.session, self._notebook)
         self._robot = Robot(loop, progress.results)
         self._car = Car(loop)
-        self._looking = Looking(scenario, parameters, progress, self._revise, lambda: self._robot.wait(_SOON_S))
+        self._looking = Looking(scenario, parameters, progress, self._revise, loop.step)
         self._total = 0
         self._again = list(again)
 
