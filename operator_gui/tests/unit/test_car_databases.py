@@ -150,6 +150,11 @@ def test_what_the_profile_names_is_exact_or_refused_with_its_line(tmp_path, word
     assert "\n" not in str(raised.value) and len(str(raised.value)) < 600
 
 
+def test_database_without_a_usable_message_is_refused_by_the_line_of_the_one_that_is_named(tmp_path):
+    with pytest.raises(ConnectionFailed, match=", line 11, cannot be used: the identifier 318734247 has more than 11"):
+        load_profile(written(tmp_path, HEAD + DOORS.replace("801", "318734247")))
+
+
 def test_name_with_a_digit_first_is_found_by_either_spelling(tmp_path):
     for name in ("0_LOCK", "_0_LOCK"):
         path = written(tmp_path, DATABASE.replace("LOCK", "0_LOCK"), PROFILE.replace("LOCK", name))

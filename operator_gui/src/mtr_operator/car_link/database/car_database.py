@@ -30,7 +30,7 @@ class CarDatabase:
         self._problems = problems
 
     def message(self, name: str) -> Any:
-        """A message by its name; ConnectionFailed says what is wrong with it."""
+        """Return a message by its name; ConnectionFailed states the fault of one that cannot be used."""
         problem = next((self._problems.messages[each] for each in _spellings(name)
                         if each in self._problems.messages), "")
         if problem:
@@ -43,7 +43,7 @@ class CarDatabase:
         raise ConnectionFailed(f"CAN database {self.path} has no message {name}.")
 
     def signal(self, message: Any, name: str) -> str:
-        """The name of a signal of a message as the database has it; ConnectionFailed says what is wrong with it."""
+        """Return a signal's name as spelled in the database; ConnectionFailed states the fault of an unusable one."""
         known = {signal.name: signal for signal in message.signals}
         for each in _spellings(name):
             problem = self._problems.signals.get((message.name, each), "")

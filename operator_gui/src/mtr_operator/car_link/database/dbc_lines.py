@@ -132,19 +132,19 @@ def _spelled(name: str) -> str:
 
 
 def _apply(number: int, line: str, messages: dict[str, list[DbcMessage]]) -> None:
-    """What a line says of messages and signals before it."""
+    """Apply a line with attributes to the messages and signals that it names."""
     if line.startswith(("SG_MUL_VAL_", "SIG_VALTYPE_")):
         words = line.split()
         match = (_PAGES if line.startswith("SG_MUL_VAL_") else _FLOAT).match(line)
         for message in messages.get(words[1] if len(words) > 1 else "", ()):
             for signal in message.signals:
                 if len(words) > 2 and signal.name == _spelled(words[2].rstrip(":")):
-                    _tell(signal, match, f"line {number} says of it {quoted(line)}")
+                    _extend(signal, match, f"line {number} describes it as {quoted(line)}")
     elif line.startswith("BA_"):
         _attribute(line, messages)
 
 
-def _tell(signal: DbcSignal, match: re.Match[str] | None, wrong: str) -> None:
+def _extend(signal: DbcSignal, match: re.Match[str] | None, wrong: str) -> None:
     if match is None:
         signal.problem = wrong
     elif match.re is _FLOAT:

@@ -92,7 +92,7 @@ def _number(text: str) -> float | None:
 
 
 def problems(lines: Sequence[DbcMessage], messages: Sequence[Any]) -> Problems:
-    """What is wrong with messages and signals, by their names; messages: those that can be used."""
+    """Faults of messages and signals by their names; messages: the usable ones."""
     found = Problems({message.name: message.line for message in lines},
                      {(message.name, signal.name): signal.line for message in lines for signal in message.signals})
     for name, same in _several(lines):
@@ -129,7 +129,7 @@ def _joined(lines: Sequence[Any]) -> str:
 
 
 def _facts(line: Any) -> Any:
-    """What two lines have to agree in."""
+    """Facts in which two lines of one name have to agree."""
     if isinstance(line, DbcMessage):
         return line.number, line.length, sorted(map(_facts, line.signals), key=str)
     return (line.name, line.page, line.start, line.length, line.is_big_endian, line.is_signed, line.is_float)

@@ -24,7 +24,7 @@ _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BO
 
 
 def load_database(path: pathlib.Path) -> CarDatabase:
-    """ConnectionFailed says why a database cannot be read; a database of another kind than CAN has no message."""
+    """Read a database; ConnectionFailed states why it is unreadable. One of another kind than CAN has no message."""
     try:
         if path.stat().st_size > _MAX_DATABASE_BYTES:
             raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
@@ -52,7 +52,7 @@ def decoded_text(data: bytes) -> str:
 
 
 def one_line(error: Exception) -> str:
-    """What an exception of a library says, without a full stop; a damaged line is not quoted whole."""
+    """Return the text of a library's exception on one line, shortened and without a full stop."""
     return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")[:_MAX_SAID]
 
 
@@ -64,9 +64,10 @@ def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
         messages = _messages(cantools.database.load_file(str(path), strict=False))
     # The library refuses a file as a whole, by whatever exception; then the messages count that can be used.
     except Exception:
-        messages = built(lines)
-        if not messages:
+        # Of a file without one complete line BO_ the library's sentence says more.
+        if all(line.problem for line in lines):
             raise
+        messages = built(lines)
     return CarDatabase(path, messages, problems(lines, messages))
 
 

@@ -19,7 +19,7 @@ _LEFT_OUT = 1
 @dataclass(frozen=True)
 class CountRange:
     """low, high: values that it counts through before it begins again. length: bits. is_declared: by the profile, so
-    that no other value is right; else the database says so, or nothing does."""
+    that no other value is right; else they are limits of the database or of its bits."""
 
     low: int
     high: int
@@ -27,13 +27,15 @@ class CountRange:
     is_declared: bool = False
 
     def value(self, count: int) -> int:
-        """Of a count from 0."""
+        """Return the value for a count from 0."""
         return self.low + count % (self.high - self.low + 1)
 
 
 def count_range(entries: Entries, key: str, values: Any, signal: Any) -> CountRange:
-    """Of a counter (a signal of cantools). values: of the profile's entry key: lowest and highest, or how many from 0;
-    None without one."""
+    """Return the values of a counter (a signal of cantools).
+
+    values: of the profile's entry key: lowest and highest, or their number from 0; None without one.
+    """
     most = (1 << signal.length) - 1
     if values is None:
         return _of_database(signal, most)
@@ -68,7 +70,7 @@ class CountWatch:
         self._wrap: tuple[int, int] | None = None
 
     def step(self, before: int, now: int) -> int | None:
-        """0 when it stands still, 1 when it goes on by one, None when it jumps."""
+        """Return 0 for a repeated value, 1 for the next value, None for a jump."""
         values = self._values
         if values.is_declared:
             return self._declared_step(before, now)

@@ -1,4 +1,4 @@
-"""Entries of a profile on the message that tells the state: its signals, its counters, and how it is sent."""
+"""Entries of a profile on the message of the state: signals, counters, and the way it is sent."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ def witnesses(entries: Entries, message: Any) -> dict[str, Any]:
 
 
 def sources(entries: Entries, message: Any) -> dict[int, str]:
-    """Of source_signal, by raw value."""
+    """Return the causes of source_signal by raw value."""
     signal = message.get_signal_by_name(entries.signal(message, entries.content["source_signal"]))
     return entries.decoded_words("sources", entries.words("sources", entries.content["sources"], SOURCES), (signal,))
 
 
 def signal_names(entries: Entries, message: Any) -> dict[str, str]:
-    """Of each door; of a single signal under no name."""
+    """Return the signal of each door; a single signal has no name."""
     signal = entries.content["signal"]
     table = signal if isinstance(signal, dict) else {"": signal}
     if not table or not all(isinstance(name, str) for name in table):
@@ -47,7 +47,7 @@ def driver_only(content: Mapping[str, Any]) -> frozenset[int]:
 
 
 def sending(entries: Entries, message: Any) -> dict[str, Any]:
-    """How the message is sent, as CarProfile has it."""
+    """Return the fields of CarProfile on how the message is sent."""
     is_only_on_change = entries.flag(ONLY_ON_CHANGE)
     liveness = entries.content.get(LIVENESS)
     if liveness is not None and not is_only_on_change:

@@ -1,4 +1,4 @@
-"""What a reader makes of a line of a textual log, and what all readers share."""
+"""Lines of a textual log as readers return them, and helpers that all readers share."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Damaged(Exception):
 
 
 class Ambiguous(Exception):
-    """Buses of which nothing says which is which. Attributes: names: of them."""
+    """Buses that cannot be numbered by their names. Attributes: names: of these buses."""
 
     def __init__(self, names: Sequence[str]):
         self.names = " and ".join(names)
@@ -71,7 +71,7 @@ class LineReader(ABC):
 
     @abstractmethod
     def read(self, line: str) -> Read:
-        """What a line says, which is not empty; ValueError, whose text says why, when it is to be left out."""
+        """Read a line that is not empty; ValueError, whose text is the reason, for a line to leave out."""
 
     def prepare(self, lines: Sequence[str]) -> None:  # noqa: B027, most kinds say in their header what they mean
         """The first lines, before they are read, for a kind that does not say which unit or origin its times have."""
@@ -85,7 +85,7 @@ class Channels:
         self._is_unnumbered = False
 
     def number(self, name: str) -> int:
-        """Of an interface; Ambiguous when it cannot be told from another one."""
+        """Return the number of an interface; Ambiguous when it cannot be distinguished from another one."""
         known = self._numbers.get(name)
         if known is not None:
             return known

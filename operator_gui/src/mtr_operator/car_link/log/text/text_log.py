@@ -17,7 +17,7 @@ from .others import Busmaster, Crtd, TimeIdData
 from .tables import Table
 from .trc import CanHackerTrace, PcanTrace
 
-# Lines by which the kind of a log is told, and characters of the longest line.
+# Lines from which the kind of a log is detected, and characters of the longest line.
 _HEAD, _LONGEST = 2000, 4096
 _QUOTED = 80
 _GZIP = b"\x1f\x8b"
@@ -30,7 +30,7 @@ Numbered = Tuple[int, str]
 
 class _Trial(NamedTuple):
     """score: frames first. place: of the reader. first: what is wrong with the first line that is known and not read.
-    ambiguity: buses of which nothing says which is which."""
+    ambiguity: names of buses that cannot be numbered."""
 
     score: tuple[int, int, bool, bool, int]
     place: int
@@ -85,7 +85,7 @@ class TextLog:
                     self._leave_out(number, line, str(error))
                     continue
                 except (Damaged, Ambiguous) as error:
-                    self.damage = _said(number, line, str(error))
+                    self.damage = _quoted_line(number, line, str(error))
                     return
                 if isinstance(read, Line):
                     self.without_data += read is Line.NO_DATA
@@ -104,15 +104,15 @@ class TextLog:
 
     def _leave_out(self, number: int, line: str, reason: str) -> None:
         self.left_out += 1
-        self.first = self.first or _said(number, line, reason)
+        self.first = self.first or _quoted_line(number, line, reason)
 
 
-def _said(number: int, line: str, reason: str) -> str:
+def _quoted_line(number: int, line: str, reason: str) -> str:
     return f'line {number} {reason}: "{line[:_QUOTED]}"'
 
 
 def _best(head: Sequence[Numbered], names: Names, suffix: str) -> _Trial:
-    """Of the reader that understands most of the first lines."""
+    """Return the trial of the reader that understands most of the first lines."""
     trials = [_tried(reader, at, head, suffix) for at, reader in enumerate(_readers(names))]
     return max(trials, key=lambda trial: trial.score)
 
@@ -128,7 +128,7 @@ def _tried(reader: LineReader, place: int, head: Sequence[Numbered], suffix: str
             continue
         except (ValueError, Damaged) as error:
             known += 1
-            first = first or _said(number, line, str(error))
+            first = first or _quoted_line(number, line, str(error))
         except Ambiguous as error:
             return _Trial((len(head), 0, True, True, -place), place, first, error.names)
     return _Trial((frames, known, reader.is_recognized, _BY_SUFFIX.get(suffix) == reader.name, -place), place, first)
@@ -137,7 +137,7 @@ def _tried(reader: LineReader, place: int, head: Sequence[Numbered], suffix: str
 def _refusal(path: pathlib.Path, head: Sequence[Numbered], first: str) -> str:
     if first:
         return f"The CAN log {path} holds no frame that is understood: {first}."
-    line = _said(*head[0], "is not understood") if head else "it is empty"
+    line = _quoted_line(*head[0], "is not understood") if head else "it is empty"
     return f"The CAN log {path} holds no frame: {line}; read are {kinds()}, BLF, MF4 and python-can's databases."
 
 
@@ -157,7 +157,7 @@ def _encoding(begin: bytes) -> str:
     marked = next((name for mark, name in _MARKS.items() if begin.startswith(mark)), "")
     if marked:
         return marked
-    # A letter of UTF-16 without its mark has a zero beside it.
+    # A letter of UTF-16 without its mark has a zero next to it.
     return "utf-16-le" if begin[1:2] == b"\0" else "utf-16-be" if begin[:1] == b"\0" and len(begin) > 1 else "utf-8"
 
 
