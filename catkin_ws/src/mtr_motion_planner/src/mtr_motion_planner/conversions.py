@@ -1,8 +1,9 @@
 """Between ROS messages and the planner's plain types; a stamp_s is of the steady clock, which nobody sets."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Any, Optional, Tuple
+from typing import Any, Optional, Sequence, Tuple
 
+import numpy as np
 from geometry_msgs.msg import Point, PoseStamped
 from nav_msgs.msg import Path
 from std_msgs.msg import ColorRGBA, Header
@@ -14,7 +15,7 @@ from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, Problem, RobotMode, VelocityCommand
 
-from .inputs import CollisionStop, DesiredMotion, EstimatedCar, RobotState, Zone
+from .inputs import CollisionStop, DesiredMotion, EstimatedCar, RobotState, SideSigmas, Zone
 from .outputs import Path as PlannedPath
 from .outputs import PlannerOutput
 from .picture import PlanPicture
@@ -48,7 +49,7 @@ def robot_from(message: Optional[LocalizedPose], stamp_s: float) -> Optional[Rob
         return None
     return RobotState(stamp_s, message.valid, Pose2(message.x, message.y, message.heading),
                       message.speed_mps, message.yaw_rate_radps, problem_of(message.problems, message.message),
-                      message.degenerate)
+                      message.degenerate, *_pose_sigmas(message.covariance))
 
 
 def car_from(message: Optional[CarEstimate], stamp_s: float) -> Optional[EstimatedCar]:
@@ -57,7 +58,30 @@ def car_from(message: Optional[CarEstimate], stamp_s: float) -> Optional[Estimat
         return None
     return EstimatedCar(stamp_s, message.state == CarEstimate.LOCATED,
                         Pose2(message.x, message.y, message.heading),
-                        tuple(zip(message.outline_x, message.outline_y)))
+                        tuple(zip(message.outline_x, message.outline_y)), _side_sigmas(message),
+                        _root(message.covariance[8]), (message.length or math.inf, message.width or math.inf))
+
+
+def _side_sigmas(message: CarEstimate) -> SideSigmas:
+    """Each side's own: errors of centre and size are taken for independent."""
+    covariance = np.reshape(message.covariance, (3, 3))[:2, :2]
+    ahead = np.array([math.cos(message.heading), math.sin(message.heading)])
+    aside = np.array([-ahead[1], ahead[0]])
+    along, across = (_root(direction @ covariance @ direction) for direction in (ahead, aside))
+    end, side = math.hypot(along, 0.5 * message.length_sigma), math.hypot(across, 0.5 * message.width_sigma)
+    return SideSigmas(end, end, side, side)
+
+
+def _pose_sigmas(covariance: Sequence[float]) -> Tuple[float, float]:
+    """1 sigma of the position in its least certain direction, m, and of the heading, rad; NaN where it is no number."""
+    xx, xy, yy = covariance[0], covariance[1], covariance[4]
+    largest = 0.5 * (xx + yy) + math.hypot(0.5 * (xx - yy), xy)
+    return _root(largest), _root(covariance[8])
+
+
+def _root(variance: float) -> float:
+    """1 sigma; NaN, with which nothing drives, for what is no variance."""
+    return math.sqrt(variance) if variance >= 0.0 else math.nan
 
 
 def collision_stop_from(message: Optional[DriveStatus], stamp_s: float) -> Optional[CollisionStop]:

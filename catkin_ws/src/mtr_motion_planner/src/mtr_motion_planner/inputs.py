@@ -4,7 +4,7 @@ import enum
 import itertools
 import math
 from dataclasses import dataclass
-from typing import Optional, Tuple, TypeVar
+from typing import NamedTuple, Optional, Tuple, TypeVar
 
 from mtr_core.problems import NO_PROBLEM, Problem, ProblemError
 from mtr_core.requests import Goal
@@ -34,7 +34,13 @@ class DesiredMotion:
 
 @dataclass(frozen=True)
 class RobotState:
-    """Where base_link is in map, and how it moves; message: why the pose is not valid."""
+    """Where base_link is in map, and how it moves.
+
+    Attributes:
+        message: why the pose is not valid.
+        position_sigma_m: 1 sigma of its position in the direction in which that is least certain.
+        heading_sigma: 1 sigma, rad.
+    """
 
     stamp_s: float
     valid: bool
@@ -43,16 +49,49 @@ class RobotState:
     yaw_rate_radps: float
     message: Problem = NO_PROBLEM
     is_degenerate: bool = False
+    position_sigma_m: float = 0.0
+    heading_sigma: float = 0.0
+
+    def is_finite(self) -> bool:
+        """True when pose, velocity and their uncertainty are numbers."""
+        return self.pose.is_finite() and all(map(math.isfinite, (
+            self.speed_mps, self.yaw_rate_radps, self.position_sigma_m, self.heading_sigma)))
+
+
+class SideSigmas(NamedTuple):
+    """1 sigma in m of where each side of the Car is, across itself: errors of the Car's centre and size together."""
+
+    front: float = 0.0
+    rear: float = 0.0
+    left: float = 0.0
+    right: float = 0.0
+
+
+EXACT_SIDES = SideSigmas()
 
 
 @dataclass(frozen=True)
 class EstimatedCar:
-    """Where the Car is in map; outline in its own frame. Before it is located both are a rough prior."""
+    """Where the Car is in map; outline in its own frame. Before it is located both are a rough prior.
+
+    Attributes:
+        sides: 1 sigma of each side; of a Car that is not located they are not used.
+        heading_sigma: 1 sigma, rad.
+        size: length and width, m; infinite when only the outline is known.
+    """
 
     stamp_s: float
     located: bool
     pose: Pose2
     outline: Tuple[Point, ...]
+    sides: SideSigmas = EXACT_SIDES
+    heading_sigma: float = 0.0
+    size: Tuple[float, float] = (math.inf, math.inf)
+
+    def is_finite(self) -> bool:
+        """True when pose, outline and, of a located Car, their uncertainty are numbers."""
+        sigmas = (*self.sides, self.heading_sigma) if self.located else ()
+        return self.pose.is_finite() and all(map(math.isfinite, (*itertools.chain(*self.outline), *sigmas)))
 
 
 class Zone(enum.IntEnum):
@@ -130,9 +169,9 @@ def _value_fault(desired: DesiredMotion, robot: RobotState, car: EstimatedCar) -
     if not robot.valid:
         cause = robot.message
         return problems.POSITION_UNKNOWN_BECAUSE(cause=cause) if cause else problems.POSITION_UNKNOWN()
-    if not (robot.pose.is_finite() and math.isfinite(robot.speed_mps) and math.isfinite(robot.yaw_rate_radps)):
+    if not robot.is_finite():
         return problems.POSE_NOT_A_NUMBER()
-    if not (car.pose.is_finite() and all(map(math.isfinite, itertools.chain.from_iterable(car.outline)))):
+    if not car.is_finite():
         return problems.CAR_NOT_A_NUMBER()
     if not 0.0 < desired.max_speed_mps <= MAX_SPEED_MPS:
         return problems.MAXIMUM_SPEED(value=desired.max_speed_mps, high=MAX_SPEED_MPS)

@@ -43,10 +43,15 @@ class Margins(ParameterSet):
     """How far the robot stays away from things, by plan.
 
     Attributes:
-        keep_out_m: the footprint never gets closer to the Car's outline.
+        keep_out_m: the footprint never gets closer to the Car's outline, grown by its uncertainty and the robot's.
         mirror_m: what is foremost, the key on its arm, never gets closer to the Car's side beside it. The outline is
             that at the LiDARs' height; no LiDAR sees a mirror, which stands up to 0.25 m out of the side. Not more than
             0.28: the key's front is 0.02 m ahead of the key, to which the application's clearance_m of 0.3 m is.
+        protrusion_m: the same before the Car's front and behind its rear, for a spare wheel, a tow bar or an open lid,
+            which stand out by up to 0.25 m. An end that is known to 2 cm may be approached up to keep_out_m.
+        front_fitting_m: what stands out of the Car's front beyond its length at any height, such as a bull bar; it
+            is part of the Car then.
+        rear_fitting_m: the same of its rear: a bicycle carrier, a lowered tailgate, a tow bar.
         route_margin_m: gap beside the robot on its way around the Car.
         geofence_xy: corners x, y, x, y, ... of the polygon in m that footprint and stopping distance stay in; empty:
             no bound.
@@ -55,6 +60,9 @@ class Margins(ParameterSet):
 
     keep_out_m: float = number(0.10, 0.02, 1.0, "m")
     mirror_m: float = number(0.27, 0.0, 1.0, "m")
+    protrusion_m: float = number(0.27, 0.0, 1.0, "m")
+    front_fitting_m: float = number(0.0, 0.0, 2.0, "m")
+    rear_fitting_m: float = number(0.0, 0.0, 2.0, "m")
     route_margin_m: float = number(0.25, 0.02, 2.0, "m")
     geofence_xy: Tuple[float, ...] = ()
     geofence_frame: str = "car"

@@ -17,7 +17,7 @@ from .following.ramp import Ramp
 from .following.tolerance import miss_of, problem_of_miss, was_displaced
 from .following.watch import StallWatch, is_heading_into, problem_of_drive
 from .geometry.robot_outline import RobotOutline
-from .inputs import EstimatedCar, Inputs, InputsUnusable, Situation, Zone, situation_of
+from .inputs import Inputs, InputsUnusable, Situation, Zone, situation_of
 from .outputs import PlannerOutput
 from .parameters import MotionParameters
 from .replanning import Replanning
@@ -72,7 +72,7 @@ class MotionPlanner:
             self._ramp.brake()
             self._replanning.stop()
             return self._output(Result.IDLE)
-        self._take_car(now.car)
+        self._take_car(now)
         return self._pursue(now)
 
     def _begin(self, result: Result) -> None:
@@ -96,16 +96,19 @@ class MotionPlanner:
             return self._output(Result.IDLE)
         return self._output(self._result if self._result in SETTLED else Result.PENDING, message=fault)
 
-    def _take_car(self, car: EstimatedCar) -> None:
+    def _take_car(self, now: Situation) -> None:
         """Plan again when the Car is not what the plan was made for; a robot that has arrived stays."""
-        if self.site is None or self.site.holds_for(car):
+        if self.site is None:
+            return
+        is_retried = self._result == Result.REFUSED and self.site.is_wider_for(now.car, now.robot)
+        if self.site.holds_for(now.car, now.robot) and not is_retried:
             return
         self.site = None
         if self._result != Result.REACHED:
             self._begin_again()
 
     def _pursue(self, now: Situation) -> PlannerOutput:
-        site = self.site or self._arranged(now.car)
+        site = self.site or self._arranged(now)
         if site is None:
             return self._stay()
         base = site.frame_from_map(now.car) @ now.robot.pose
@@ -119,9 +122,9 @@ class MotionPlanner:
         follower = self._replanning.follower
         return self._stay() if follower is None else self._follow(site, follower, pose, now, speed)
 
-    def _arranged(self, car: EstimatedCar) -> Optional[Site]:
+    def _arranged(self, now: Situation) -> Optional[Site]:
         try:
-            self.site = Site(self._goal.waypoint, car, self._outline, self._parameters)
+            self.site = Site(self._goal.waypoint, now.car, now.robot, self._outline, self._parameters)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), None)
         return self.site

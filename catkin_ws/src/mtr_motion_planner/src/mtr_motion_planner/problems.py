@@ -29,6 +29,22 @@ OUTLINE_CROSSED = Sentence("motion_planner.outline_crossed", "The Car's outline 
 GOAL_TOO_CLOSE = Sentence(
     "motion_planner.goal_too_close",
     "At the goal the robot would leave {left_m:.2f} m to the Car; at least {low_m:.2f} m must be left.")
+FRONT_UNCERTAIN = Sentence(
+    "motion_planner.front_uncertain",
+    "Goal {left_m:.2f} m from a front known to {sigma_m:.2f} m: {low_m:.2f} m required. Enter data sheet or tape "
+    "measurement (car_file), or measure farther away.")
+REAR_UNCERTAIN = Sentence(
+    "motion_planner.rear_uncertain",
+    "Goal {left_m:.2f} m from a rear known to {sigma_m:.2f} m: {low_m:.2f} m required. Enter data sheet or tape "
+    "measurement (car_file), or measure farther away.")
+SIDE_UNCERTAIN = Sentence(
+    "motion_planner.side_uncertain",
+    "Goal {left_m:.2f} m from a side known to {sigma_m:.2f} m: {low_m:.2f} m required. Enter data sheet or tape "
+    "measurement (car_file), or measure farther away.")
+OWN_POSITION_UNCERTAIN = Sentence(
+    "motion_planner.own_position_uncertain",
+    "The robot knows its position to {sigma_m:.2f} m only: {left_m:.2f} m to the Car are too few. Drive it where it "
+    "sees more, or map again.")
 ROBOT_TOO_CLOSE = Sentence("motion_planner.robot_too_close",
                            "The robot stands too close to the Car to plan; move it away by hand.")
 HEMMED_IN = Sentence(

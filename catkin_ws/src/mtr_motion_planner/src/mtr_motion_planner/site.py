@@ -13,9 +13,10 @@ from mtr_core.se2 import Pose2
 
 from . import problems
 from .geometry.fence import Fence, corners_of
+from .geometry.growth import bounds_of
 from .geometry.keep_out import KeepOut
 from .geometry.robot_outline import RobotOutline
-from .inputs import EstimatedCar
+from .inputs import EstimatedCar, RobotState
 from .parameters import MotionParameters
 from .timing.plan import PlanRefused
 
@@ -33,9 +34,10 @@ class Site:
         fence: the test area in the frame, None when there is no bound.
     """
 
-    def __init__(self, goal: Waypoint, car: EstimatedCar, robot: RobotOutline, parameters: MotionParameters):
+    def __init__(self, goal: Waypoint, car: EstimatedCar, state: RobotState, robot: RobotOutline,
+                 parameters: MotionParameters):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
-        self._car = car
+        self._car, self._reach_m, self._margins = car, robot.front_m, parameters.margins
         if goal.frame not in (names.CAR, names.MAP):
             raise PlanRefused(problems.GOAL_FRAME(frame=repr(goal.frame)))
         if not goal.pose.is_finite():
@@ -46,7 +48,7 @@ class Site:
         self.goal = goal.pose @ parameters.slip.base_from_centre
         frame_from_car = MAP_FROM_MAP if self.in_car_frame else car.pose
         self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], robot, parameters.margins,
-                                frame_from_car.heading)
+                                frame_from_car, bounds_of(car, state, self._reach_m, self._margins))
         self.fence = self._fence(parameters, frame_from_car)
 
     def _fence(self, parameters: MotionParameters, frame_from_car: Pose2) -> Optional[Fence]:
@@ -64,12 +66,20 @@ class Site:
         """Where map is in the frame, by the Car's newest pose."""
         return car.pose.inverse() if self.in_car_frame else MAP_FROM_MAP
 
-    def holds_for(self, car: EstimatedCar) -> bool:
-        """True when a plan made here is still right for the Car."""
+    def holds_for(self, car: EstimatedCar, state: RobotState) -> bool:
+        """True when a plan made here is still right for the Car and for how well the robot knows its own position."""
         old = self._car
         if old.located != car.located or len(old.outline) != len(car.outline):
             return False
         moved = old.pose.inverse() @ car.pose
         if not self.in_car_frame and (math.hypot(moved.x, moved.y) > SHIFT_M or abs(moved.heading) > SHIFT_RAD):
             return False
+        bounds = bounds_of(car, state, self._reach_m, self._margins)
+        if bounds.growth.is_more_than(self.keep_out.bounds.growth, SHIFT_M):
+            return False
         return all(math.hypot(a[0] - b[0], a[1] - b[1]) <= SHIFT_M for a, b in zip(old.outline, car.outline))
+
+    def is_wider_for(self, car: EstimatedCar, state: RobotState) -> bool:
+        """True when the Car, or the robot's own position, has become so much more certain that a goal may be free."""
+        growth = bounds_of(car, state, self._reach_m, self._margins).growth
+        return self.keep_out.bounds.growth.is_more_than(growth, SHIFT_M)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from collections import deque
+from dataclasses import replace
 from typing import List, Optional
 
 from shapely.geometry import Polygon
@@ -43,6 +44,7 @@ class SimulatedRobot:
         self.planner = MotionPlanner(parameters, FOOTPRINT, InlineExecutor())
         self.collision_stop: Optional[CollisionStop] = None
         self.speed_cap, self.is_degenerate = math.inf, False
+        self.position_sigma_m = self.heading_sigma = 0.0
         self.ticks = 0
         self.goal = NO_GOAL
         self.max_speed = 0.5
@@ -62,12 +64,16 @@ class SimulatedRobot:
         pose = Pose2(x, y, math.radians(heading_deg))
         self.goal = Goal(Waypoint(goal_id, "test", "car" if in_car else "map", pose, direction))
 
+    def inputs(self) -> Inputs:
+        """What the planner receives now."""
+        robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate, "", self.is_degenerate,
+                           self.position_sigma_m, self.heading_sigma)
+        return Inputs(self.now, DesiredMotion(self.now, self.goal, self.max_speed), robot,
+                      replace(self.car, stamp_s=self.now), self.collision_stop)
+
     def tick(self) -> PlannerOutput:
         """One period."""
-        robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate, "", self.is_degenerate)
-        car = EstimatedCar(self.now, self.car.located, self.car.pose, self.car.outline)
-        desired = DesiredMotion(self.now, self.goal, self.max_speed)
-        output = self.planner.step(Inputs(self.now, desired, robot, car, self.collision_stop))
+        output = self.planner.step(self.inputs())
         self.outputs.append(output)
         self._move(output)
         self.ticks += 1

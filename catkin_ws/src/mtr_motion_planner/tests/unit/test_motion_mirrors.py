@@ -10,7 +10,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_motion_planner.following.tracking import Velocity
 from mtr_motion_planner.following.watch import is_heading_into
-from mtr_motion_planner.geometry.keep_out import KeepOut
+from mtr_motion_planner.geometry.keep_out import KeepOut, rows_of
 from mtr_motion_planner.inputs import RobotState
 
 SIDE_M = 0.9
@@ -76,12 +76,13 @@ def test_key_that_is_too_close_is_taken_straight_out_of_there():
 @pytest.mark.parametrize("pose, gap_m", [
     (Pose2(0.0, SIDE_M + 0.6, math.radians(-90.0)), 0.6 - ROBOT.front_m),
     (Pose2(0.0, -SIDE_M - 0.5, 0.0), 0.5),
-    (Pose2(3.0, 0.0, math.radians(180.0)), math.inf)])
+    (Pose2(3.0, 2.0, math.radians(180.0)), math.inf)])
 @pytest.mark.parametrize("car_pose", CAR_POSES)
 def test_keys_gap_is_measured_across_the_car_in_any_frame(car_pose, pose, gap_m):
     outline = [car_pose.apply(x, y) for x, y in OUTLINE]
-    keep_out = KeepOut(outline, ROBOT, PARAMETERS.margins, car_pose.heading)
-    assert keep_out.key_gap(car_pose @ pose) == pytest.approx(gap_m, abs=0.002)
+    keep_out = KeepOut(outline, ROBOT, PARAMETERS.margins, car_pose)
+    room_m = keep_out.key_room(rows_of(car_pose @ pose))[0]
+    assert room_m + PARAMETERS.margins.mirror_m == pytest.approx(gap_m, abs=0.002)
 
 
 @pytest.mark.parametrize("gap_m, speed_mps, is_stopped", [

@@ -126,13 +126,14 @@ def test_goal_close_to_the_car_is_entered_straight():
     assert_stands_at_goal(robot)
 
 
-@pytest.mark.parametrize("goal", [(0.0, 0.0, 0.0), (0.0, -1.2, 90.0), (2.4, 0.0, 180.0)])
-def test_goal_in_the_keep_out_zone_is_refused_and_the_robot_stays(goal):
+@pytest.mark.parametrize("goal, low", [((0.0, 0.0, 0.0), "0.10 m"), ((0.0, -1.2, 90.0), "0.28 m"),
+                                       ((2.4, 0.0, 180.0), "0.10 m")])
+def test_goal_in_the_keep_out_zone_is_refused_and_the_robot_stays(goal, low):
     robot = SimulatedRobot(Pose2(4.0, 2.6, 0.0))
     robot.go(1, *goal)
     output = robot.run()
-    assert output.result == Result.REFUSED
-    assert "0.10 m" in output.message.text
+    assert (output.result, output.message.code) == (Result.REFUSED, "motion_planner.goal_too_close")
+    assert low in output.message.text
     robot.run_for(1.0)
     assert robot.pose == Pose2(4.0, 2.6, 0.0)
 

@@ -4,7 +4,6 @@ import math
 from typing import Iterator, List, Optional, Sequence, Tuple
 
 import numpy as np
-from shapely.affinity import translate
 from shapely.geometry import LineString, MultiPoint, Polygon
 from shapely.geometry import Point as ShapelyPoint
 from shapely.geometry.polygon import orient
@@ -16,6 +15,7 @@ from mtr_core.se2 import Pose2
 from .. import problems
 from ..inputs import Point
 from ..parameters import Margins
+from .growth import EXACT_BOUNDS, CarBounds, Growth, grown
 from .robot_outline import RobotOutline
 
 # The outline is sampled this densely; a footprint 0.1 m beside it is then seen at most 2 mm too far away.
@@ -25,6 +25,12 @@ MIN_AREA_M2 = 0.05
 GRAZE_M = 0.005
 # A plan may fall short of what it has to keep away by so much.
 ROUNDING_M = 0.005
+# mirror_m and protrusion_m hold this beyond what stands out of a Car, for errors of control and for small sigmas.
+CONTROL_M = 0.02
+FRAME = Pose2(0.0, 0.0, 0.0)
+CORNERS = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
+# A robot that points at an end within 60 degrees approaches it; one that passes by or turns there does not.
+APPROACH_COSINE = 0.5
 # Sides shorter than this give way to a corner that lies no farther than that from the hull.
 SHORT_SIDE_M, CORNER_MARGIN_M = 1.0, 0.3
 
@@ -38,21 +44,57 @@ class KeepOut:
 
     Attributes:
         robot: that stays away from it.
-        outline: as it was measured.
-        hull: its convex hull.
+        bounds: what of it is uncertain or stands out.
+        told: outline as it was reported.
+        outline: the same, grown by its bounds.
+        hull: convex hull of the grown one.
         plain: around the hull, with few corners.
     """
 
-    def __init__(self, outline: Sequence[Point], robot: RobotOutline, margins: Margins, heading: float = 0.0):
-        """heading: of the Car in the frame of the plan, rad; its sides run along it."""
-        self._margins, self._heading = margins, heading
-        self.robot = robot
-        self.outline = polygon_of(outline)
+    def __init__(self, outline: Sequence[Point], robot: RobotOutline, margins: Margins, car: Pose2 = FRAME,
+                 bounds: CarBounds = EXACT_BOUNDS):
+        """outline and car, the Car's pose, are in the frame of the plan."""
+        self._margins, self._car = margins, car
+        self.robot, self.bounds = robot, bounds
+        self.told = polygon_of(outline)
+        self.outline = grown(self.told, car.heading, bounds.total)
         self.hull: Polygon = orient(self.outline.convex_hull)
         self.plain: Polygon = plain_of(self.hull)
         self._edge = _sampled(self.outline)
-        self._edge_in_car = _rotated(*self._edge, -heading)
-        self._mirrored = _widened(self.hull, heading, max(0.0, robot.front_m + margins.mirror_m - self.pivot_gap_m))
+        self._body_in_car = self._body()
+        # Gaps of the key from the grown outline, by side.
+        self._required = self._required_gaps()
+        self._turning = grown(self.hull, car.heading, Growth(*(
+            max(0.0, robot.front_m + gap_m - self.pivot_gap_m) for gap_m in self._required)))
+
+    def _body(self) -> Tuple[FloatArray, FloatArray]:
+        """Edge of the grown body in the Car's frame. What stands out of the Car's size in the LiDARs' plane, such as
+        noise and a tow bar, is left out: mirror_m and protrusion_m count from the size."""
+        length, width = self.bounds.size
+        inside = self.told
+        if math.isfinite(length + width):
+            rectangle = Polygon([self._car.apply(0.5 * x * length, 0.5 * y * width) for x, y in CORNERS])
+            inside = self.told.intersection(rectangle)
+        if not isinstance(inside, Polygon) or inside.is_empty:
+            inside = self.told
+        return _in_axes(self._car, *_sampled(grown(inside, self._car.heading, self.bounds.total)))
+
+    def _required_gaps(self) -> Growth:
+        """What was entered as a fitting stands out of an end, and nothing else does."""
+        margins, growth = self._margins, self.bounds.growth
+        ends = (margins.keep_out_m if fitting_m else margins.protrusion_m - min(CONTROL_M, growth_m)
+                for growth_m, fitting_m in zip(growth[:2], self.bounds.fittings))
+        return Growth(*ends, *(margins.mirror_m - min(CONTROL_M, growth_m) for growth_m in growth[2:]))
+
+    def without_growth(self) -> "KeepOut":
+        """The same Car as if everything of it were known."""
+        return KeepOut(list(self.told.exterior.coords)[:-1], self.robot, self._margins, self._car,
+                       CarBounds(fittings=self.bounds.fittings, size=self.bounds.size))
+
+    @property
+    def least_clearance_m(self) -> float:
+        """The footprint never gets closer to the grown outline by plan."""
+        return self._margins.keep_out_m
 
     @property
     def pivot_gap_m(self) -> float:
@@ -73,21 +115,42 @@ class KeepOut:
         aside = np.maximum(np.abs(cos * dy - sin * dx) - self.robot.half_width_m, 0.0)
         return np.sqrt((ahead * ahead + aside * aside).min(axis=1))
 
-    def key_gaps(self, poses: FloatArray) -> FloatArray:
-        """Distance across the Car of what is foremost, the key, from the side that it is beside; else infinite."""
-        front_m = self.robot.front_m
-        x, y = _rotated(poses[:, 0] + front_m * np.cos(poses[:, 2]), poses[:, 1] + front_m * np.sin(poses[:, 2]),
-                        -self._heading)
-        along, across = self._edge_in_car[0] - x[:, None], self._edge_in_car[1] - y[:, None]
-        return np.where(np.abs(along) <= OUTLINE_STEP_M, np.abs(across), np.inf).min(axis=1)
+    def gaps_beyond(self, pose: Pose2) -> Growth:
+        """How far beyond the line of each side of the grown body the key is; negative: on the Car's side of it."""
+        x, y = _in_axes(self._car, *(np.array(value) for value in self.robot_front(pose)))
+        along, across = self._body_in_car
+        return Growth(float(x - along.max()), float(along.min() - x), float(y - across.max()), float(across.min() - y))
+
+    def robot_front(self, pose: Pose2) -> Point:
+        """Where the key's front is."""
+        return pose.apply(self.robot.front_m, 0.0)
+
+    def key_room(self, poses: FloatArray) -> FloatArray:
+        """How much farther than it must be what is foremost, the key, is from the side or end that it is before."""
+        front_m, cos, sin = self.robot.front_m, np.cos(poses[:, 2]), np.sin(poses[:, 2])
+        x, y = _in_axes(self._car, poses[:, 0] + front_m * cos, poses[:, 1] + front_m * sin)
+        along, across = self._body_in_car[0] - x[:, None], self._body_in_car[1] - y[:, None]
+        beside = np.where(np.abs(along) <= OUTLINE_STEP_M, np.abs(across), np.inf).min(axis=1)
+        before = np.where(np.abs(across) <= OUTLINE_STEP_M, np.abs(along), np.inf).min(axis=1)
+        required = np.where(y > 0.0, self._required.left, self._required.right)
+        return np.minimum(beside - required, before - self._required_before(x, poses[:, 2]))
+
+    def _required_before(self, x: FloatArray, headings: FloatArray) -> FloatArray:
+        """Gap of a key at x of the Car from the end that it is before, by the robot's heading."""
+        is_ahead, forward = x > 0.0, np.cos(headings - self._car.heading)
+        is_approach = np.where(is_ahead, self.bounds.front_is_known & (forward < -APPROACH_COSINE),
+                               self.bounds.rear_is_known & (forward > APPROACH_COSINE))
+        required = np.where(is_ahead, self._required.front, self._required.rear)
+        return np.where(is_approach, np.minimum(required, self._margins.keep_out_m), required)
 
     def room(self, poses: FloatArray) -> FloatArray:
         """How much farther than they must be footprint and key (columns) are from the Car; negative: too close."""
         clearances = self.clearances(poses)
         # The key is part of the footprint: where that is farther away, so is the key.
-        key_gaps, is_close = np.full_like(clearances, np.inf), clearances < self._margins.mirror_m
-        key_gaps[is_close] = self.key_gaps(poses[is_close])
-        return np.column_stack((clearances - self._margins.keep_out_m, key_gaps - self._margins.mirror_m))
+        widest_m = max(self._margins.mirror_m, self._margins.protrusion_m)
+        key_room, is_close = np.full_like(clearances, np.inf), clearances < widest_m
+        key_room[is_close] = self.key_room(poses[is_close])
+        return np.column_stack((clearances - self._margins.keep_out_m, key_room))
 
     def least_room(self, start: Pose2) -> FloatArray:
         """Room that a way from the start must leave: where there is too little it may not become less."""
@@ -99,17 +162,13 @@ class KeepOut:
             return 0.0
         return float(self.clearances(rows_of(pose))[0])
 
-    def key_gap(self, pose: Pose2) -> float:
-        """Distance of the key from the Car's side beside it."""
-        return float(self.key_gaps(rows_of(pose))[0])
-
     def distance(self, pose: Pose2) -> float:
         """Distance of the turn centre from the hull."""
         return float(self.hull.distance(ShapelyPoint(pose.x, pose.y)))
 
     def turn_distance(self, pose: Pose2) -> float:
-        """Distance of the turn centre from the hull, less what a turn of the key needs more beside the Car."""
-        return float(self._mirrored.distance(ShapelyPoint(pose.x, pose.y)))
+        """Distance of the turn centre from the hull, less what a turn of the key needs beyond the footprint."""
+        return float(self._turning.distance(ShapelyPoint(pose.x, pose.y)))
 
     def crosses(self, line: Sequence[Point], gap_m: float) -> bool:
         """True when the turn centre would come closer to the hull than the gap on the line."""
@@ -121,15 +180,10 @@ def rows_of(pose: Pose2) -> FloatArray:
     return np.array([[pose.x, pose.y, pose.heading]])
 
 
-def _rotated(x: FloatArray, y: FloatArray, angle: float) -> Tuple[FloatArray, FloatArray]:
-    cos, sin = math.cos(angle), math.sin(angle)
-    return cos * x - sin * y, sin * x + cos * y
-
-
-def _widened(hull: Polygon, heading: float, by_m: float) -> Polygon:
-    """The convex hull with both sides moved outwards, across the heading."""
-    x, y = -by_m * math.sin(heading), by_m * math.cos(heading)
-    return translate(hull, x, y).union(translate(hull, -x, -y)).convex_hull
+def _in_axes(frame: Pose2, x: FloatArray, y: FloatArray) -> Tuple[FloatArray, FloatArray]:
+    """Coordinates of points as seen from a pose."""
+    cos, sin, dx, dy = math.cos(frame.heading), math.sin(frame.heading), x - frame.x, y - frame.y
+    return cos * dx + sin * dy, cos * dy - sin * dx
 
 
 def centres(zone: Polygon, radius: float, gap_m: float) -> List[Point]:

@@ -14,6 +14,7 @@ from ..parameters import MotionParameters
 from ..timing.plan import Moving, Plan, PlanPart, PlanRefused
 from .assembly import Assembly, line, pivot
 from .candidates import MOVING_MPS, WayCandidates
+from .goal_check import problem_at
 from .options import StraightPiece, Target
 
 # A robot this close to the goal's axis drives straight along it; the controller takes the rest out on the way, as early
@@ -93,11 +94,9 @@ class Planning:
             DETOUR_SHARE * start.distance_to(goal) + DETOUR_M)
 
     def _check(self, start: Pose2, goal: Pose2) -> None:
-        margins = self._parameters.margins
-        for left, low in ((self._keep_out.clearance(goal), margins.keep_out_m),
-                          (self._keep_out.key_gap(goal), margins.mirror_m)):
-            if left < low:
-                raise PlanRefused(problems.GOAL_TOO_CLOSE(left_m=left, low_m=low))
+        problem = problem_at(goal, self._keep_out)
+        if problem:
+            raise PlanRefused(problem)
         if self._keep_out.clearance(start) < MIN_CLEARANCE_M:
             raise PlanRefused(problems.ROBOT_TOO_CLOSE())
         if self._fence and not self._fence.holds_pose(goal):
