@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
-	bench bench-kills fuzz fuzz-commands hostile-texts bench-motion bench-localization bench-range bench-gui bench-stalls bench-real-time \
+	bench bench-kills fuzz fuzz-commands hostile-texts bench-motion bench-clearance bench-localization bench-range bench-gui bench-stalls bench-real-time \
 	bench-truth red-team sanitize bench-link bench-real bench-results bench-campaign browser-test bench-faults fault-matrix soak bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
@@ -28,6 +28,8 @@ PORT ?=
 # For `make bench-kills`: how many of each scenario, of the application and of the robot's nodes.
 KILLS ?= 1000
 NODE_KILLS ?= 100
+# For `make bench-clearance`: how many Cars.
+CARS ?= 200
 RVIZ ?= $(if $(DISPLAY),true,false)
 
 STAMPS := .setup
@@ -142,6 +144,9 @@ bench-motion: setup build ## Benchmark of the robot's motion; figures in out/ben
 
 # Set by a developer: --quick, --only NAME, --keep FOLDER, --kidnappings N, --kidnappings-only.
 BENCH_OPTIONS ?=
+bench-clearance: setup build ## Whole tests around 200 random Cars, swept against their true bodies; figures in out/bench/car_clearance.json; CARS=200
+	@$(RUN) python -m mtr_benchmarks.car_clearance --cars $(CARS) --seed $(SEED) --out out/bench
+
 bench-localization: setup build ## Localization and Car locator against the truth, odometry and MRPT's SLAM
 	@setup/install.sh setup/debian-bench-packages.txt
 	@cmake -S catkin_ws/src/mtr_benchmarks/mrpt_icp_slam -B out/bench/mrpt >/dev/null && cmake --build out/bench/mrpt >/dev/null
