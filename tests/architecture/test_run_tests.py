@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import importlib.util
 import pathlib
+import re
 
 import pytest
+from project import tracked
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "setup" / "run_tests.py"
 FAILED = ('<testsuite failures="1"><testcase classname="place" name="test_good"/>'
@@ -39,3 +41,13 @@ def test_report_of_rostests_process_and_suites_that_did_not_run_say_nothing(runn
     report = FAILED.format(kind="failure", message="It stood.", text="")
     (runner.RESULTS / "unit" / "rostest-a.xml").write_text(report, encoding="utf-8")
     assert runner.failures(["unit", "lint"]) == []
+
+
+# A test that starts nodes takes some seconds; on a machine with a load of ten for two cores it takes minutes.
+LEAST_TIME_LIMIT_S = 300.0
+
+
+@pytest.mark.parametrize("path", tracked("*.test"), ids=lambda path: path.name)
+def test_time_limit_of_a_rostest_ends_what_hangs_and_not_what_is_slow(path):
+    limits = re.findall(r'<test [^>]*time-limit="([\d.]+)"', path.read_text(encoding="utf-8"))
+    assert limits and all(float(limit) >= LEAST_TIME_LIMIT_S for limit in limits)
