@@ -2,8 +2,11 @@
 """Localization says in time that a sensor is silent, and its pose never jumps."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import pathlib
 import signal
+import subprocess
 import sys
+import tempfile
 import unittest
 import xmlrpc.client
 
@@ -20,6 +23,7 @@ from mtr_core import names, schedule
 from mtr_core.lockstep.publishers import direct_publisher
 from mtr_msgs.msg import LocalizedPose
 
+SLOW_READER = pathlib.Path(__file__).resolve().parent / "slow_reader.c"
 # Parameters of mtr_localization: gap_limit_s; standstill_settling_s and bias_time_s together.
 GAP_LIMIT_NS = 200_000_000
 STANDSTILL_S = 1.5
@@ -74,9 +78,10 @@ class Localization(unittest.TestCase):
     def setUp(self):
         self.begin()
 
-    def begin(self):
-        """Start localization, and go on until the robot moves."""
-        self.node = NodeProcess("mtr_localization", "localization_node", "localization", rear_lidar=False)
+    def begin(self, **variables):
+        """Start localization, and go on until the robot moves. variables: of its environment."""
+        self.node = NodeProcess("mtr_localization", "localization_node", "localization", variables=variables,
+                                rear_lidar=False)
         # Also when the set-up fails: two nodes of one name end each other.
         self.addCleanup(self.end)
         self.heard = []
@@ -154,11 +159,29 @@ class Localization(unittest.TestCase):
         self.assertAlmostEqual(self.heard[-1].x, before.x, places=6)
         self.assert_no_jump()
 
-    def test_node_that_is_woken_late_calls_nobody_silent_who_has_spoken(self):
+    def begin_without_lockstep(self, **variables):
+        """Start localization again, with a clock that waits for nobody."""
         self.end()
         rospy.set_param("/lockstep", False)
         self.addCleanup(rospy.set_param, "/lockstep", True)
-        self.begin()
+        self.begin(**variables)
+
+    def test_node_that_is_woken_late_calls_nobody_silent_who_has_spoken(self):
+        self.begin_without_lockstep()
+        self.assert_answers_what_was_said_while_it_stood()
+
+    def test_node_that_reads_slowly_calls_nobody_silent_whose_messages_have_arrived(self):
+        # The connection of the wheels is ready first, and the node reads it to its end before that of the IMU.
+        self.time.speakers.reverse()
+        self.addCleanup(self.time.speakers.reverse)
+        with tempfile.TemporaryDirectory() as folder:
+            library = pathlib.Path(folder) / "slow_reader.so"
+            subprocess.run(["gcc", "-shared", "-fPIC", "-o", library, SLOW_READER, "-ldl"], check=True)
+            self.begin_without_lockstep(LD_PRELOAD=str(library))
+            self.assert_answers_what_was_said_while_it_stood()
+
+    def assert_answers_what_was_said_while_it_stood(self):
+        """Stop the node's process for twice the gap limit; then each pose of that time is valid."""
         self.node.signal(signal.SIGSTOP)
         begun_ns, steps = self.time.tick_ns, 2 * GAP_LIMIT_NS // STEP_NS
         try:

@@ -1,6 +1,7 @@
 """A node as a child process, for tests that need it fresh, slow or dead."""
 # SPDX-License-Identifier: Apache-2.0
 import json
+import os
 import signal
 import subprocess
 from types import MappingProxyType
@@ -16,14 +17,15 @@ class NodeProcess:
     """One run of a node; parameters are private ones."""
 
     def __init__(self, package: str, executable: str, name: str, remaps: Mapping[str, str] = MappingProxyType({}),
-                 **parameters: Any):
-        """remaps: topics by other names."""
+                 variables: Mapping[str, str] = MappingProxyType({}), **parameters: Any):
+        """remaps: topics by other names. variables: further ones of its environment."""
         path = roslib.packages.find_node(package, executable)[0]
         # Of C++ nodes a quoted text would keep its quotes.
         values = [f"_{key}:={value if isinstance(value, str) else json.dumps(value)}"
                   for key, value in parameters.items()]
         others = [f"{old}:={new}" for old, new in remaps.items()]
-        self._process = subprocess.Popen([path, f"__name:={name}", *others, *values], stdout=subprocess.PIPE, text=True)
+        self._process = subprocess.Popen([path, f"__name:={name}", *others, *values], stdout=subprocess.PIPE, text=True,
+                                         env={**os.environ, **variables})
 
     def signal(self, number: int) -> None:
         """Send it a signal."""

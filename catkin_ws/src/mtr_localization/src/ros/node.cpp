@@ -7,6 +7,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/Imu.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,6 +25,10 @@ namespace {
 namespace names = mtr_core::names;
 
 constexpr double kPeriodS = static_cast<double>(mtr_core::kLocalization.period_ns) * 1e-9;
+// Wheels and IMU publish every period; a message that is later than this may have arrived and wait to be read.
+constexpr std::int64_t kUnreadAfterNs = 5 * mtr_core::kLocalization.period_ns / 2;
+// A busy machine suspends the reading thread for less than this.
+constexpr double kReadWithinS = 0.25;
 
 template <typename M, typename Callback>
 ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic, Callback callback) {
@@ -112,16 +117,30 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
                                        [this](const auto& message) { receive_imu(imu_sample_of(message)); })),
       wheels_(subscribe<nav_msgs::Odometry>(node, names::kWheelOdometry, [this](const auto& message) {
         waiting_.push_back(wheel_sample_of(message));
-        waiting_.back().stamp_ns = time_of(waiting_.back().stamp_ns, ages_.wheels_ns);
+        newest_wheels_ns_ = waiting_.back().stamp_ns = time_of(waiting_.back().stamp_ns, ages_.wheels_ns);
       })) {
   subscribe_to_time(node);
 }
 
 void Node::spin() {
   while (mtr_core::run_callbacks(mtr_core::kShutdownCheckS)) {
+    const std::int64_t newest_ns = waiting_.empty() ? 0 : waiting_.back().stamp_ns;
+    if (may_have_unread(std::max(newest_ns, silence_due_ns_.value_or(0)))) {
+      read_arrived();
+    }
     answer_waiting();
     check_silence();
   }
+}
+
+bool Node::may_have_unread(std::int64_t now_ns) const {
+  // In lock-step the clock waits for what is due.
+  return !mtr_core::is_lockstep() && now_ns - std::min(newest_imu_ns_, newest_wheels_ns_) > kUnreadAfterNs;
+}
+
+void Node::read_arrived() {
+  barrier_.wait(kReadWithinS);
+  mtr_core::run_callbacks(0.0);
 }
 
 void Node::check_silence() {
@@ -158,7 +177,7 @@ void Node::subscribe_to_time(ros::NodeHandle& node) {
 }
 
 void Node::receive_imu(ImuSample sample) {
-  sample.stamp_ns = time_of(sample.stamp_ns, ages_.imu_ns);
+  newest_imu_ns_ = sample.stamp_ns = time_of(sample.stamp_ns, ages_.imu_ns);
   publish_measured([&] { return source_->add_imu(sample); });
 }
 
@@ -171,7 +190,7 @@ void Node::publish(std::vector<Estimate> estimates) {
 
 void Node::receive_sweep(Sweep sweep) {
   sweep.stamp_ns = time_of(sweep.stamp_ns, sweep.lidar == Lidar::kFront ? ages_.front_ns : ages_.rear_ns);
-  if (!mtr_core::is_lockstep()) {
+  if (!mtr_core::is_lockstep() && !(!waiting_.empty() && may_have_unread(waiting_.back().stamp_ns))) {
     // A node that was woken late has received both at once: the wheels came first.
     answer_waiting();
   }

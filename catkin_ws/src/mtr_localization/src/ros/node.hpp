@@ -25,6 +25,7 @@
 #include "ros/gnss_input.hpp"
 #include "ros/memory_files.hpp"
 #include "ros/outputs.hpp"
+#include "ros/poll_barrier.hpp"
 #include "ros/robot_frames.hpp"
 #include "ros/scan_input.hpp"
 #include "ros/work_load.hpp"
@@ -67,6 +68,10 @@ class Node {
   void receive_order(const mtr_msgs::MappingOrder& message);
   void answer(const WheelSample& wheels);
   void answer_waiting();
+  /// True when the newest message of wheels or IMU is so old at a time that one more may have arrived unread.
+  bool may_have_unread(std::int64_t now_ns) const;
+  /// Runs the callbacks of all that has arrived; not from within one. What the wheels said is waiting_ then.
+  void read_arrived();
   /// After all that has come was taken: a node that was woken late would else call silent what has spoken meanwhile.
   void check_silence();
   void publish(std::vector<Estimate> estimates);
@@ -102,6 +107,10 @@ class Node {
   ros::SteadyTimer timer_;
   std::deque<WheelSample> waiting_;
   std::optional<std::int64_t> silence_due_ns_;
+  PollBarrier barrier_;
+  // Stamps on the steady clock; 0 before the first message.
+  std::int64_t newest_imu_ns_ = 0;
+  std::int64_t newest_wheels_ns_ = 0;
   SilenceTurn silence_turn_{mtr_core::kLocalization.period_ns};
   std::string scan_problem_;
 };
