@@ -161,11 +161,13 @@ bench-real: setup build ## Localization on recordings of real robots, beside MRP
 	@$(RUN) python -m mtr_benchmarks.real $(BAGS) --mrpt out/bench/mrpt/mrpt_icp_slam --out out/bench $(REAL_OPTIONS)
 
 RADIALS ?= 1000
+# Of each kind of whole tests at the limit; 1000 of them take a night.
+LIMIT_LINES ?= 48
 bench-range: setup build ## Ranges of both scenarios on Cars that fade, lapse and poll; figures in out/bench/range.json
 	@setup/install.sh setup/debian-range-packages.txt
 	@$(RUN) python -m pip install --quiet --no-warn-conflicts --no-deps --upgrade --target out/bench/tools -r setup/range-requirements.txt
 	@$(RUN) OPENBLAS_NUM_THREADS=1 PYTHONPATH=$$PYTHONPATH:$(CURDIR)/out/bench/tools \
-		python -m mtr_benchmarks.ranges --seed $(SEED) --radials $(RADIALS) --axes $(RADIALS) --out out/bench
+		python -m mtr_benchmarks.ranges --seed $(SEED) --radials $(RADIALS) --axes $(RADIALS) --limit-lines $(LIMIT_LINES) --out out/bench
 
 bench-gui: setup build ## The Operator's window: Stop, pictures, processor, memory, start; figures in out/bench/gui.json
 	@$(RUN) xvfb-run -a -s "-screen 0 1440x1000x24 -nolisten tcp" env QT_QPA_PLATFORM=xcb \

@@ -49,6 +49,13 @@ def test_rows_tell_the_worst_kind_of_car():
     assert rows["coverage of whole tests at the limit, least"].value == 0.9
 
 
+def test_kinds_of_one_scenario_are_judged_together():
+    few, many = [judged("pass")] * 2, [judged("inconclusive")] * 98
+    details = {AT_LIMIT: {"key_press/steady/4": limit_figures(few), "key_press/fading/4": limit_figures(many)}}
+    row = whole_tests(details)[0]
+    assert row.value == pytest.approx(0.02) and row.details == {"key_press/steady/4": 1.0, "key_press/fading/4": 0.0}
+
+
 def test_what_was_not_measured_has_no_row():
     assert whole_tests({}) == []
     assert len(whole_tests({OVER_GROUND: {"868_mhz": {"coverage_95": 0.95}}})) == 2

@@ -22,9 +22,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--radials", type=int, default=1000, help="of each width, with and without fading")
     parser.add_argument("--axes", type=int, default=1000, help="of each polling")
     parser.add_argument("--places", type=int, default=2000, help="of each kind of phone")
+    parser.add_argument("--limit-lines", type=int, default=48,
+                        help="of each kind of whole tests at the limit; some 10 s of processor time each")
     parser.add_argument("--jobs", type=int, default=2, help="processes")
     options = parser.parse_args(arguments)
-    found = measure(Amount(options.radials, options.axes, options.seed, options.jobs))
+    found = measure(Amount(options.radials, options.axes, options.seed, options.jobs, options.limit_lines))
     phones = measure_phones(options.places, options.seed)
     return finish(report(found, phones), options.out / "range.json")
 

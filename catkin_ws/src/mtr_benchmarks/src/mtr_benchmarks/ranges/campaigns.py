@@ -27,12 +27,13 @@ POLLINGS = {"poll_300_cycle_200": Polling(), "poll_100_cycle_20": Polling(0.1, 0
 
 
 class Amount(NamedTuple):
-    """How much is measured: lines of each kind, and processes."""
+    """How much is measured: lines of each kind, and processes; limit_lines: of each kind of whole tests."""
 
     radials: int
     axes: int
     seed: int
     jobs: int
+    limit_lines: int = 48
 
 
 class Task(NamedTuple):
@@ -90,9 +91,10 @@ def _limit_tasks(amount: Amount) -> List[Task]:
                 made += [Task((search, kind, f"{lines}"), LimitDraw(
                     search, Radio(LIMIT_WIDTH_M, share, lapse), lines,
                     seed_of(amount.seed, 80 + column, 10 * row + place, number)))
-                    for number in range(-(-amount.radials // lines))]
+                    for number in range(-(-amount.limit_lines // lines))]
         made += [Task(("autolock", "poll_300_cycle_200", f"{lines}"), AxesLimitDraw(
-            Polling(), lines, seed_of(amount.seed, 82, row, number))) for number in range(-(-amount.axes // lines))]
+            Polling(), lines, seed_of(amount.seed, 82, row, number)))
+            for number in range(-(-amount.limit_lines // lines))]
     return made
 
 
