@@ -200,7 +200,7 @@ class RobotLink(ABC):
         """
 
     def is_answered(self, status: RobotStatus) -> bool:
-        """True when the robot had taken what was sent last as it sent this Status; always so on a link without delay."""
+        """True when the robot had received the last order before it sent this Status; always so without delay."""
         return True
 
     @abstractmethod
