@@ -10,6 +10,7 @@ from mtr_operator.car_link.database.codec import SignalReader, encode
 from mtr_operator.car_link.database.load import load_database
 from mtr_operator.car_link.further.spoken_frames import SpokenFrames
 from mtr_operator.car_link.profile import PROFILE_FOLDER, load_profile
+from mtr_operator.cli import main
 from mtr_operator.cli.cars.trying import try_profile
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
@@ -217,6 +218,12 @@ def test_values_are_those_of_the_library(message):
 def test_signed_states_are_known_by_either_value(tmp_path, sign, order, states):
     path = written(tmp_path, swapped("0|2@1+", order + sign), PROFILE.replace("{1: locked, 2: unlocked}", states))
     assert spoken_states(load_profile(path)) == [LockState.LOCKED, LockState.UNLOCKED, LockState.LOCKED]
+
+
+def test_value_that_a_simulated_car_cannot_send_is_a_sentence(tmp_path, capsys):
+    path = written(tmp_path, profile=PROFILE + "key_number: {signal: COUNT, under_test: 300}\n")
+    assert main(["try", path]) == 2
+    assert "Signal COUNT of message DOORS cannot carry the value 300." in capsys.readouterr().err
 
 
 def test_one_value_with_two_meanings_is_refused(tmp_path):

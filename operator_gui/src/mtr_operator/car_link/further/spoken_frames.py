@@ -9,7 +9,7 @@ import can
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
 
-from ..database.codec import encode
+from ..database.codec import as_decoded, encode
 from ..phone.car_signal import PhoneSignal
 from ..profile import CarProfile
 from .declared import CauseSignal, MessageKey
@@ -79,7 +79,11 @@ class SpokenFrames:
         return SpokenFrame(FIRST_BUS, _sent(message, self._data(message)))
 
     def _data(self, message: Any) -> bytes:
-        return encode(message, dict(self._wanted(message)))
+        wanted = dict(self._wanted(message))
+        for name, value in wanted.items():
+            if as_decoded(message.get_signal_by_name(name), value) is None:
+                raise ConnectionFailed(f"Signal {name} of message {message.name} cannot carry the value {value}.")
+        return encode(message, wanted)
 
     def _wanted(self, message: Any) -> Iterator[tuple[str, int]]:
         profile, further = self._profile, self._profile.further
