@@ -8,7 +8,7 @@ from typing import Iterator
 
 _MESSAGE = re.compile(r"BO_\s+(\d{1,10})\s+([^:\"]*?)\s*:\s*(\d{1,6})(?:\s|$)")
 _SIGNAL = re.compile(
-    r"SG_\s+([^:\"]*?)(?:\s+(M|m\d{1,10}M?))?\s*:\s*(\d{1,6})\s*\|\s*(\d{1,6})\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)\s*,"
+    r"SG_\s+([^:\"]*?)(?:\s+(M|m\d{1,10}M?|m))?\s*:\s*(\d{1,6})\s*\|\s*(\d{1,6})\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)\s*,"
     r"\s*([^,()]*?)\s*\)\s*(?:\[[^\]]*?\|[^\]]*\])?\s*(?:\"([^\"]*)\")?")
 _RANGE = re.compile(r"\[\s*([^|\]]*?)\s*\|\s*([^\]]*?)\s*\]")
 _NAMED = re.compile(r"(BO_|SG_)\s+(?:\d+\s+)?([^:\s\"]+)")
@@ -112,6 +112,7 @@ def _signal(number: int, line: str) -> DbcSignal:
     if match is None:
         return DbcSignal(_name(line), number, line, problem="the line is not complete")
     name, page, start, length, order, sign, scale, offset, unit = match.groups("")
+    page = "M" if page == "m" else page
     limits = _RANGE.search(line)
     signal = DbcSignal(_spelled(name), number, line, page, int(start), int(length), order == "0", sign == "-",
                        scale=scale, offset=offset, unit=unit,
