@@ -21,6 +21,7 @@ from mtr_operator.evidence.verification import verify_bundle
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.lock import Lock
 from mtr_operator.storage.progress_file import open_progress
+from mtr_operator.storage.recorded.folders import car_folder
 from mtr_operator.storage.recorded.kept_car import digest_text, keep_car, profile_content
 from mtr_operator.storage.store import Store
 
@@ -203,5 +204,5 @@ def test_bundle_holds_the_profile_with_which_the_test_was_measured(test, station
         assert kept.is_file()
     profile.write_bytes(content + b"\n")
     assert bundled_profile("b") == content
-    shutil.rmtree(path.parent / "car")
+    shutil.rmtree(car_folder(path))
     assert bundled_profile("c") == f"The file {profile} has changed since the test was begun."

@@ -296,6 +296,8 @@ def test_test_that_played_a_log_asks_for_it(played, capsys):
 def test_profile_that_a_record_names_relatively_is_missed_with_a_sentence(played, capsys, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     shutil.copytree(played / "test", tmp_path / "elsewhere" / "test")
+    # Of an older test no profile was kept.
+    shutil.rmtree(tmp_path / "elsewhere" / "test" / "recording" / "car")
     assert main(["replay", str(tmp_path / "elsewhere" / "test"), "--can-log", str(played / "bus.log")]) == 2
     assert "names its car profile as mended.yaml, which is neither in this folder nor above" in capsys.readouterr().err
 

@@ -22,6 +22,7 @@ from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, Ro
 from mtr_operator.station.test import Test, go_on
 from mtr_operator.storage.given_files import load_calibration
 from mtr_operator.storage.means import Means
+from mtr_operator.storage.recorded.folders import car_folder
 from mtr_operator.storage.recorded.kept_car import digest_text, keep_car, kept_profile, profile_content
 
 BEGUN = Means("192.168.0.10", "golf")
@@ -138,7 +139,7 @@ def test_same_content_by_another_path_is_the_same_profile(golf, tmp_path):
     goes_on = begun_with(golf)
     keep_car(tmp_path / "test" / "progress.json", str(golf))
     golf.write_text(PROFILE + "\n")
-    means(tmp_path / "test" / "car" / "golf.yaml").go_on(goes_on)
+    means(car_folder(tmp_path / "test" / "progress.json") / "golf.yaml").go_on(goes_on)
     assert CONTINUED in goes_on.session
 
 
@@ -169,8 +170,8 @@ def test_profile_is_kept_as_it_was_when_the_test_began(golf, tmp_path):
     assert {file.name for file in keep_car(path, str(golf))} == {"golf.yaml", "golf.dbc"}
     golf.write_text(PROFILE + "\n")
     assert keep_car(path, str(golf)) == []
-    assert (tmp_path / "test" / "car" / "golf.yaml").read_text() == PROFILE
-    assert kept_profile(path, str(golf)) == str(tmp_path / "test" / "car" / "golf.yaml")
+    assert (car_folder(tmp_path / "test" / "progress.json") / "golf.yaml").read_text() == PROFILE
+    assert kept_profile(path, str(golf)) == str(car_folder(tmp_path / "test" / "progress.json") / "golf.yaml")
     assert keep_car(path, "substitute") == keep_car(path, "") == keep_car(path, "no such profile") == []
 
 

@@ -19,8 +19,9 @@ from mtr_operator.report.files import report_files
 from mtr_operator.storage.inside import stays_inside
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.photos import photo_folder, recorded_content
-from mtr_operator.storage.recorded.kept_car import FOLDER as CAR_FOLDER
-from mtr_operator.storage.recorded.kept_car import car_folder, digest_text
+from mtr_operator.storage.recorded.folders import CAR as CAR_FOLDER
+from mtr_operator.storage.recorded.folders import car_folder
+from mtr_operator.storage.recorded.kept_car import digest_text
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs, recording_folder
 from mtr_operator.storage.recorded.scan_file import read_scans
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import pathlib
 from typing import Mapping
@@ -11,27 +12,21 @@ from mtr_operator.domain.results.session_record import SUBSTITUTE
 
 from ..atomic import output_folder, write_bytes
 from ..inside import inside, stays_inside
+from .folders import CAR, car_folder
 
-FOLDER = "car"
 _SUFFIX = ".yaml"
-_RECORD = "progress"
-
-
-def car_folder(path: pathlib.Path) -> pathlib.Path:
-    """Folder in which the test with this progress file keeps them."""
-    return path.with_name(FOLDER if path.stem == _RECORD else f"{path.stem}.{FOLDER}")
 
 
 def kept_profile(path: pathlib.Path, profile: str) -> str:
     """Of the test with this progress file, whose record names the profile by name or path: the file that was kept with
     it, or the profile as it was named where none was."""
     name = pathlib.PurePath(profile).name
-    folder = car_folder(path)
-    try:
-        kept = inside(folder, name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
-        return str(kept) if kept.is_file() and stays_inside(path.parent, folder) else profile
-    except (UnsafeName, OSError):
-        return profile
+    for folder in (path.parent / CAR, car_folder(path)):
+        with contextlib.suppress(UnsafeName, OSError):
+            kept = inside(folder, name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
+            if kept.is_file() and stays_inside(path.parent, folder):
+                return str(kept)
+    return profile
 
 
 def profile_content(profile: str) -> dict[str, bytes]:

@@ -15,13 +15,15 @@ from mtr_operator.domain.results.course import Course
 from ..inside import stays_inside
 from .course_file import CourseFile
 from .event_file import EventFile
-from .kept_car import car_folder, keep_car
+from .folders import car_folder, recording_folder
+from .kept_car import keep_car
 from .scan_file import ScanFile
+
+__all__ = ["DEFAULT_FORMAT", "NO_LOG", "RecordedRun", "Recording", "recorded_events", "recorded_runs",
+           "recording_folder"]
 
 DEFAULT_FORMAT = "blf"
 NO_LOG = "none"
-_FOLDER = "recording"
-_RECORD = "progress"
 _COURSE, _BUS, _EVENTS, _SCANS = "course", "bus", "events", "scans"
 
 
@@ -31,11 +33,6 @@ class RecordedRun(NamedTuple):
     course: pathlib.Path
     log: pathlib.Path | None
     scans: pathlib.Path | None = None
-
-
-def recording_folder(path: pathlib.Path) -> pathlib.Path:
-    """Folder of the recording of the test with this progress file."""
-    return path.with_name(_FOLDER if path.stem == _RECORD else f"{path.stem}.{_FOLDER}")
 
 
 def recorded_runs(folder: pathlib.Path) -> list[RecordedRun]:
@@ -107,6 +104,6 @@ class Recording:
         """Of a run of a test that has measured nothing."""
         for path in self._made:
             path.unlink(missing_ok=True)
-        for folder in (self._folder, car_folder(self._path)):
+        for folder in (car_folder(self._path), self._folder):
             if folder.is_dir() and not any(folder.iterdir()):
                 shutil.rmtree(folder, ignore_errors=True)
