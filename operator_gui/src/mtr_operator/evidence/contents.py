@@ -20,7 +20,7 @@ from mtr_operator.storage.inside import stays_inside
 from mtr_operator.storage.journal.journal_file import journal_path
 from mtr_operator.storage.photos import photo_folder, recorded_content
 from mtr_operator.storage.recorded.folders import CAR as CAR_FOLDER
-from mtr_operator.storage.recorded.folders import car_folder
+from mtr_operator.storage.recorded.folders import car_folder, is_own
 from mtr_operator.storage.recorded.kept_car import digest_text
 from mtr_operator.storage.recorded.recording import RecordedRun, recorded_runs, recording_folder
 from mtr_operator.storage.recorded.scan_file import read_scans
@@ -120,7 +120,7 @@ def _add_files(found: Contents, path: pathlib.Path) -> None:
     _add_own(found, journal_path(path), "")
     for folder, kept in ((recording_folder(path), "recording"), (photo_folder(path), "photos"),
                          (car_folder(path), CAR_FOLDER)):
-        if not stays_inside(path.parent, folder):
+        if not is_own(path, folder):
             found.left_out[kept] = f"The folder {folder} is a link that leads elsewhere."
             continue
         for file in sorted(folder.glob("*")):

@@ -11,8 +11,8 @@ from mtr_operator.domain.errors import OperatorError, OutputError, UnsafeName
 from mtr_operator.domain.results.session_record import SUBSTITUTE
 
 from ..atomic import output_folder, write_bytes
-from ..inside import inside, stays_inside
-from .folders import CAR, car_folder
+from ..inside import inside
+from .folders import CAR, car_folder, is_own
 
 _SUFFIX = ".yaml"
 
@@ -24,7 +24,7 @@ def kept_profile(path: pathlib.Path, profile: str) -> str:
     for folder in (path.parent / CAR, car_folder(path)):
         with contextlib.suppress(UnsafeName, OSError):
             kept = inside(folder, name if name.endswith(_SUFFIX) else f"{name}{_SUFFIX}")
-            if kept.is_file() and stays_inside(path.parent, folder):
+            if kept.is_file() and is_own(path, folder):
                 return str(kept)
     return profile
 
@@ -54,7 +54,7 @@ def keep_car(path: pathlib.Path, profile: str) -> list[pathlib.Path]:
     A file that is there stays: the test was begun with it. OutputError when that fails.
     """
     folder, made = car_folder(path), []
-    if not stays_inside(path.parent, folder):
+    if not is_own(path, folder):
         raise OutputError(f"The folder {folder} is a link that leads elsewhere; remove it.")
     for name, content in profile_content(profile).items():
         if not (folder / name).exists():
