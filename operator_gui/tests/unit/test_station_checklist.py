@@ -19,7 +19,8 @@ from mtr_operator.domain.robot_status import (
 )
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.alert import Alert, Heard, alert_of
-from mtr_operator.station.checks.checklist import Facts, Wanted, checklist, hindrances
+from mtr_operator.station.checks.check_texts import check_advice, check_text
+from mtr_operator.station.checks.checklist import UNSEEN, Facts, Wanted, checklist, hindrances
 from mtr_operator.station.checks.finding import Check, Finding, State
 from mtr_operator.station.checks.preflight_check import OLD_AFTER_S
 from mtr_operator.station.disk_watch import free_bytes
@@ -65,8 +66,20 @@ def test_each_thing_is_looked_at_in_its_order():
     shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
     assert [item.check for item in shown] == list(Check)
     assert {item.check for item in shown if item.state is not State.GOOD} == {
-        Check.PREFLIGHT, Check.SIZE, Check.WAY, Check.ROBOT_CLOCK, Check.KEY, Check.LIMITS}
+        Check.PREFLIGHT, Check.SIZE, Check.WAY, *UNSEEN, Check.ROBOT_CLOCK, Check.KEY, Check.LIMITS}
     assert not hindrances(shown)
+
+
+@pytest.mark.parametrize("silent_s", [0.1, 9.0])
+@pytest.mark.parametrize(("check", "words"), [
+    (Check.GROUND, ("lying", "chocks", "Walk around")), (Check.CABLES, ("CAN cable", "charging cable")),
+    (Check.OPENINGS, ("hatch", "by itself", "boot")), (Check.FITTINGS, ("tow bar", "rear_fitting_m"))])
+def test_what_no_sensor_shows_is_for_a_person_to_check(check, words, silent_s):
+    item = items(snapshot(), silent_s)[check]
+    assert item.state is State.UNKNOWN
+    shown = f"{check_text(item)} {check_advice(item)}"
+    assert all(word in shown for word in words)
+    assert all(len(sentence.split()) <= 30 for sentence in (check_text(item), check_advice(item)))
 
 
 @pytest.mark.parametrize(("ways", "state", "finding", "said"), [
@@ -145,7 +158,7 @@ def test_silent_robot_leaves_everything_of_it_open(silent_s):
     shown = items(snapshot(), silent_s)
     assert shown[Check.LINK].finding is Finding.LINK_SILENT and shown[Check.LINK].numbers == (silent_s,)
     assert {item.finding for check, item in shown.items()
-            if check not in (Check.LINK, Check.DISK, Check.LIMITS)} == {Finding.UNHEARD}
+            if check not in (Check.LINK, Check.DISK, Check.LIMITS, *UNSEEN)} == {Finding.UNHEARD}
     assert items(None)[Check.LINK].state is State.BAD
 
 

@@ -16,7 +16,7 @@ from mtr_operator.domain.actions.control_loop import MAX_BLIND_S
 from mtr_operator.domain.ports import LockState, RobotLink
 from mtr_operator.domain.robot_status import EmergencyStop, RobotStatus
 from mtr_operator.station.checks.check_texts import check_advice, check_text, check_title
-from mtr_operator.station.checks.checklist import Facts, checklist
+from mtr_operator.station.checks.checklist import UNSEEN, Facts, checklist
 from mtr_operator.station.checks.finding import Check, Finding, Item, State
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.mailbox import Mailbox
@@ -26,7 +26,7 @@ from mtr_operator.station.readiness import LINK_LOST_CODE
 LISTEN_S = 3.0
 _POLL_S = 0.1
 # Of Car, laptop and chosen test, which nobody asks a robot for.
-_NOT_OF_ROBOT = (Check.WAY, Check.BUS, Check.LOCKS, Check.CLOCK, Check.KEY, Check.DISK, Check.LIMITS)
+_NOT_OF_ROBOT = (Check.WAY, *UNSEEN, Check.BUS, Check.LOCKS, Check.CLOCK, Check.KEY, Check.DISK, Check.LIMITS)
 # Twice this and nothing that moves is sent: the robot would stop again and again.
 _LONG_GAP_S = MAX_BLIND_S / 2
 _MS_PER_S = 1000.0

@@ -1038,6 +1038,64 @@
         <location filename="../../station/checks/check_texts.py" line="203"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Ground next to the Car</source>
+        <translation>Zem vedle auta</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Cables</source>
+        <translation>Kabely</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Doors and lids</source>
+        <translation>Dveře a víka</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Fittings</source>
+        <translation>Nástavby</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>The LiDARs see nothing below their plane: no person lying or kneeling, no child, no wheel chocks.</source>
+        <translation>LiDARy nevidí nic pod svou rovinou: nikoho, kdo leží nebo klečí, dítě ani zakládací klíny.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>The robot does not see cables, and drives around the whole Car.</source>
+        <translation>Robot kabely nevidí a objíždí celé auto.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>The robot does not see an open door, lid or tailgate above the LiDARs. A hatch may open by itself for a key behind the Car.</source>
+        <translation>Otevřené dveře, víko ani čelo korby nad LiDARy robot nevidí. Víko kufru se může samo otevřít, je-li klíč za autem.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>The robot keeps 25 cm for what stands out above or below the LiDARs, such as a spare wheel or a tow bar.</source>
+        <translation>Robot nechává 25 cm na to, co vyčnívá nad LiDARy nebo pod nimi, například rezervní kolo nebo tažné zařízení.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Walk around the Car: nobody within 2 m, wheel chocks removed.</source>
+        <translation>Obejděte auto: do 2 m nikdo, klíny odstraněny.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
+        <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
+        <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
+        <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
 </context>
 <context>

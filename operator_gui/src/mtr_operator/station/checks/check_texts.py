@@ -43,6 +43,8 @@ def check_title(check: Check, speech: Speech = ENGLISH) -> str:
         Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
         Check.POSITION: translate("Check", "Position"), Check.SIZE: translate("Check", "Car's size"),
         Check.WAY: translate("Check", "Way of the lines"),
+        Check.GROUND: translate("Check", "Ground next to the Car"), Check.CABLES: translate("Check", "Cables"),
+        Check.OPENINGS: translate("Check", "Doors and lids"), Check.FITTINGS: translate("Check", "Fittings"),
         Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
         Check.BATTERY: translate("Check", "Battery"),
         Check.BUS: translate("Check", "CAN bus"), Check.LOCKS: translate("Check", "Car's locks"),
@@ -59,7 +61,8 @@ def check_text(item: Item, speech: Speech = ENGLISH) -> str:
     finding, said = item.finding, speech.sentence(item.said).replace("{", "{{").replace("}", "}}")
     first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
     texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said),
-             **_of_place(translate, said, bool(item.numbers)), **_of_way(translate, said), **_of_battery(translate),
+             **_of_place(translate, said, bool(item.numbers)), **_of_way(translate, said), **_of_unseen(translate),
+             **_of_battery(translate),
              **_of_car(translate, said, is_cyclic=not math.isnan(second)), **_of_files(translate, said)}
     return texts[finding].format(first=_shown(speech, item, first), second=_shown(speech, item, second, 1),
                                  age="" if math.isnan(third) else speech.duration(third),
@@ -135,6 +138,18 @@ def _of_way(translate: Translate, lines: str) -> dict[Finding, str]:
     }
 
 
+def _of_unseen(translate: Translate) -> dict[Finding, str]:
+    return {
+        Finding.GROUND_UNSEEN: translate("Check", "The LiDARs see nothing below their plane: no person lying or "
+                                                  "kneeling, no child, no wheel chocks."),
+        Finding.CABLES_UNSEEN: translate("Check", "The robot does not see cables, and drives around the whole Car."),
+        Finding.OPENINGS_UNSEEN: translate("Check", "The robot does not see an open door, lid or tailgate above the "
+                                                    "LiDARs. A hatch may open by itself for a key behind the Car."),
+        Finding.FITTINGS_UNSEEN: translate("Check", "The robot keeps 25 cm for what stands out above or below the "
+                                                    "LiDARs, such as a spare wheel or a tow bar."),
+    }
+
+
 def _of_battery(translate: Translate) -> dict[Finding, str]:
     return {
         Finding.BATTERY_FINE: translate("Check", "At {first} %; what a test takes is told when it is chosen."),
@@ -193,6 +208,13 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
         Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),
+        Finding.GROUND_UNSEEN: translate("Check", "Walk around the Car: nobody within 2 m, wheel chocks removed."),
+        Finding.CABLES_UNSEEN: translate("Check", "Put the laptop into the Car, or tape the CAN cable flat to the "
+                                                  "ground. Unplug the charging cable."),
+        Finding.OPENINGS_UNSEEN: translate("Check", "Close doors, bonnet, boot and tailgate. Switch off a hatch that "
+                                                    "opens by itself, in the Car's menu."),
+        Finding.FITTINGS_UNSEEN: translate("Check", "Remove carriers and larger fittings, or start the robot with "
+                                                    "front_fitting_m or rear_fitting_m."),
         Finding.POSITION_LOST: translate("Check", "Drive or turn it by hand where it sees the Car; if it stays lost, "
                                                   "map the Car again under Calibrate."),
         Finding.SIZE_OF_PLANE: translate("Check", "Start the robot with length and width of the data sheet (car_file), "

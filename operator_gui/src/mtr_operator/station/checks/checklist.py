@@ -16,6 +16,9 @@ from .preflight_check import preflight
 # A long test with its pictures takes some 20 MB, and its journal is written before the robot goes on.
 LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
 _BYTES_PER_MB = 1e6
+# No sensor of the robot shows these, so a person has to check them before it drives around the Car.
+UNSEEN = {Check.GROUND: Finding.GROUND_UNSEEN, Check.CABLES: Finding.CABLES_UNSEEN,
+          Check.OPENINGS: Finding.OPENINGS_UNSEEN, Check.FITTINGS: Finding.FITTINGS_UNSEEN}
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,7 @@ def checklist(facts: Facts) -> tuple[Item, ...]:
     robot = facts.robot
     items = list(_of_robot(robot, facts) if robot is not None and facts.silent_s < SILENCE_LIMIT_S
                  else _of_silence(facts.silent_s))
+    items += [Item(check, State.UNKNOWN, finding) for check, finding in UNSEEN.items()]
     items += [_disk(facts.free_bytes), _limits(facts.wanted)]
     order = list(Check)
     return tuple(sorted(items, key=lambda item: order.index(item.check)))
@@ -62,7 +66,7 @@ def hindrances(items: tuple[Item, ...]) -> tuple[Item, ...]:
 def _of_silence(silent_s: float) -> Iterator[Item]:
     yield Item(Check.LINK, State.BAD, Finding.LINK_SILENT, numbers=(silent_s,))
     for check in Check:
-        if check not in (Check.LINK, Check.DISK, Check.LIMITS):
+        if check not in (Check.LINK, Check.DISK, Check.LIMITS, *UNSEEN):
             yield Item(check, State.UNKNOWN, Finding.UNHEARD)
 
 
