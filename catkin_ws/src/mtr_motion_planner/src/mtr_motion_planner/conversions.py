@@ -3,7 +3,6 @@
 import math
 from typing import Any, Optional, Sequence, Tuple
 
-import numpy as np
 from geometry_msgs.msg import Point, PoseStamped
 from nav_msgs.msg import Path
 from std_msgs.msg import ColorRGBA, Header
@@ -56,20 +55,11 @@ def car_from(message: Optional[CarEstimate], stamp_s: float) -> Optional[Estimat
     """The Car as estimated; its outline is the prior's before it is located."""
     if message is None:
         return None
+    sides = SideSigmas(message.front_sigma, message.rear_sigma, message.left_sigma, message.right_sigma)
     return EstimatedCar(stamp_s, message.state == CarEstimate.LOCATED,
                         Pose2(message.x, message.y, message.heading),
-                        tuple(zip(message.outline_x, message.outline_y)), _side_sigmas(message),
+                        tuple(zip(message.outline_x, message.outline_y)), sides,
                         _root(message.covariance[8]), (message.length or math.inf, message.width or math.inf))
-
-
-def _side_sigmas(message: CarEstimate) -> SideSigmas:
-    """Each side's own: errors of centre and size are taken for independent."""
-    covariance = np.reshape(message.covariance, (3, 3))[:2, :2]
-    ahead = np.array([math.cos(message.heading), math.sin(message.heading)])
-    aside = np.array([-ahead[1], ahead[0]])
-    along, across = (_root(direction @ covariance @ direction) for direction in (ahead, aside))
-    end, side = math.hypot(along, 0.5 * message.length_sigma), math.hypot(across, 0.5 * message.width_sigma)
-    return SideSigmas(end, end, side, side)
 
 
 def _pose_sigmas(covariance: Sequence[float]) -> Tuple[float, float]:

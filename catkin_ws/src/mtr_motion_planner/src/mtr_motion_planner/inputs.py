@@ -91,7 +91,8 @@ class EstimatedCar:
     def is_finite(self) -> bool:
         """True when pose, outline and, of a located Car, their uncertainty are numbers."""
         sigmas = (*self.sides, self.heading_sigma) if self.located else ()
-        return self.pose.is_finite() and all(map(math.isfinite, (*itertools.chain(*self.outline), *sigmas)))
+        return (self.pose.is_finite() and all(map(math.isfinite, (*itertools.chain(*self.outline), *sigmas)))
+                and min(sigmas, default=0.0) >= 0.0)
 
 
 class Zone(enum.IntEnum):

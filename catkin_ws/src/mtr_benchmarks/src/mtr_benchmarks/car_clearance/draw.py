@@ -63,7 +63,7 @@ def random_car(seed: int, number: int) -> RandomClearanceCar:
                   chance.uniform(*MIRRORS_M), kind == "off-roader" and _has_room_for_a_spare(chance, length_m,
                                                                                              wheelbase_m), fittings)
     entered_m = max((each.out_m for each in fittings), default=0.0)
-    pose = Pose2(*chance.uniform(-1.0, 1.0, 2), chance.uniform(-3.0, 3.0))
+    pose = Pose2(chance.uniform(-1.0, 1.0), chance.uniform(-1.0, 1.0), chance.uniform(-3.0, 3.0))
     return RandomClearanceCar(kind, car, SHEETS[number // 2 % len(SHEETS)], pose,
                               entered_m if entered_m > ENTERED_FROM_M else 0.0)
 

@@ -59,7 +59,7 @@ def located(drawn: RandomClearanceCar, chance: np.random.Generator) -> CarFit:
 def received(fit: CarFit, now_s: float) -> EstimatedCar:
     """The located Car by the message that the planner receives."""
     estimate = Estimate(CarState.LOCATED, fit.rectangle, fit.outline, fit.sigmas, fit.length_sigma, fit.width_sigma,
-                        None, 1, NO_PROBLEM, 1)
+                        None, 1, NO_PROBLEM, 1, side_sigmas=fit.side_sigmas)
     car = car_from(estimate_message(estimate, None), now_s)
     assert car
     return car

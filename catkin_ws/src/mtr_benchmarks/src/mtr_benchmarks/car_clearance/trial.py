@@ -125,8 +125,8 @@ class Test:
 
     def _true_poses(self, plan: Plan) -> FloatArray:
         """Poses of base_link in the true Car's frame, off by what the robot does not know of itself."""
-        error = Pose2(*self._chance.normal(0.0, math.hypot(OWN_SIGMA_M, CONTROL_SIGMA_M), 2),
-                      self._chance.normal(0.0, OWN_SIGMA_RAD))
+        off_m = math.hypot(OWN_SIGMA_M, CONTROL_SIGMA_M)
+        error = Pose2(*(float(self._chance.normal(0.0, sigma)) for sigma in (off_m, off_m, OWN_SIGMA_RAD)))
         frame = self._true_from_told
         rows = [row for part in plan.parts for row in (*part.trajectory.poses[::SAMPLES], part.trajectory.poses[-1])]
         poses = [frame @ Pose2(*row) @ self._centre.inverse() @ error for row in rows]
