@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
-from typing import Dict, List, NamedTuple, Optional, Tuple
+from typing import Dict, List, NamedTuple, Tuple
 
 import numpy as np
 
@@ -107,7 +107,8 @@ class Test:
             reach_m = distance_m + KEY_M
             return Pose2(x + reach_m * math.cos(outward), y + reach_m * math.sin(outward), outward + math.pi)
 
-        clearances, refused = [], []
+        clearances: List[float] = []
+        refused: List[str] = []
         for near_m in NEAR_M:
             try:
                 clearances += [self._go(place(FAR_M), Direction.ANY), self._go(place(near_m), Direction.FORWARD),
@@ -126,7 +127,8 @@ class Test:
     def _true_poses(self, plan: Plan) -> FloatArray:
         """Poses of base_link in the true Car's frame, off by what the robot does not know of itself."""
         off_m = math.hypot(OWN_SIGMA_M, CONTROL_SIGMA_M)
-        error = Pose2(*(float(self._chance.normal(0.0, sigma)) for sigma in (off_m, off_m, OWN_SIGMA_RAD)))
+        x, y, turn = (float(self._chance.normal(0.0, sigma)) for sigma in (off_m, off_m, OWN_SIGMA_RAD))
+        error = Pose2(x, y, turn)
         frame = self._true_from_told
         rows = [row for part in plan.parts for row in (*part.trajectory.poses[::SAMPLES], part.trajectory.poses[-1])]
         poses = [frame @ Pose2(*row) @ self._centre.inverse() @ error for row in rows]
@@ -141,8 +143,3 @@ def refusals(ends: List[CarEnd]) -> Dict[str, int]:
     for code in (code for end in ends for line in end.lines for code in line.refused):
         counts[code] = counts.get(code, 0) + 1
     return counts
-
-
-def worst(ends: List[CarEnd]) -> Optional[LineEnd]:
-    """The line that came closest to a true body."""
-    return min((line for end in ends for line in end.lines), key=lambda line: line.clearance_m, default=None)
