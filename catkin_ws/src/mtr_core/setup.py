@@ -4,5 +4,5 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mtr_core", "mtr_core.executors", "mtr_core.lockstep"],
+setup(**generate_distutils_setup(packages=["mtr_core", "mtr_core.bags", "mtr_core.executors", "mtr_core.lockstep"],
                                  package_dir={"": "src"}))

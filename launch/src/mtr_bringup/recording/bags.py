@@ -6,6 +6,7 @@ from typing import Any, Iterable, Iterator
 import rosbag
 
 from mtr_core import names
+from mtr_core.bags.diagnosis import unreadable
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
@@ -25,7 +26,7 @@ def decisions_in(bags: Iterable[pathlib.Path]) -> Decisions:
                 for topic, message, _ in bag.read_messages(topics=DECIDED):
                     _take(found, topic, message)
         except Exception as error:
-            raise _unreadable(path, error) from None
+            raise CannotRecord(unreadable(path, error)) from None
     return found
 
 
@@ -36,14 +37,7 @@ def messages_in(path: pathlib.Path) -> Iterator[Recorded]:
             for topic, raw, time, header in bag.read_messages(raw=True, return_connection_header=True):
                 yield Recorded(topic, raw[0], _text(header["message_definition"]), raw[1], time.to_nsec())
     except Exception as error:
-        raise _unreadable(path, error) from None
-
-
-def _unreadable(path: pathlib.Path, error: Exception) -> CannotRecord:
-    """The library raises whatever a damaged bag leads it to; what it says itself is of use to a person."""
-    if isinstance(error, (rosbag.ROSBagException, OSError)):
-        return CannotRecord(f"{path} cannot be read: {error}.")
-    return CannotRecord(f"{path} cannot be read: it is damaged, or no bag.")
+        raise CannotRecord(unreadable(path, error)) from None
 
 
 def _text(value: Any) -> str:

@@ -20,6 +20,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Header
 
 from mtr_core import names
+from mtr_core.bags.diagnosis import unreadable
 from mtr_core.liveness import NS
 from mtr_core.lockstep.clock import stamp_of
 from mtr_core.schedule import MILLISECOND_NS
@@ -182,10 +183,10 @@ def opened_bags(paths: Sequence[pathlib.Path]) -> List[rosbag.Bag]:
     for path in paths:
         try:
             opened.append(rosbag.Bag(str(path)))
-        except (rosbag.ROSBagException, OSError) as error:
+        except Exception as error:
             for bag in opened:
                 bag.close()
-            raise CannotReplay(f"{path} cannot be read: {error}.") from None
+            raise CannotReplay(unreadable(path, error)) from None
     return opened
 
 

@@ -11,7 +11,9 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
+from mtr_core.bags.diagnosis import unreadable
 from mtr_core.conversions import goal_from, waypoint_message
+from mtr_core.errors import RobotError
 from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_core.states import State
@@ -74,8 +76,10 @@ def scans_in(bag: pathlib.Path, lidars: LidarMounts) -> Iterator[Scan]:
         with rosbag.Bag(str(bag)) as recorded:
             for topic, message, _ in recorded.read_messages(topics=list(mounts)):
                 yield scan_from(message, mounts[topic], topic == names.REAR_SCAN)
-    except (rosbag.ROSBagException, OSError) as error:
-        raise FilesUnusable(f"{bag} cannot be read: {error}.") from None
+    except RobotError:
+        raise
+    except Exception as error:
+        raise FilesUnusable(unreadable(bag, error)) from None
 
 
 def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
