@@ -2,9 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
+import sys
+from typing import List, Optional
 
 import rospkg
 import xacro
+
+try:
+    from xacro import substitution_args
+except ImportError:  # xacro of ROS 1 uses that of roslaunch, which searches the packages of ROS 1.
+    substitution_args = None
 
 from mtr_core.errors import ConfigurationError
 
@@ -14,11 +21,37 @@ from .robot_geometry import RobotGeometry
 
 def urdf_in(path: pathlib.Path) -> str:
     """URDF text of a file, through xacro as launch files do it; ConfigurationError when it cannot be read."""
+    if substitution_args is not None:
+        # xacro of PyPI is that of ROS 2, whose $(find PACKAGE) knows none of the packages here.
+        substitution_args._eval_find = _package_folder
     try:
         text: str = xacro.process_file(str(path)).toxml()
     except Exception as error:  # Beside its own errors xacro lets through those of XML, of Python and of files.
-        raise ConfigurationError(f"{path} cannot be read; allowed is a URDF or a xacro file ({error}).") from error
+        reason = str(error).partition("\n")[0]
+        raise ConfigurationError(f"{path} cannot be read; allowed is a URDF or a xacro file ({reason}).") from error
     return text
+
+
+def _package_folder(name: str) -> str:
+    try:
+        folder: str = rospkg.RosPack().get_path(name)
+    except rospkg.ResourceNotFound:
+        raise ConfigurationError(f"package {name} is not on ROS_PACKAGE_PATH") from None
+    return folder
+
+
+def main(arguments: Optional[List[str]] = None) -> int:
+    """rosrun mtr_description urdf FILE: print the file's URDF; exit status 1 after one sentence if it has none."""
+    given = sys.argv[1:] if arguments is None else arguments
+    if len(given) != 1:
+        print("Usage: rosrun mtr_description urdf FILE", file=sys.stderr)
+        return 2
+    try:
+        print(urdf_in(pathlib.Path(given[0])))
+    except ConfigurationError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
 
 
 def _folder() -> pathlib.Path:

@@ -7,7 +7,7 @@ import pytest
 import yaml
 
 from mtr_core import names
-from mtr_description.shipped import shipped_geometry, shipped_urdf
+from mtr_description.shipped import main, shipped_geometry, shipped_urdf, urdf_in
 
 PACKAGE = pathlib.Path(__file__).resolve().parents[2]
 
@@ -54,3 +54,25 @@ def test_rviz_has_the_robots_panel():
 def test_key_is_what_is_foremost():
     geometry = shipped_geometry()
     assert geometry.footprint().front_m == geometry.key().x_m + 0.02
+
+
+PART_OF_A_PACKAGE = """<robot name="robot" xmlns:xacro="http://www.ros.org/wiki/xacro">
+  <xacro:include filename="$(find {package})/urdf/robot.urdf.xacro"/>
+</robot>
+"""
+
+
+def test_description_may_include_a_file_of_a_package(tmp_path, capsys):
+    path = tmp_path / "part.urdf.xacro"
+    path.write_text(PART_OF_A_PACKAGE.format(package="mtr_description"), encoding="utf-8")
+    assert ElementTree.fromstring(urdf_in(path)).find("link") is not None
+    assert main([str(path)]) == 0 and "<link" in capsys.readouterr().out
+
+
+def test_package_that_is_missing_is_named_in_one_sentence(tmp_path, capsys):
+    path = tmp_path / "part.urdf.xacro"
+    path.write_text(PART_OF_A_PACKAGE.format(package="no_such_package"), encoding="utf-8")
+    assert main([str(path)]) == 1
+    error = capsys.readouterr().err.strip()
+    assert "no_such_package" in error and str(path) in error and "\n" not in error
+    assert main([]) == 2
