@@ -117,4 +117,99 @@ def test_bag_that_cannot_be_used_is_a_sentence(tmp_path, capsys):
     bag = tmp_path / "none.bag"
     bag.write_bytes(b"no bag")
     assert replay.main([str(bag), "--out", str(tmp_path / "out")]) == 1
-    assert capsys.readouterr().err.startswith(f"Bag {bag} cannot be read")
+    assert capsys.readouterr().err.startswith(f"{bag} cannot be read: it is not a bag")
+
+
+def spoil(scan, quirk):
+    """What drivers of other robots get wrong."""
+    if quirk == "beams missing":
+        scan.ranges = scan.ranges[:-10]
+    elif quirk == "clockwise":
+        scan.angle_increment, scan.ranges = -scan.angle_increment, scan.ranges[::-1]
+    elif quirk == "milliseconds":
+        scan.scan_time, scan.time_increment = 100.0, 100.0 / BEAMS
+    elif quirk == "limits swapped":
+        scan.range_min, scan.range_max = scan.range_max, scan.range_min
+    elif quirk == "angles not a number":
+        scan.angle_min = math.nan
+    return scan
+
+
+QUIRKS = ("beams missing", "clockwise", "milliseconds", "limits swapped", "angles not a number")
+
+
+def rewritten(source, target, change):
+    """The bag with each scan changed."""
+    with rosbag.Bag(str(source)) as read, rosbag.Bag(str(target), "w") as written:
+        for topic, message, stamp in read.read_messages():
+            written.write(topic, change(message) if topic == "/laser" else message, stamp)
+    return target
+
+
+@pytest.fixture(scope="module", name="plain")
+def plain_fixture(tmp_path_factory):
+    return drive(tmp_path_factory.mktemp("plain") / "theirs.bag", (0.0, 0.0, 0.0))
+
+
+@pytest.mark.parametrize("quirk", QUIRKS)
+def test_without_a_used_scan_no_pose_is_valid_and_the_reason_comes_first(tmp_path, capsys, plain, quirk):
+    bag = rewritten(plain, tmp_path / "theirs.bag", lambda scan: spoil(scan, quirk))
+    assert replay.main([str(bag), "--out", str(tmp_path / "out"), "--in-motion", "--no-car"]) == 1
+    first, second = capsys.readouterr().out.splitlines()[:2]
+    assert first.startswith("120 scans of the front LiDAR (/laser) were refused. A scan"), first
+    assert second == "None of the 120 scans was used, so no pose is valid."
+    rows = (tmp_path / "out" / "trajectory.csv").read_text(encoding="utf-8").splitlines()
+    valid = rows[0].split(",").index("valid")
+    assert len(rows) > 100 and {row.split(",")[valid] for row in rows[1:]} == {"0"}
+
+
+def test_part_of_the_scans_is_refused_and_counted(tmp_path, capsys, plain):
+    count = iter(range(1000))
+    bag = rewritten(plain, tmp_path / "theirs.bag",
+                    lambda scan: spoil(scan, "beams missing" if next(count) % 4 == 0 else ""))
+    assert replay.main([str(bag), "--out", str(tmp_path / "out"), "--in-motion", "--no-car"]) == 0
+    assert capsys.readouterr().out.startswith("30 scans of the front LiDAR (/laser) were refused.")
+
+
+def test_times_in_milliseconds_are_replaced_by_the_option(tmp_path, plain):
+    bag = rewritten(plain, tmp_path / "theirs.bag", lambda scan: spoil(scan, "milliseconds"))
+    options = ["--in-motion", "--no-car", "--time-increment", str(0.1 / BEAMS)]
+    assert replay.main([str(bag), "--out", str(tmp_path / "out"), *options]) == 0
+
+
+def test_bag_that_begins_in_motion_is_advised_its_option(tmp_path, capsys, plain):
+    assert replay.main([str(plain), "--out", str(tmp_path / "out"), "--no-car"]) == 1
+    assert "Replay the bag with --in-motion" in capsys.readouterr().out.splitlines()[0]
+
+
+def old_format(path):
+    """Head of a bag in format 1.2: its version and a file header record."""
+    def field(name, value):
+        content = name + b"=" + value
+        return len(content).to_bytes(4, "little") + content
+    fields = field(b"op", b"\x03") + field(b"index_pos", bytes(8)) + field(b"conn_count", bytes(4))
+    path.write_bytes(b"#ROSRECORD V1.2\n" + len(fields).to_bytes(4, "little") + fields + bytes(4))
+
+
+def cut_off(path, share):
+    """The first part of a recorded bag."""
+    content = path.read_bytes()
+    path.write_bytes(content[:int(share * len(content))])
+
+
+@pytest.mark.parametrize(("spoilt", "words"), [
+    (old_format, "format 1.2"), (lambda path: cut_off(path, 0.7), "rosbag reindex"),
+    (lambda path: cut_off(path, 0.01), "rosbag reindex"),
+    (lambda path: path.write_bytes(path.read_bytes()[:5000] + b"\xff" * 5000), "rosbag reindex"),
+    (lambda path: rosbag.Bag(str(path), "w").close(), "no ")])
+def test_every_reader_of_bags_ends_with_one_sentence(tmp_path, capsys, plain, spoilt, words):
+    bag = tmp_path / "theirs.bag"
+    bag.write_bytes(plain.read_bytes())
+    spoilt(bag)
+    out = str(tmp_path / "out")
+    for program, arguments in ((replay.main, [str(bag), "--out", out]),
+                               (calibrate, ["lidars", "--bag", str(bag), "--record", out, "--robot", "R",
+                                            "--by", "N"])):
+        assert program(arguments) == 1
+        error = capsys.readouterr().err.strip()
+        assert "\n" not in error and words in error, error

@@ -41,7 +41,7 @@ Estimate ExternalPose::step(const GatedSample& sample) {
   const std::int64_t now_ns = sample.wheels.stamp_ns;
   look_up();
   odometry().predict(sample, gyro(), false);
-  mapper().travel(history().newest().input, false);
+  mapper().travel(history().newest().input, filter().pose().z(), false);
   if (mapper().begins(now_ns)) {
     odometry().begin_map();
   }

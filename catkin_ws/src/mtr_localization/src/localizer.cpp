@@ -24,6 +24,10 @@ constexpr std::int64_t kMaxBlindNs = 5'000'000'000;
 constexpr double kEntrySigmaM = 0.02;
 constexpr double kEntrySigmaRad = 0.005;
 
+// A map's frame begins where the robot stands, known as well as wheels and tyres rest: never exactly.
+constexpr double kRestSigmaM = 0.001;
+constexpr double kRestSigmaRad = 0.0005;
+
 double square(double value) { return value * value; }
 
 // Of a way that even the wheels did not see: the LiDARs alone tell it.
@@ -57,7 +61,7 @@ Estimate Localizer::step(const GatedSample& sample) {
   if (const mtr_core::Problem loss = odometry().predict(sample, gyro(), tracker_.has_map())) {
     bridge(before, odom_before, sample, loss);
   }
-  mapper().travel(history().newest().input, tracker_.lost());
+  mapper().travel(history().newest().input, filter().pose().z(), tracker_.lost());
 
   // Go on with the map of before once the gyro's bias is known.
   if (memory_ && odometry().state() == MotionState::kTracking) {
@@ -163,6 +167,7 @@ void Localizer::begin_map() {
     history().change_newest([](PoseFilter& filter) { filter.set_pose(filter.pose(), Eigen::Matrix3d::Zero()); });
   }
   tracker_.begin_map(history().newest());
+  last_scan_ns_ = std::max(last_scan_ns_, history().newest().stamp_ns);
   history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
   history().forget_past();
   odometry().begin_map();
@@ -227,7 +232,10 @@ PoseFigures Localizer::figures() const {
 
 Estimate Localizer::estimate() const {
   const bool is_tracking = odometry().state() == MotionState::kTracking;
-  const mtr_core::Problem& problem = is_tracking ? tracker_.lost_reason() : odometry().problem();
+  mtr_core::Problem problem = is_tracking ? tracker_.lost_reason() : odometry().problem();
+  if (!problem && has_seen_nothing()) {
+    problem = problems::kBlind();
+  }
   Estimate estimate = answer(history().newest().stamp_ns, problem);
   estimate.degenerate = tracker_.degenerate() || is_blind();
   return estimate;
@@ -237,10 +245,20 @@ bool Localizer::is_blind() const {
   return tracker_.has_map() && history().newest().stamp_ns - last_scan_ns_ > kSilentNs;
 }
 
+bool Localizer::has_seen_nothing() const {
+  return tracker_.state() == ScanTracker::State::kMapping && tracker_.surfaces().surfels().empty() &&
+         history().newest().stamp_ns - last_scan_ns_ > kMaxBlindNs;
+}
+
 Estimate Localizer::pose_at(std::int64_t stamp_ns) const {
-  const bool is_mapping = tracker_.state() == ScanTracker::State::kMapping;
-  const Eigen::Matrix3d drift = is_mapping ? mapper().drift_covariance() : Eigen::Matrix3d::Zero();
-  Estimate estimate = estimate_of(stamp_ns, filter().pose(), filter().pose_covariance() + drift);
+  Eigen::Matrix3d covariance = filter().pose_covariance();
+  if (tracker_.state() == ScanTracker::State::kMapping) {
+    covariance += mapper().drift_covariance();
+  }
+  if (tracker_.state() != ScanTracker::State::kLocalized) {
+    covariance.diagonal() += Eigen::Vector3d(square(kRestSigmaM), square(kRestSigmaM), square(kRestSigmaRad));
+  }
+  Estimate estimate = estimate_of(stamp_ns, filter().pose(), covariance);
   estimate.mode = mode();
   return estimate;
 }

@@ -52,6 +52,8 @@ class Localizer : public PoseSource {
   PoseMode mode() const;
   /// There is a map, and no LiDAR says anything.
   bool is_blind() const;
+  /// A map began so long ago without a scan that the pose is dead reckoning; the map begins with the first scan.
+  bool has_seen_nothing() const;
 
   ScanTracker tracker_;
   GnssMonitor gnss_;

@@ -18,12 +18,10 @@ constexpr std::int64_t kOrderLagNs = 100'000'000;
 // round with an open end.
 constexpr double kMaxLostTravelM = 1.0;
 
-double square(double value) { return value * value; }
-
 }  // namespace
 
 Mapper::Mapper(const Parameters& parameters, Adjust adjust)
-    : parameters_(parameters), adjust_(std::move(adjust)), selector_(parameters.sensors) {}
+    : parameters_(parameters), adjust_(std::move(adjust)), selector_(parameters.sensors), drift_(parameters) {}
 
 void Mapper::go_on(std::uint64_t map_car_id, std::uint32_t revision) {
   map_car_id_ = map_car_id;
@@ -31,12 +29,12 @@ void Mapper::go_on(std::uint64_t map_car_id, std::uint32_t revision) {
   state_ = State::kDone;
 }
 
-void Mapper::travel(const FilterInput& input, bool lost) {
+void Mapper::travel(const FilterInput& input, double heading_rad, bool lost) {
   if (input.kind != FilterInput::Kind::kMove) {
     return;
   }
   selector_.travel(input.motion.distance_m, input.motion.gyro_angle_rad);
-  travel_m_ += std::abs(input.motion.distance_m);
+  drift_.travel(input.motion, heading_rad);
   lost_travel_m_ = lost ? lost_travel_m_ + std::abs(input.motion.distance_m) : 0.0;
 }
 
@@ -70,7 +68,7 @@ void Mapper::begin(std::uint64_t map_car_id) {
   selector_.restart();
   state_ = State::kCollecting;
   revision_ = 0;
-  travel_m_ = 0.0;
+  drift_.restart();
   lost_travel_m_ = 0.0;
 }
 
@@ -118,12 +116,6 @@ const AdjustedMap* Mapper::finish(std::int64_t now_ns) {
   result_->map_car_id = map_car_id_;
   result_->revision = newest_revision_;
   return &result_->map;
-}
-
-Eigen::Matrix3d Mapper::drift_covariance() const {
-  const double position = square(parameters_.mapping.mapping_drift_m_per_sqrt_m) * travel_m_;
-  const double heading = square(parameters_.mapping.mapping_drift_rad_per_sqrt_m) * travel_m_;
-  return Eigen::Vector3d(position, position, heading).asDiagonal();
 }
 
 std::optional<MapResult> Mapper::take_result() { return std::exchange(result_, std::nullopt); }

@@ -12,6 +12,7 @@
 
 #include "map_names.hpp"
 #include "mapping/key_frame_selector.hpp"
+#include "mapping/map_drift.hpp"
 #include "motion/filter_history.hpp"
 #include "parameters.hpp"
 
@@ -48,8 +49,9 @@ class Mapper {
 
   void add_order(const MapOrder& order) { orders_.push_back(order); }
 
-  /// The robot moved so during one step, or nothing is known of that. @param lost its pose is
-  void travel(const FilterInput& input, bool lost);
+  /// The robot moved so during one step, or its motion is unknown. @param heading_rad of the robot in map @param lost
+  /// its pose is
+  void travel(const FilterInput& input, double heading_rad, bool lost);
 
   /// It moved unseen. @param covariance of the way in odom: x (m), y (m), heading (rad)
   void lead(const Eigen::Matrix3d& covariance) { selector_.lead(covariance); }
@@ -70,8 +72,8 @@ class Mapper {
   const std::vector<KeyFrame>& key_frames() const { return key_frames_; }
   /// Map that poses are in, 0: none.
   std::uint32_t revision() const { return revision_; }
-  /// What the growing map has drifted since its beginning: x (m), y (m), heading (rad).
-  Eigen::Matrix3d drift_covariance() const;
+  /// Drift of the growing map since its beginning: x (m), y (m), heading (rad).
+  const Eigen::Matrix3d& drift_covariance() const { return drift_.covariance(); }
 
  private:
   enum class State { kNone, kCollecting, kPaused, kAdjusting, kDone };
@@ -88,7 +90,7 @@ class Mapper {
   State state_ = State::kNone;
   std::uint64_t map_car_id_ = 0;
   std::vector<KeyFrame> key_frames_;
-  double travel_m_ = 0.0;
+  MapDrift drift_;
   /// Since the pose was lost; 0 when it is not.
   double lost_travel_m_ = 0.0;
   /// Map and grid without stamp, id and revision.

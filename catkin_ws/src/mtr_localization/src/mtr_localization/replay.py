@@ -1,4 +1,7 @@
-"""Play a recorded bag through localization, offline and without a ROS master, and find the Car in the map it gives."""
+"""Play a recorded bag through localization, offline and without a ROS master, and find the Car in the map it gives.
+
+Exit status: 1 when the bag cannot be used or none of its poses is valid, with the reason first.
+"""
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import json
@@ -8,12 +11,13 @@ import subprocess
 import sys
 import tempfile
 from dataclasses import replace
-from typing import Any, Dict, List, Optional, Tuple
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
 import rosbag
 from roslib.packages import find_node
 
 from mtr_core import names
+from mtr_core.bags.diagnosis import unreadable, unusable
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_description.mounts import LidarMounts
@@ -22,6 +26,7 @@ from .any_bag.conversions import Found, convert
 from .any_bag.errors import BagUnusable
 from .any_bag.frames import yaw_of
 from .any_bag.sources import Asked, is_own
+from .replay_faults import GAP_LIMIT_S, Topics, faults, is_useless
 
 # The first of a drive tells whether its sensors fit together.
 COMPARED_S = 60.0
@@ -38,24 +43,59 @@ def main(arguments: Optional[List[str]] = None) -> int:
         asked = asked_of(options)
         topics, start_s = seen_in(options.bag)
         if is_own(topics, asked):
-            return replayed(programs[0], options, options.bag, {}, start_s)
+            own = Topics({"front": names.FRONT_SCAN, "rear": names.REAR_SCAN}, names.WHEEL_ODOMETRY)
+            return replayed(programs[0], options, options.bag, Conversion(own, {}, [], []), start_s)
         with tempfile.TemporaryDirectory() as folder:
             bag = pathlib.Path(folder) / "inputs.bag"
             found = convert(pathlib.Path(options.bag), bag, asked, options.map is None, show)
-            print("\n".join([*found.said, *against_each_other(bag, found)]), flush=True)
-            return replayed(programs[0], options, str(bag), found.parameters, start_s)
+            conversion = Conversion(topics_of(found), found.parameters, found.said, against_each_other(bag, found))
+            return replayed(programs[0], options, str(bag), conversion, start_s)
     except RobotError as error:
         print(error, file=sys.stderr)
         return 1
 
 
-def replayed(program: str, options: argparse.Namespace, bag: str, parameters: Dict[str, float], start_s: float) -> int:
+class Conversion(NamedTuple):
+    """What a bag became.
+
+    Attributes:
+        topics: of the bag.
+        parameters: of localization, that follow from what the bag lacks.
+        remarks: sentences on what the bag was taken for.
+        comparison: lines on what its sensors show of each other.
+    """
+
+    topics: Topics
+    parameters: Dict[str, float]
+    remarks: List[str]
+    comparison: List[str]
+
+
+def topics_of(found: Found) -> Topics:
+    """Topics of another robot's bag; the front LiDAR is its first."""
+    return Topics(dict(zip(("front", "rear"), found.mounts)), found.odometry)
+
+
+def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Conversion, start_s: float) -> int:
     """The exit status of the replay of a bag with our topics."""
-    given = [f"{name}={value}" for name, value in parameters.items()]
+    given = [f"{name}={value}" for name, value in conversion.parameters.items()]
     done = subprocess.run([program, *arguments_of(options, bag, given, start_s)], check=False)
-    if done.returncode == 0:
-        report(options, bag)
-    return done.returncode
+    if done.returncode != 0:
+        print("\n".join(conversion.remarks), flush=True)
+        return done.returncode
+    summary = json.loads((options.out / "summary.json").read_text(encoding="utf-8"))
+    print("\n".join([*faults(summary, conversion.topics, gap_limit_of(options)), *conversion.remarks]))
+    if summary["scans_used"]:
+        # Advice from scans that are refused would only mislead.
+        print("\n".join(conversion.comparison))
+        report(options, bag, summary)
+    return 1 if is_useless(summary) else 0
+
+
+def gap_limit_of(options: argparse.Namespace) -> float:
+    """Longest interval of odometry that localization accepts, in s."""
+    given = [text.partition("=")[2] for text in options.parameter if text.startswith("gap_limit_s=")]
+    return float(given[-1]) if given else GAP_LIMIT_S
 
 
 def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
@@ -72,7 +112,9 @@ def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
     begin_s = recording.motion_start_s() or 0.0
     findings = MotionJudge(LidarMounts(seen[0], seen[1] if len(seen) > 1 else None)).findings(
         recording.until(begin_s + COMPARED_S))
-    theirs = {names.WHEEL_ODOMETRY: found.odometry, names.IMU_DATA: found.imu}
+    topics = topics_of(found)
+    theirs = {names.WHEEL_ODOMETRY: found.odometry, names.IMU_DATA: found.imu,
+              names.FRONT_SCAN: topics.scans["front"], names.REAR_SCAN: topics.scans.get("rear")}
     return [replace(finding, subject=theirs.get(finding.subject) or finding.subject).line() for finding in findings
             if found.imu is not None or finding.subject != names.IMU_DATA]
 
@@ -85,12 +127,15 @@ def show(share: float) -> None:
 
 def seen_in(path: str) -> Tuple[Dict[str, str], float]:
     """Types of the bag's topics, and when it begins, in s."""
+    reason = unusable(pathlib.Path(path))
+    if reason:
+        raise BagUnusable(reason)
     try:
         with rosbag.Bag(path) as bag:
             topics = bag.get_type_and_topic_info().topics
             return {topic: about.msg_type for topic, about in topics.items()}, float(bag.get_start_time())
-    except (rosbag.ROSBagException, OSError) as error:
-        raise BagUnusable(f"Bag {path} cannot be read: {error}.") from None
+    except Exception as error:
+        raise BagUnusable(unreadable(pathlib.Path(path), error)) from None
 
 
 class Help(argparse.Action):
@@ -136,7 +181,8 @@ def parser() -> argparse.ArgumentParser:
     other.add_argument("--base-frame", metavar="FRAME", help="the robot's frame, x ahead; default: the odometry's")
     other.add_argument("--urdf", metavar="FILE", help="URDF or xacro with the mounts, instead of the bag's transforms")
     other.add_argument("--scan-delay", type=float, default=0.0, metavar="S", help="by how much their stamps are late")
-    other.add_argument("--time-increment", type=float, metavar="S", help="from beam to beam, where scans do not say it")
+    other.add_argument("--time-increment", type=float, metavar="S",
+                       help="from beam to beam, instead of the time_increment and scan_time of the scans")
     parsed.add_argument("--prior", type=float, nargs=3, metavar=("X", "Y", "HEADING"),
                         help="guessed pose of the Car in map, m and rad; default: from the starting place")
     return parsed
@@ -160,9 +206,8 @@ def arguments_of(options: argparse.Namespace, bag: str, parameters: List[str], s
     return arguments + [part for each in [*parameters, *options.parameter] for part in ("--parameter", each)]
 
 
-def report(options: argparse.Namespace, bag: str) -> None:
-    """Print map and Car."""
-    summary = json.loads((options.out / "summary.json").read_text(encoding="utf-8"))
+def report(options: argparse.Namespace, bag: str, summary: Dict[str, Any]) -> None:
+    """Print poses, map and Car."""
     print(f"{summary['poses_valid']} of {summary['poses']} poses are valid; "
           f"{summary['cpu_ms_per_scan']:.2f} ms of CPU per scan")
     if options.map:

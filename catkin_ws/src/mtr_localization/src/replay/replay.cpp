@@ -58,8 +58,17 @@ Result Replay::run(const Progress& progress) {
   finish_map();
   result_.sweeps_refused = localizer_.figures().scans_refused;
   result_.sweeps_used = localizer_.scans_used();
+  if (result_.sweeps_used == 0) {
+    invalidate_trajectory();
+  }
   result_.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return std::move(result_);
+}
+
+void Replay::invalidate_trajectory() {
+  for (Estimate& estimate : result_.trajectory) {
+    estimate.valid = false;
+  }
 }
 
 void Replay::go_on_with_map() {
@@ -101,7 +110,7 @@ void Replay::track(const std::function<std::vector<Estimate>()>& answer) {
   result_.tracking_s += elapsed_s;
   result_.max_ms = std::max(result_.max_ms, 1e3 * elapsed_s);
   for (const Estimate& estimate : estimates) {
-    note(estimate.message.text, estimate.stamp_ns);
+    note(estimate.message, estimate.stamp_ns);
     result_.trajectory.push_back(estimate);
   }
 }
@@ -118,8 +127,13 @@ void Replay::take(Sweep sweep) {
   ++result_.sweeps;
   const std::int64_t stamp_ns = sweep.stamp_ns;
   const CpuTimer timer;
-  note(localizer_.add_scan(std::move(sweep)), stamp_ns);
+  const Lidar lidar = sweep.lidar;
+  const std::string refusal = localizer_.add_scan(std::move(sweep));
   result_.tracking_s += timer.elapsed_s();
+  if (!refusal.empty()) {
+    ++result_.refusals[{lidar, refusal}];
+    note(mtr_core::Problem{"", refusal, {}, nullptr}, stamp_ns);
+  }
 }
 
 void Replay::take(WheelSample sample) {
@@ -132,7 +146,7 @@ void Replay::take(WheelSample sample) {
   }
   track([&] { return localizer_.add_wheels(sample); });
   if (auto map = localizer_.take_map()) {
-    note(map->map.message.text, map->stamp_ns);
+    note(map->map.message, map->stamp_ns);
     if (map->map.valid || !has_map_) {
       result_.map = std::move(*map);
       has_map_ = true;
@@ -156,13 +170,14 @@ void Replay::finish_map() {
   // The bag ended before its map was due: what there is shows at least what is missing.
   result_.map.map = mtr_surfel_map::adjust(localizer_.key_frames(), options_.parameters.adjustment);
   result_.map.grid = occupancy_of(result_.map.map);
-  note(result_.map.map.valid ? "The bag ends before the map takes effect." : result_.map.map.message.text,
+  const mtr_core::Problem early{"", "The bag ends before the map takes effect.", {}, nullptr};
+  note(result_.map.map.valid ? early : result_.map.map.message,
        result_.trajectory.empty() ? 0 : result_.trajectory.back().stamp_ns);
 }
 
-void Replay::note(const std::string& message, std::int64_t stamp_ns) {
-  if (!message.empty()) {
-    result_.messages.emplace(message, stamp_ns);
+void Replay::note(const mtr_core::Problem& problem, std::int64_t stamp_ns) {
+  if (problem) {
+    ++result_.messages.emplace(problem.text, Note{problem.code, stamp_ns, 0}).first->second.count;
   }
 }
 

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "localizer.hpp"
@@ -17,6 +18,13 @@
 
 namespace mtr_localization::replay {
 
+/// A sentence of the localizer: its code, the stamp at which it came first, and how often it came.
+struct Note {
+  std::string code;
+  std::int64_t first_ns = 0;
+  int count = 0;
+};
+
 /// What the bag gave.
 struct Result {
   std::vector<Estimate> trajectory;
@@ -24,8 +32,10 @@ struct Result {
   MapResult map;
   /// It was made of this bag; else it came with the options.
   bool is_map_new = true;
-  /// Sentences of the localizer with the stamp at which each was said first.
-  std::map<std::string, std::int64_t> messages;
+  /// Sentences of the localizer, by text.
+  std::map<std::string, Note> messages;
+  /// Reasons for refused scans, by LiDAR and text.
+  std::map<std::pair<Lidar, std::string>, int> refusals;
   int imu_samples = 0;
   int wheel_samples = 0;
   int sweeps = 0;
@@ -51,6 +61,8 @@ class Replay {
   Result run(const Progress& progress = {});
 
  private:
+  /// Without one used scan the trajectory is dead reckoning, which nothing has confirmed.
+  void invalidate_trajectory();
   void go_on_with_map();
   void begin_at(const WheelSample& sample);
   void take(const ImuSample& sample);
@@ -62,7 +74,7 @@ class Replay {
   void track(const std::function<std::vector<Estimate>()>& answer);
   void give_order(std::int64_t now_ns);
   void finish_map();
-  void note(const std::string& message, std::int64_t stamp_ns);
+  void note(const mtr_core::Problem& problem, std::int64_t stamp_ns);
 
   Options options_;
   BagReader reader_;

@@ -71,11 +71,23 @@ std::string quoted(const std::string& text) {
 void write_messages(std::ofstream& file, const Result& result) {
   file << "  \"messages\": [";
   const char* separator = "";
-  for (const auto& [message, stamp_ns] : result.messages) {
-    file << separator << "\n    {\"first_s\": " << seconds(stamp_ns) << ", \"message\": " << quoted(message) << '}';
+  for (const auto& [message, note] : result.messages) {
+    file << separator << "\n    {\"first_s\": " << seconds(note.first_ns) << ", \"message\": " << quoted(message)
+         << ", \"code\": " << quoted(note.code) << ", \"count\": " << note.count << '}';
     separator = ",";
   }
   file << "\n  ]\n";
+}
+
+void write_refusals(std::ofstream& file, const Result& result) {
+  file << "  \"refusals\": [";
+  const char* separator = "";
+  for (const auto& [refusal, count] : result.refusals) {
+    file << separator << "\n    {\"lidar\": " << quoted(refusal.first == Lidar::kFront ? "front" : "rear")
+         << ", \"message\": " << quoted(refusal.second) << ", \"count\": " << count << '}';
+    separator = ",";
+  }
+  file << "\n  ],\n";
 }
 
 void write_summary(const Result& result, const std::string& bag, const std::string& path) {
@@ -99,6 +111,7 @@ void write_summary(const Result& result, const std::string& bag, const std::stri
        << ",\n  \"cpu_ms_per_scan\": " << (result.sweeps_used > 0 ? 1e3 * result.tracking_s / result.sweeps_used : 0.0)
        << ",\n  \"worst_latency_ms\": " << result.max_ms << ",\n  \"adjustment_cpu_s\": " << result.adjustment_s
        << ",\n  \"wall_s\": " << result.wall_s << ",\n";
+  write_refusals(file, result);
   write_messages(file, result);
   file << "}\n";
 }

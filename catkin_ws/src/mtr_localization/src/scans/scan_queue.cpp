@@ -55,9 +55,11 @@ std::string ScanQueue::problem_with(const Sweep& sweep) const {
   const auto& newest_ns = newest_ns_[static_cast<std::size_t>(sweep.lidar)];
   const bool is_restart = newest_ns && sweep.stamp_ns < *newest_ns - kRestartNs;
   if (newest_ns && sweep.stamp_ns <= *newest_ns + kOneInstantNs && !is_restart) {
-    return "A scan is not newer than the one before.";
+    return "A scan is not newer than the previous one; look for a second driver on its topic, or a clock that was set.";
   }
-  return is_repeated(sweep) ? "A scan is the same as the one before: the LiDAR is frozen." : "";
+  return is_repeated(sweep)
+             ? "A scan repeats all ranges of the previous one: the LiDAR or its driver is frozen; restart it."
+             : "";
 }
 
 bool ScanQueue::is_repeated(const Sweep& sweep) const {

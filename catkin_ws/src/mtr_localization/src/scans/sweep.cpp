@@ -39,21 +39,23 @@ bool Sweep::says_anything() const {
 
 std::string Sweep::problem() const {
   if (!all_finite(*this)) {
-    return "A scan's angles, times or limits are not finite numbers.";
+    return "A scan's angles, times or range limits are not finite; correct the settings of its driver.";
   }
   if (ranges_m.size() < 2) {
-    return "A scan has no beams.";
+    return "A scan has fewer than two beams; look for the fault in the LiDAR or its driver.";
   }
   if (std::abs(angle_increment_rad) < 1e-6 || range_max_m <= range_min_m) {
-    return "A scan's angle increment or range limits make no sense.";
+    return "A scan's angle_increment is zero, or its range_max is not above range_min; correct the settings of its "
+           "driver.";
   }
   const double span = static_cast<double>(ranges_m.size() - 1) * angle_increment_rad;
   // Drivers compute angle_max in single precision, or one increment farther.
   if (std::abs(angle_min_rad + span - angle_max_rad) > 1.5 * std::abs(angle_increment_rad)) {
-    return "A scan's number of beams does not fit its angles.";
+    return "A scan's number of beams contradicts its angles; correct angle_min, angle_max or angle_increment in its "
+           "driver.";
   }
   if (time_increment_s < 0.0 || scan_time_s < 0.0 || static_cast<double>(end_ns() - stamp_ns) * 1e-9 > kMaxSweepS) {
-    return "A scan's times make no sense.";
+    return "A scan lasts less than 0 s or more than 0.25 s; its scan_time and time_increment must be in seconds.";
   }
   return "";
 }

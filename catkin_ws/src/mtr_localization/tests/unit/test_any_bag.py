@@ -205,7 +205,7 @@ def test_robot_that_stands_may_be_localized_on_a_map(robot, converted):
 
 def test_file_that_is_no_bag_is_a_sentence(robot, tmp_path):
     robot.path.write_bytes(b"no bag")
-    with pytest.raises(BagUnusable, match="cannot be read"):
+    with pytest.raises(BagUnusable, match="it is not a bag"):
         convert(robot.path, tmp_path / "out.bag", Asked(), True, lambda _: None)
 
 

@@ -1,6 +1,8 @@
 /// @file
 /// LiDARs that say nothing for long: nothing tells that the robot is carried, so the pose is not valid.
 // SPDX-License-Identifier: Apache-2.0
+#include <Eigen/Eigenvalues>
+
 #include "scene_drive.hpp"
 
 namespace mtr_localization {
@@ -96,12 +98,25 @@ TEST(LocalizerBlind, GrowingMapGoesOnWhenTheLidarSeesAgain) {
   EXPECT_TRUE(robot.result->map.valid) << robot.result->map.message.text;
 }
 
+TEST(LocalizerBlind, NoPoseIsKnownExactlyWhereAMapBegins) {
+  SceneDrive robot(scenes::lot(), Parameters{});
+  robot.drive(0.0, 0.0, 2.0);
+  robot.order(1, MapOrder::Phase::kCollect);
+  for (int tick = 0; tick < 50; ++tick) {
+    robot.tick(0.0, 0.0);
+    const Eigen::Map<const Eigen::Matrix3d> covariance(robot.newest.covariance.data());
+    EXPECT_GT(covariance.eigenvalues().real().minCoeff(), 1e-7) << "tick " << tick;
+  }
+}
+
 TEST(LocalizerBlind, MapThatBeganWithoutALidarBeginsWithTheFirstScan) {
   SceneDrive robot(scenes::lot(), Parameters{});
   robot.lidar_works = false;
   robot.drive(0.0, 0.0, 2.0);
   robot.order(1, MapOrder::Phase::kCollect);
-  robot.drive(0.0, 0.0, 6.0);
+  EXPECT_TRUE(robot.drive(0.0, 0.0, 4.0).valid);
+  EXPECT_FALSE(robot.drive(0.0, 0.0, 2.0).valid);
+  EXPECT_EQ(robot.newest.message.code, "localization.blind");
   robot.lidar_works = true;
   robot.drive(0.0, 0.0, 1.0);
   EXPECT_TRUE(robot.newest.valid) << robot.newest.message.text;

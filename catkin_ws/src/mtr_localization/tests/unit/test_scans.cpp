@@ -46,13 +46,16 @@ TEST(Sweep, GoodOneHasNoProblemAndAnyNumberOfBeams) {
 TEST(Sweep, NumberOfBeamsThatDoesNotFitTheAnglesIsTold) {
   Sweep sweep = sweep_at(0);
   sweep.ranges_m.resize(50);
-  EXPECT_EQ(sweep.problem(), "A scan's number of beams does not fit its angles.");
+  EXPECT_EQ(sweep.problem(),
+            "A scan's number of beams contradicts its angles; correct angle_min, angle_max or angle_increment in its "
+            "driver.");
 }
 
 TEST(Sweep, HeaderThatIsNotANumberIsTold) {
   Sweep sweep = sweep_at(0);
   sweep.angle_min_rad = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(sweep.problem(), "A scan's angles, times or limits are not finite numbers.");
+  EXPECT_EQ(sweep.problem(),
+            "A scan's angles, times or range limits are not finite; correct the settings of its driver.");
 }
 
 TEST(Sweep, BeamsAreTimedAsToldWhereTheDriverDoesNotSayIt) {
@@ -69,7 +72,8 @@ TEST(Sweep, BeamsAreTimedAsToldWhereTheDriverDoesNotSayIt) {
 TEST(Sweep, EmptyOneAndNegativeTimeAreTold) {
   Sweep sweep = sweep_at(0);
   sweep.time_increment_s = -1e-4;
-  EXPECT_EQ(sweep.problem(), "A scan's times make no sense.");
+  EXPECT_EQ(sweep.problem(),
+            "A scan lasts less than 0 s or more than 0.25 s; its scan_time and time_increment must be in seconds.");
   sweep.ranges_m.clear();
   EXPECT_EQ(sweep.problem(), "A scan has no beams.");
 }
@@ -148,8 +152,8 @@ TEST(ScanQueue, FrontAndRearOfOneTimeAreOneSetInWhateverOrderTheyCome) {
 TEST(ScanQueue, TimeThatGoesBackwardsIsRefusedAndCounted) {
   ScanQueue queue(20 * kMs);
   queue.add(sweep_at(80 * kMs));
-  EXPECT_EQ(queue.add(sweep_at(40 * kMs)), "A scan is not newer than the one before.");
-  EXPECT_EQ(queue.add(sweep_at(80 * kMs)), "A scan is not newer than the one before.");
+  EXPECT_EQ(queue.add(sweep_at(40 * kMs)).find("A scan is not newer"), 0U);
+  EXPECT_EQ(queue.add(sweep_at(80 * kMs)).find("A scan is not newer"), 0U);
   EXPECT_EQ(queue.refused(), 2);
   EXPECT_EQ(queue.add(sweep_at(120 * kMs, 3.1F)), "");
 }
@@ -163,7 +167,7 @@ TEST(ScanQueue, DriverThatWasStartedAnewIsUsedAgain) {
 TEST(ScanQueue, SweepThatRepeatsTheOneBeforeIsOfAFrozenLidar) {
   ScanQueue queue(20 * kMs);
   queue.add(sweep_at(0));
-  EXPECT_EQ(queue.add(sweep_at(40 * kMs)), "A scan is the same as the one before: the LiDAR is frozen.");
+  EXPECT_NE(queue.add(sweep_at(40 * kMs)).find("is frozen"), std::string::npos);
   EXPECT_EQ(queue.add(sweep_at(80 * kMs, 3.01F)), "");
   // The rear one is another sensor, and a field where nothing is looks the same each time.
   Sweep rear = sweep_at(80 * kMs, 3.01F);

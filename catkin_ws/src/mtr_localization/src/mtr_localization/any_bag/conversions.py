@@ -13,6 +13,8 @@ from tf2_msgs.msg import TFMessage
 
 from mtr_core import names
 from mtr_core.arrays import FloatArray
+from mtr_core.bags.diagnosis import unreadable
+from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_description.shipped import urdf_in
 from mtr_description.urdf_tree import UrdfTree
@@ -65,8 +67,10 @@ def convert(path: pathlib.Path, out: pathlib.Path, asked: Asked, needs_motion: b
                 check_moves(found.samples)
             with rosbag.Bag(str(out), "w") as written:
                 _write(bag, written, found, asked, progress)
-    except (rosbag.ROSBagException, OSError) as error:
-        raise BagUnusable(f"{path} cannot be read: {error}.") from None
+    except RobotError:
+        raise
+    except Exception as error:
+        raise BagUnusable(unreadable(path, error)) from None
     return found
 
 
@@ -167,6 +171,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
             message.header.stamp -= rospy.Duration.from_sec(asked.scan_delay_s)
             if asked.time_increment_s is not None:
                 message.time_increment = asked.time_increment_s
+                message.scan_time = asked.time_increment_s * len(message.ranges)
             out.write(targets[frame], message, message.header.stamp)
         elif imu_turn is not None:
             rate, force = message.angular_velocity, message.linear_acceleration
