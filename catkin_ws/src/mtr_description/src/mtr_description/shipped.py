@@ -7,11 +7,7 @@ from typing import List, Optional
 
 import rospkg
 import xacro
-
-try:
-    from xacro import substitution_args
-except ImportError:  # xacro of ROS 1 uses that of roslaunch, which searches the packages of ROS 1.
-    substitution_args = None
+from xacro import substitution_args
 
 from mtr_core.errors import ConfigurationError
 
@@ -21,9 +17,8 @@ from .robot_geometry import RobotGeometry
 
 def urdf_in(path: pathlib.Path) -> str:
     """URDF text of a file, through xacro as launch files do it; ConfigurationError when it cannot be read."""
-    if substitution_args is not None:
-        # xacro of PyPI is that of ROS 2, whose $(find PACKAGE) knows none of the packages here.
-        substitution_args._eval_find = _package_folder
+    # The xacro of PyPI is that of ROS 2, whose $(find PACKAGE) knows none of the packages here.
+    substitution_args._eval_find = _package_folder
     try:
         text: str = xacro.process_file(str(path)).toxml()
     except Exception as error:  # Beside its own errors xacro lets through those of XML, of Python and of files.

@@ -75,7 +75,7 @@ TEST(Sweep, EmptyOneAndNegativeTimeAreTold) {
   EXPECT_EQ(sweep.problem(),
             "A scan lasts less than 0 s or more than 0.25 s; its scan_time and time_increment must be in seconds.");
   sweep.ranges_m.clear();
-  EXPECT_EQ(sweep.problem(), "A scan has no beams.");
+  EXPECT_EQ(sweep.problem(), "A scan has fewer than two beams; look for the fault in the LiDAR or its driver.");
 }
 
 TEST(Deskew, RangesThatAreNoneGiveNoPoints) {
