@@ -33,8 +33,9 @@ std::int64_t Sweep::beam_ns(std::size_t beam) const {
 std::int64_t Sweep::end_ns() const { return std::max(stamp_ns + nanoseconds(scan_time_s), last_beam_ns()); }
 
 bool Sweep::says_anything() const {
-  return std::any_of(ranges_m.begin(), ranges_m.end(),
-                     [this](float range_m) { return range_m > 0.0F && range_m >= range_min_m; });
+  return std::any_of(ranges_m.begin(), ranges_m.end(), [this](float range_m) {
+    return range_m > 0.0F && range_m >= range_min_m && range_m <= range_max_m;
+  });
 }
 
 std::string Sweep::problem() const {

@@ -42,7 +42,7 @@ struct Sweep {
   /// Time at which a LiDAR that turns without a break has sent it.
   std::int64_t end_ns() const;
 
-  /// False when no beam tells either a range or that nothing is there: the LiDAR is covered, or broken.
+  /// False when no beam has measured a range: the LiDAR is covered, dazzled or broken, or nothing is in its reach.
   bool says_anything() const;
 
   /// One sentence on what is wrong with its header; empty when it can be used.
