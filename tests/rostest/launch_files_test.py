@@ -122,8 +122,9 @@ class LaunchFiles(unittest.TestCase):
                 self.assertEqual(drivers["rear_lidar_driver"].remap_args[-1], ["scan", "/rear/scan"])
                 self.assertEqual(jackal.params[f"/rear_lidar_driver/{word}"].value, "10.0.0.2")
                 self.assertEqual(jackal.params["/rear_lidar_driver/frame_id"].value, "rear_lidar")
-                # Without it zero where nothing is in reach, for which drive control stands.
-                self.assertIs("/rear_lidar_driver/publish_min_range_as_inf" in jackal.params, package == "lms1xx")
+                # Zero is no measurement: what is dazzled, dark or too near is not free space.
+                stated = jackal.params.get("/rear_lidar_driver/publish_min_range_as_inf")
+                self.assertIs(stated.value if stated else None, False if package == "lms1xx" else None)
                 self.assertEqual(frames_of(jackal), ["front_lidar", "rear_lidar", "imu_link"])
         with self.assertRaises(roslaunch.RLException):
             load("jackal.launch", ["front_driver:=no_such_driver"])

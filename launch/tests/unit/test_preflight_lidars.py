@@ -68,13 +68,36 @@ def test_nodes_know_every_parameter_that_a_named_lidar_gives_them(kind):
     assert set(own(parameters, "/localization")) <= known
 
 
-@pytest.mark.parametrize("driver, asked", [("lms1xx", True), ("urg_node", None), ("sick_tim", None)])
-def test_driver_that_says_inf_on_request_only_is_asked(driver, asked):
-    arguments = [f"driver:={driver}", "side:=front", "host:=10.0.0.2", "frame:=front_lidar"]
+def driver_parameters(*arguments):
+    """Parameters of the driver of a front LiDAR."""
+    given = ["side:=front", "host:=10.0.0.2", "frame:=front_lidar", *arguments]
     path = str(TOP / "launch" / "launch" / "lidar_driver.launch")
-    params = roslaunch.config.load_config_default([(path, arguments)], None, verbose=False).params
-    found = params.get("/front_lidar_driver/publish_min_range_as_inf")
-    assert (found.value if found else None) is asked
+    params = roslaunch.config.load_config_default([(path, given)], None, verbose=False).params
+    return {name.rpartition("/")[2]: parameter.value for name, parameter in params.items()}
+
+
+@pytest.mark.parametrize("driver, stated", [("lms1xx", False), ("urg_node", None), ("sick_tim", None)])
+def test_no_driver_is_asked_to_report_a_missing_echo_as_free_space(driver, stated):
+    assert driver_parameters(f"driver:={driver}").get("publish_min_range_as_inf") is stated
+
+
+@pytest.mark.parametrize("model, range_m, increment_s", [
+    ("", 10.0, None), ("tim551", 10.0, 1.0 / 360.0 / 15.0), ("tim561", 10.0, 1.0 / 1080.0 / 15.0),
+    ("tim571", 25.0, 1.0 / 1080.0 / 15.0)])
+def test_tim_has_the_range_and_the_times_of_its_model(model, range_m, increment_s):
+    found = driver_parameters("driver:=sick_tim", f"model:={model}")
+    assert found["range_max"] == range_m
+    assert found.get("time_increment") == (increment_s and pytest.approx(increment_s, rel=1e-3))
+
+
+def test_model_that_nobody_knows_is_refused():
+    with pytest.raises(roslaunch.RLException):
+        driver_parameters("driver:=sick_tim", "model:=tim999")
+
+
+@pytest.mark.parametrize("driver", ["lms1xx", "urg_node"])
+def test_other_drivers_have_no_parameters_of_a_tim(driver):
+    assert not {"range_max", "time_increment"} & set(driver_parameters(f"driver:={driver}"))
 
 
 def record(lidar, share=1.0, lost=()):
