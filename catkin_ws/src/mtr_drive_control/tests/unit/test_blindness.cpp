@@ -153,7 +153,12 @@ TEST(CoveredLidar, SectorThatMayHideALegStopsTheRobotAndANarrowOneDoesNot) {
       robot.settle();
       EXPECT_EQ(robot.drive({0.5, 0.0}, 0.5).zone, Zone::kClear) << said_m << " at " << direction_rad;
       hide(robot, false, direction_rad, 6.0 * kDegree, said_m);
-      EXPECT_EQ(robot.drive({0.5, 0.0}, 0.6).message.text, "The front LiDAR is covered.") << said_m;
+      const Decision decision = robot.drive({0.5, 0.0}, 0.6);
+      EXPECT_EQ(decision.velocity.linear_mps, 0.0) << said_m;
+      const long from_deg = std::lround(direction_rad / kDegree - 6.0);
+      EXPECT_NE(decision.message.text.find("The front LiDAR is covered or dirty from " + std::to_string(from_deg)),
+                std::string::npos)
+          << decision.message.text;
     }
   }
 }
@@ -218,8 +223,57 @@ TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
   const Decision decision = robot.drive({-0.5, 0.0}, 1.0);
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
   EXPECT_EQ(decision.message.text,
-            "Blocked: the ground behind was not seen free lately; turn the robot once on the spot with the manual "
-            "controller, so that its LiDAR sees it.");
+            "Blocked: ground behind was not seen free lately; drive the robot ahead for half a metre with the manual "
+            "controller, then turn it once on the spot.");
+}
+
+TEST(UnwatchedRear, ThingBehindThatWasNeverSeenIsNotTouchedInATurn) {
+  for (const bool by_hand : {false, true}) {
+    for (const double gap_m : {0.02, 0.05, 0.08}) {
+      for (const Velocity& wanted :
+           {Velocity{0.0, 1.0}, Velocity{0.0, -0.6}, Velocity{0.1, 1.0}, Velocity{0.02, -0.8}}) {
+        TestRobot robot(false);
+        robot.scene.walls = {{{-0.254 - gap_m, -3.0}, {-0.254 - gap_m, 3.0}}};
+        robot.settle();
+        robot.drive(wanted, 3.0, by_hand);
+        EXPECT_GT(robot.clearance(), 0.0) << gap_m << " " << wanted.linear_mps << " " << by_hand;
+      }
+    }
+  }
+}
+
+TEST(UnwatchedRear, SentenceOfUnseenGroundTellsAWayThatWorks) {
+  for (const bool by_hand : {false, true}) {
+    TestRobot robot(false);
+    robot.settle();
+    ASSERT_EQ(robot.drive({0.0, 0.6}, 1.0, by_hand).velocity.angular_radps, 0.0);
+    robot.drive({0.4, 0.0}, 1.5, true);
+    robot.drive({0.0, 0.0}, 1.5, true);
+    robot.drive({0.0, 0.6}, 10.5, true);
+    robot.drive({0.0, 0.0}, 1.0, true);
+    EXPECT_GT(robot.drive({0.0, 0.6}, 2.0, by_hand).velocity.angular_radps, 0.5);
+    robot.drive({0.0, 0.0}, 1.0);
+    EXPECT_NEAR(robot.drive({-0.3, 0.0}, 1.5).velocity.linear_mps, -0.3, 1e-9);
+  }
+}
+
+TEST(LidarWatch, TimesThatNoSweepHasAreRefusedBeforeTheyMakeItLookSilent) {
+  const auto problem_of = [](double increment_s, double scan_time_s, std::int64_t age_ns) {
+    auto sweep = std::make_shared<Sweep>(*sweep_at(0));
+    sweep->time_increment_s = increment_s;
+    sweep->scan_time_s = scan_time_s;
+    LidarWatch lidar = watch();
+    lidar.take(sweep);
+    return lidar.problem_at(age_ns).code;
+  };
+  for (const double increment_s : {1e30, -1e30, 1.0, 0.4 / 719, -1e-6, std::numeric_limits<double>::max()}) {
+    EXPECT_EQ(problem_of(increment_s, 0.0, 1000 * kTestMs), "drive_control.lidar_sweep_time") << increment_s;
+  }
+  EXPECT_EQ(problem_of(0.2 / 719, 0.0, 60 * kTestMs), "");
+  // The turn of a LiDAR of 15 Hz, and firmware that states three times of the time between beams.
+  EXPECT_EQ(problem_of(3.0 * 0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_time_increment");
+  EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 60 * kTestMs), "");
+  EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_silent");
 }
 
 TEST(UnwatchedRear, RobotThatHasTurnedOnceOnTheSpotBacksAgain) {
