@@ -41,6 +41,11 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   adapt_limits(tick_ns, inputs.key);
   follow_wheels(tick_ns, inputs.sensors.motion);
   const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
+  if (contradiction_ ||
+      std::any_of(locks.begin(), locks.end(), [](const EngagedLock& lock) { return lock.emergency; })) {
+    // Somebody may carry the robot, or push it.
+    collision_stop_.forget_ground();
+  }
   const Selection selection =
       locks.empty() ? wanted_at(tick_ns, inputs) : Selection{"locked", std::nullopt, locks.front().reason};
   Decision decision;
@@ -66,7 +71,8 @@ void DriveControl::time_step(std::int64_t tick_ns) {
   const double before_s = step_s_;
   step_s_ = std::clamp(since_s, period_s_, kMaxBaseTimeoutS);
   expected_step_s_ = std::min(before_s, step_s_);
-  limiter_.elapse(step_s_);
+  // A stop that does not wait for the next tick comes between two of them.
+  limiter_.elapse(since_s);
 }
 
 void DriveControl::follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion) {

@@ -138,8 +138,8 @@ def scan_problems(topic: str, scans: List[ScanContent]) -> Iterator[Finding]:
     share = statistics.median(scan.not_numbers / scan.beams for scan in scans if scan.beams)
     if share > MAX_NOT_NUMBERS:
         yield bad(CONTENT, topic, f"{100.0 * share:.0f} % of its beams are zero or not a number, allowed is "
-                  f"{100.0 * MAX_NOT_NUMBERS:.0f} %: uncover and clean the LiDAR, look at filters, or bring the robot to "
-                  "where something stands within its range.", share, MAX_NOT_NUMBERS)
+                  f"{100.0 * MAX_NOT_NUMBERS:.0f} %: uncover and clean the LiDAR, look at filters, or bring the "
+                  "robot to where something stands within its range.", share, MAX_NOT_NUMBERS)
         return
     wide = [scan.unseen_rad for scan in scans if scan.unseen_rad > MAX_UNSEEN_RAD]
     if len(wide) > MAX_NOT_NUMBERS * len(scans):

@@ -11,17 +11,21 @@
 
 namespace mtr_drive_control {
 
-/// Remembers the velocity sent last and tells the next one, one period later; or later, and then it has braked for all
-/// of that time and gained speed for one period.
+/// Remembers the velocity sent last and tells the next one: it has braked for the time in between, however often it is
+/// asked, and gained speed for one period at most.
 class VelocityLimiter {
  public:
-  VelocityLimiter(const Limits& limits, double period_s) : limits_(limits), period_s_(period_s), braking_s_(period_s) {}
+  VelocityLimiter(const Limits& limits, double period_s)
+      : limits_(limits), period_s_(period_s), braking_s_(period_s), gaining_s_(period_s) {}
 
   /// Limits from now on.
   void set_limits(const Limits& limits) { limits_ = limits; }
 
   /// So long has the velocity that was sent last been in force; the base stops by itself after a while.
-  void elapse(double since_s) { braking_s_ = std::clamp(since_s, period_s_, kMaxBaseTimeoutS); }
+  void elapse(double since_s) {
+    braking_s_ = std::clamp(since_s, 0.0, kMaxBaseTimeoutS);
+    gaining_s_ = std::min(braking_s_, period_s_);
+  }
 
   /// The wanted velocity, which must be finite, when it is not too fast; else the like on the same circle.
   Velocity within_limits(const Velocity& wanted) const { return wanted.scaled(limits_.permitted_share(wanted)); }
@@ -49,6 +53,7 @@ class VelocityLimiter {
   Limits limits_;
   double period_s_;
   double braking_s_;
+  double gaining_s_;
   Velocity sent_;
 };
 

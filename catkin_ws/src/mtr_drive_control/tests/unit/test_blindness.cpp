@@ -1,5 +1,5 @@
 /// @file
-/// LiDARs that see nothing, odometry that is silent, and ground that nobody watches.
+/// LiDARs that see nothing, odometry that is silent.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -217,46 +217,6 @@ TEST(TooNearToMeasure, WallAtTheBumperMayBeLeft) {
   EXPECT_GT(robot.clearance(), 0.1);
 }
 
-TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
-  TestRobot robot(false);
-  robot.settle();
-  const Decision decision = robot.drive({-0.5, 0.0}, 1.0);
-  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message.text,
-            "Blocked: ground behind was not seen free lately; drive the robot ahead for half a metre with the manual "
-            "controller, then turn it once on the spot.");
-}
-
-TEST(UnwatchedRear, ThingBehindThatWasNeverSeenIsNotTouchedInATurn) {
-  for (const bool by_hand : {false, true}) {
-    for (const double gap_m : {0.02, 0.05, 0.08}) {
-      for (const Velocity& wanted :
-           {Velocity{0.0, 1.0}, Velocity{0.0, -0.6}, Velocity{0.1, 1.0}, Velocity{0.02, -0.8}}) {
-        TestRobot robot(false);
-        robot.scene.walls = {{{-0.254 - gap_m, -3.0}, {-0.254 - gap_m, 3.0}}};
-        robot.settle();
-        robot.drive(wanted, 3.0, by_hand);
-        EXPECT_GT(robot.clearance(), 0.0) << gap_m << " " << wanted.linear_mps << " " << by_hand;
-      }
-    }
-  }
-}
-
-TEST(UnwatchedRear, SentenceOfUnseenGroundTellsAWayThatWorks) {
-  for (const bool by_hand : {false, true}) {
-    TestRobot robot(false);
-    robot.settle();
-    ASSERT_EQ(robot.drive({0.0, 0.6}, 1.0, by_hand).velocity.angular_radps, 0.0);
-    robot.drive({0.4, 0.0}, 1.5, true);
-    robot.drive({0.0, 0.0}, 1.5, true);
-    robot.drive({0.0, 0.6}, 10.5, true);
-    robot.drive({0.0, 0.0}, 1.0, true);
-    EXPECT_GT(robot.drive({0.0, 0.6}, 2.0, by_hand).velocity.angular_radps, 0.5);
-    robot.drive({0.0, 0.0}, 1.0);
-    EXPECT_NEAR(robot.drive({-0.3, 0.0}, 1.5).velocity.linear_mps, -0.3, 1e-9);
-  }
-}
-
 TEST(LidarWatch, TimesThatNoSweepHasAreRefusedBeforeTheyMakeItLookSilent) {
   const auto problem_of = [](double increment_s, double scan_time_s, std::int64_t age_ns) {
     auto sweep = std::make_shared<Sweep>(*sweep_at(0));
@@ -274,66 +234,6 @@ TEST(LidarWatch, TimesThatNoSweepHasAreRefusedBeforeTheyMakeItLookSilent) {
   EXPECT_EQ(problem_of(3.0 * 0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_time_increment");
   EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 60 * kTestMs), "");
   EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_silent");
-}
-
-TEST(UnwatchedRear, RobotThatHasTurnedOnceOnTheSpotBacksAgain) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  robot.drive({0.0, 0.0}, 25.0);
-  ASSERT_EQ(robot.drive({-0.5, 0.0}, 1.0).velocity.linear_mps, 0.0);
-  robot.drive({0.0, 0.6}, 10.5, true);
-  robot.drive({0.0, 0.0}, 1.0);
-  EXPECT_NEAR(robot.drive({-0.5, 0.0}, 2.0).velocity.linear_mps, -0.3, 1e-9);
-}
-
-TEST(UnwatchedRear, OwnTrackIsBackedIntoSlowlyUntilItEnds) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 5.0);
-  robot.drive({0.0, 0.0}, 1.0);
-  EXPECT_NEAR(robot.drive({-0.8, 0.0}, 2.0).velocity.linear_mps, -0.3, 1e-9);
-  EXPECT_EQ(robot.drive({-0.8, 0.0}, 12.0).velocity.linear_mps, 0.0);
-  EXPECT_NEAR(robot.world_from_base.position().x_m, 0.0, 0.15);
-}
-
-TEST(UnwatchedRear, GroundSeenTooLongAgoIsNotBackedInto) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  robot.drive({0.0, 0.0}, 25.0);
-  EXPECT_EQ(robot.drive({-0.5, 0.0}, 1.0).velocity.linear_mps, 0.0);
-}
-
-TEST(UnwatchedRear, PersonWhoWalkedOutOfViewBehindStopsBacking) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  const double behind_x = robot.world_from_base.position().x_m - 1.0;
-  for (double y = 3.0; y > 0.8; y -= 0.03) {
-    robot.scene.discs = {{{behind_x, y}, 0.1}};
-    robot.step({0.0, 0.0});
-  }
-  robot.scene.discs.clear();
-  robot.scene.discs = {{{behind_x, 0.0}, 0.1}};
-  EXPECT_EQ(robot.drive({-0.3, 0.0}, 1.0).velocity.linear_mps, 0.0);
-}
-
-TEST(UnwatchedRear, ThingThatVanishesBehindTheCarBesideTheRobotDoesNotStopBacking) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  const double x = robot.world_from_base.position().x_m;
-  robot.scene.discs = {{{x + 0.2, 1.7}, 0.1}};
-  robot.drive({0.0, 0.0}, 0.2);
-  robot.scene.walls = {{{x - 1.0, 1.2}, {x + 2.0, 1.2}}};
-  EXPECT_NEAR(robot.drive({-0.3, 0.0}, 1.5).velocity.linear_mps, -0.3, 1e-9);
-}
-
-TEST(UnwatchedRear, PersonAtTheManualControllerMayBackSlowly) {
-  TestRobot robot(false);
-  robot.settle();
-  EXPECT_NEAR(robot.drive({-0.5, 0.0}, 1.0, true).velocity.linear_mps, -0.3, 1e-9);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "map_names.hpp"
 #include "mtr_core/clock.hpp"
@@ -16,8 +17,16 @@ namespace {
 // Cosine of 5 degrees.
 constexpr double kLevel = 0.996;
 
-/// Direction of the rotated x axis in the plane.
+// A quaternion is a rotation when its norm is 1; single precision and rounding in text leave this.
+constexpr double kNormTolerance = 0.05;
+
+/// Direction of the rotated x axis in the plane; NaN for what is no rotation, such as a quaternion of zeros.
 double heading_of(const geometry_msgs::Quaternion& rotation) {
+  const double norm =
+      std::sqrt(rotation.w * rotation.w + rotation.x * rotation.x + rotation.y * rotation.y + rotation.z * rotation.z);
+  if (!(std::abs(norm - 1.0) <= kNormTolerance)) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
   return std::atan2(2.0 * (rotation.w * rotation.z + rotation.x * rotation.y),
                     1.0 - 2.0 * (rotation.y * rotation.y + rotation.z * rotation.z));
 }
