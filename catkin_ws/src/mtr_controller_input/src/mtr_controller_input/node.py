@@ -82,7 +82,7 @@ class DueJoys:
 
 
 class ControllerInputNode:
-    """Publishes the lock at each tick, and the velocity at the start, while a dead-man button is held and once after."""
+    """Publishes the lock at each tick; the velocity at the start, while a dead-man button is held, and once after."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
