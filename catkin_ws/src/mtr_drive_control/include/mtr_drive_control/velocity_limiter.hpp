@@ -23,7 +23,8 @@ class VelocityLimiter {
 
   /// So long has the velocity that was sent last been in force; the base stops by itself after a while.
   void elapse(double since_s) {
-    braking_s_ = std::clamp(since_s, 0.0, kMaxBaseTimeoutS);
+    // Who decides twice at one instant counts ticks: each is a period.
+    braking_s_ = since_s > 0.0 ? std::min(since_s, kMaxBaseTimeoutS) : period_s_;
     gaining_s_ = std::min(braking_s_, period_s_);
   }
 
