@@ -71,8 +71,7 @@ void DriveControl::time_step(std::int64_t tick_ns) {
   const double before_s = step_s_;
   step_s_ = std::clamp(since_s, period_s_, kMaxBaseTimeoutS);
   expected_step_s_ = std::min(before_s, step_s_);
-  // A stop that does not wait for the next tick comes between two of them.
-  limiter_.elapse(since_s);
+  limiter_.elapse(step_s_);
 }
 
 void DriveControl::follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion) {

@@ -34,21 +34,21 @@ bool VelocityLimiter::leads(const Velocity& measured) const {
 double VelocityLimiter::next_linear(double wanted_mps) const {
   const double now_mps = sent_.linear_mps;
   if (now_mps == 0.0) {
-    const double step = limits_.linear_acceleration_mps2 * gaining_s_;
+    const double step = limits_.linear_acceleration_mps2 * period_s_;
     return std::clamp(wanted_mps, -step, step);
   }
   // In the direction of travel: faster by acceleration, slower by deceleration, and never through zero in one step.
   const double sign = now_mps > 0.0 ? 1.0 : -1.0;
   const double speed_mps = std::abs(now_mps);
   const double slowest = std::max(0.0, speed_mps - limits_.linear_deceleration_mps2 * braking_s_);
-  const double fastest = speed_mps + limits_.linear_acceleration_mps2 * gaining_s_;
+  const double fastest = speed_mps + limits_.linear_acceleration_mps2 * period_s_;
   return sign * std::clamp(sign * wanted_mps, slowest, fastest);
 }
 
 double VelocityLimiter::next_angular(double wanted_radps) const {
   const double sign = sent_.angular_radps < 0.0 ? -1.0 : 1.0;
   const double rate_radps = std::abs(sent_.angular_radps);
-  const double step_radps = limits_.angular_acceleration_radps2 * gaining_s_;
+  const double step_radps = limits_.angular_acceleration_radps2 * period_s_;
   // The turn may be reversed in a step, by no more than it would begin with.
   const double slowest = std::max(rate_radps - limits_.angular_acceleration_radps2 * braking_s_, -step_radps);
   return sign * std::clamp(sign * wanted_radps, slowest, rate_radps + step_radps);

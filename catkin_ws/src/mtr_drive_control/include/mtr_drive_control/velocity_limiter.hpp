@@ -11,22 +11,17 @@
 
 namespace mtr_drive_control {
 
-/// Remembers the velocity sent last and tells the next one: it has braked for the time in between, however often it is
-/// asked, and gained speed for one period at most.
+/// Remembers the velocity sent last and tells the next one, one period later; or later, and then it has braked for all
+/// of that time and gained speed for one period.
 class VelocityLimiter {
  public:
-  VelocityLimiter(const Limits& limits, double period_s)
-      : limits_(limits), period_s_(period_s), braking_s_(period_s), gaining_s_(period_s) {}
+  VelocityLimiter(const Limits& limits, double period_s) : limits_(limits), period_s_(period_s), braking_s_(period_s) {}
 
   /// Limits from now on.
   void set_limits(const Limits& limits) { limits_ = limits; }
 
   /// So long has the velocity that was sent last been in force; the base stops by itself after a while.
-  void elapse(double since_s) {
-    // Who decides twice at one instant counts ticks: each is a period.
-    braking_s_ = since_s > 0.0 ? std::min(since_s, kMaxBaseTimeoutS) : period_s_;
-    gaining_s_ = std::min(braking_s_, period_s_);
-  }
+  void elapse(double since_s) { braking_s_ = std::clamp(since_s, period_s_, kMaxBaseTimeoutS); }
 
   /// The wanted velocity, which must be finite, when it is not too fast; else the like on the same circle.
   Velocity within_limits(const Velocity& wanted) const { return wanted.scaled(limits_.permitted_share(wanted)); }
@@ -54,7 +49,6 @@ class VelocityLimiter {
   Limits limits_;
   double period_s_;
   double braking_s_;
-  double gaining_s_;
   Velocity sent_;
 };
 

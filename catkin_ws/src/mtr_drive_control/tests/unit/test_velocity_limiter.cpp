@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "mtr_drive_control/tip_over.hpp"
 #include "mtr_drive_control/velocity_limiter.hpp"
 
 namespace mtr_drive_control {
@@ -129,30 +128,6 @@ TEST_F(VelocityLimiterTest, DesiredVelocityAfterAnEmergencyStopStartsFromTheVelo
   follow_for({1.0, 0.0}, 2.0);
   const double stopped_to = stop().linear_mps;
   EXPECT_NEAR(follow({1.0, 0.0}).linear_mps, stopped_to + 0.02, 1e-9);
-}
-
-TEST(VelocityLimiter, StopOfABouncingContactBrakesForTheTimeThatHasPassed) {
-  for (const int edges : {1, 5, 50}) {
-    VelocityLimiter once(limits_at(Parameters{}, 0.35), 0.02);
-    once.send({0.8, 0.0});
-    once.elapse(0.010);
-    VelocityLimiter bouncing = once;
-    for (int edge = 0; edge < edges; ++edge) {
-      bouncing.elapse(0.010 / edges);
-      bouncing.send(bouncing.braked());
-    }
-    EXPECT_NEAR(bouncing.sent().linear_mps, once.braked().linear_mps, 1e-9) << edges;
-    EXPECT_LT(bouncing.sent().linear_mps, 0.8);
-  }
-}
-
-TEST(VelocityLimiter, SpeedIsGainedByTimeAndNotByTick) {
-  VelocityLimiter limiter(limits_at(Parameters{}, 0.35), 0.02);
-  for (int tick = 0; tick < 10; ++tick) {
-    limiter.elapse(0.002);
-    limiter.send(limiter.toward({0.8, 0.5}));
-  }
-  EXPECT_NEAR(limiter.sent().linear_mps, 0.02 * Parameters{}.linear_acceleration_mps2, 1e-9);
 }
 
 }  // namespace
