@@ -10,7 +10,7 @@ import rostest
 from case import case
 from geometry_msgs.msg import Twist
 from rosgraph_msgs.msg import Log
-from scripted_sensors import BEAMS, open_ground
+from scripted_sensors import BEAMS, FAR_M, open_ground
 from scripted_time import NS, Listener, ScriptedTime, Speaker, wait_for
 
 from mtr_core import names, schedule
@@ -61,7 +61,7 @@ class DriveControl(unittest.TestCase):
             speaker.is_silent = False
         self.planner.message = VelocityCommand(linear_mps=0.5, active=True)
         self.manual.message = VelocityCommand(active=False)
-        self.front.message.ranges = [math.inf] * BEAMS
+        self.front.message.ranges = [FAR_M] * BEAMS
         for lock in (self.dispatcher.message, self.state_machine.message):
             lock.engaged, lock.reason = False, ""
         self.time.advance_until(lambda: self.status().linear_mps == 0.5, within_s=3.0)
@@ -176,7 +176,7 @@ class DriveControl(unittest.TestCase):
         stop.message.engaged = False
 
     def test_lidar_that_speaks_of_another_frame_or_without_beams_stops_the_robot_and_the_node_lives(self):
-        for frame, ranges, sentence in (("map", [math.inf] * BEAMS, "frame 'map'"), (names.FRONT_LIDAR, [], "beams")):
+        for frame, ranges, sentence in (("map", [FAR_M] * BEAMS, "frame 'map'"), (names.FRONT_LIDAR, [], "beams")):
             self.front.message.header.frame_id, self.front.message.ranges = frame, ranges
             self.time.advance_until(self.is_standing, within_s=ONE_TICK_S + STANDSTILL_WITHIN_S)
             self.assertIn(sentence, self.status().message)
@@ -185,12 +185,12 @@ class DriveControl(unittest.TestCase):
 
     def test_wall_ahead_stops_the_robot_with_its_distance_and_it_goes_on_when_the_wall_has_gone(self):
         angles = [self.front.message.angle_min + beam * self.front.message.angle_increment for beam in range(BEAMS)]
-        self.front.message.ranges = [0.19 / math.cos(angle) if abs(angle) < 0.8 else math.inf for angle in angles]
+        self.front.message.ranges = [0.19 / math.cos(angle) if abs(angle) < 0.8 else FAR_M for angle in angles]
         self.time.advance_until(self.is_standing, within_s=ONE_TICK_S + STANDSTILL_WITHIN_S)
         self.assertEqual(self.status().zone, DriveStatus.BLOCKED)
         self.assertAlmostEqual(self.status().obstacle_m, 0.04, delta=0.005)
         self.assertIn("Blocked by an obstacle", self.status().message)
-        self.front.message.ranges = [math.inf] * BEAMS
+        self.front.message.ranges = [FAR_M] * BEAMS
         gone_on_s = self.time.advance_until(lambda: not self.is_standing(), within_s=2.0)
         self.assertGreater(gone_on_s, 0.9)
 
@@ -201,7 +201,7 @@ class DriveControl(unittest.TestCase):
         wait_for(lambda: log.get_num_connections() > 1, "drive control's log")
         angles = [self.front.message.angle_min + beam * self.front.message.angle_increment for beam in range(BEAMS)]
         for ahead_m in 3 * STEPS_M:
-            self.front.message.ranges = [ahead_m if abs(angle) < PERSON_RAD else math.inf for angle in angles]
+            self.front.message.ranges = [ahead_m if abs(angle) < PERSON_RAD else FAR_M for angle in angles]
             self.time.advance_for(STEP_S)
             sentences.add(self.status().message)
         self.assertGreaterEqual(len(sentences), len(set(STEPS_M)) - 1, "the status has each distance")

@@ -11,8 +11,10 @@ from sensor_msgs.msg import Imu, LaserScan
 from mtr_core import names, schedule
 from mtr_msgs.msg import PeripheralsState
 
-BEAMS = 90
+BEAMS = 271
 FIELD_OF_VIEW_RAD = 1.5 * math.pi
+# Walls far away: without any echo a LiDAR counts as covered.
+FAR_M = 20.0
 MILLIMETRE = 0.001
 GYRO_NOISE_RADPS = 0.001
 TWO_SWEEPS_NS = 2 * schedule.LIDAR.period_ns
@@ -92,9 +94,9 @@ def open_ground() -> Tuple[Speaker, Speaker, WheelsSpeaker, ImuSpeaker, Speaker]
 
 
 def clear_scan(frame: str) -> LaserScan:
-    """A sweep in which nothing is in reach."""
+    """A sweep in which walls far away alone are seen."""
     scan = LaserScan(angle_min=-FIELD_OF_VIEW_RAD / 2.0, angle_max=FIELD_OF_VIEW_RAD / 2.0,
                      angle_increment=FIELD_OF_VIEW_RAD / (BEAMS - 1), range_min=0.1, range_max=30.0,
-                     ranges=[math.inf] * BEAMS)
+                     ranges=[FAR_M] * BEAMS)
     scan.header.frame_id = frame
     return scan

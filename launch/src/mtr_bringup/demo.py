@@ -16,6 +16,7 @@ from mtr_core.errors import ConfigurationError
 from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.site.scenario import named_scenario
 
+from .car_sheet import car_file_of
 from .stack import Stack, StackError, StackOptions
 
 # Scenarios, and how many lines their results have at least.
@@ -208,7 +209,7 @@ def run_part(options: DemoOptions, names: Sequence[str]) -> None:
     patience = options.stack_folder.resolve() / "patience.yaml"
     patience.write_text(PATIENCE, encoding="utf-8")
     car_file = patience.with_name("car.yaml")
-    car_file.write_text(data_sheet_of(options.site), encoding="utf-8")
+    car_file.write_text(car_file_of(options.site), encoding="utf-8")
     with Stack(StackOptions(options.stack_folder, options.seed, rviz="DISPLAY" in os.environ,
                             arguments={"firmware_elf": options.firmware, "car": options.car_argument,
                                        "scenario": options.site, "node_parameters": str(patience),
@@ -216,14 +217,6 @@ def run_part(options: DemoOptions, names: Sequence[str]) -> None:
         statuses = [run_scenario(stack, name, options.folder / name, options) for name in names]
     if any(statuses):
         raise DemoError(f"A scenario failed; see {stack.log} and {options.folder}.")
-
-
-def data_sheet_of(site: str) -> str:
-    """Data sheet of the simulated Car of a site, as a laboratory fills it in for the robot: the text of a car_file."""
-    shape = named_scenario(site).car
-    sheet = {"known_length_m": shape.length_m, "known_width_m": shape.width_m,
-             "front_overhang_m": 0.5 * (shape.length_m - shape.wheelbase_m), "wheelbase_m": shape.wheelbase_m}
-    return "".join(f"{name}: {value_m:.3f}\n" for name, value_m in sheet.items())
 
 
 def parameters_of(scenario: str, car: str) -> pathlib.Path:

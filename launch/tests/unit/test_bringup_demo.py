@@ -9,6 +9,7 @@ import pytest
 import yaml
 
 from mtr_bringup import demo, stack
+from mtr_bringup.car_sheet import car_file_of, data_sheet_of
 from mtr_bringup.demo import (
     MIN_LINES,
     OUTPUTS,
@@ -181,7 +182,8 @@ def test_record_of_a_test_names_the_simulated_car(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("site", ["lot", "far", "suv"])
 def test_robot_of_the_demo_is_given_the_data_sheet_of_its_car(site):
-    sheet = DataSheet(**yaml.safe_load(demo.data_sheet_of(site)))
+    sheet = DataSheet(**yaml.safe_load(car_file_of(site)))
+    assert sheet == data_sheet_of(site)
     shape = named_scenario(site).car
     assert (sheet.known_length_m, sheet.known_width_m) == (shape.length_m, shape.width_m)
     assert sheet.wheelbase_m + 2.0 * sheet.front_overhang_m == pytest.approx(shape.length_m)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import pathlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Deque, Optional
 
 from mtr_core.schedule import SIMULATION_START_NS
@@ -15,6 +15,7 @@ from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.physics.wheels import parameters_of
 from mtr_simulation.world import World
 
+from ..car_sheet import data_sheet_of
 from . import wire
 from .car_locator import CarLocatorPart
 from .dispatcher import DispatcherPart
@@ -65,12 +66,13 @@ class CoresRobot:
                            robot=shipped_robot(), base=parameters_of(shipped_base()), port=port)
         self._commands: Deque[bytes] = collections.deque()
         self._status: Optional[bytes] = None
-        self._make_parts()
+        self._make_parts(options.site)
 
-    def _make_parts(self) -> None:
+    def _make_parts(self, site: str) -> None:
         parameters, robot, urdf, topics = simulated_robot(), shipped_geometry(), shipped_urdf(), Topics()
         key = robot.key()
-        self._locator = CarLocatorPart(topics, parameters.car_locator, robot.lidars(), self._order)
+        locator = replace(parameters.car_locator, sheet=data_sheet_of(site))
+        self._locator = CarLocatorPart(topics, locator, robot.lidars(), self._order)
         self._localization = LocalizationPart(topics, urdf, self._locator.take_map)
         topics.pose.listen(self._locator.take_pose)
         self._drive = DriveControlPart(topics, urdf, self.world.sim.command)
