@@ -17,7 +17,7 @@ MAX_AHEAD_S = 0.005
 MAX_AHEAD_SIMULATED_S = CLOCK_STEP.period_ns * 1e-9 + MAX_AHEAD_S
 # Beams that are not a number are no measurement (REP 117), nor are those of zero; a few are usual with some drivers.
 MAX_NOT_NUMBERS = 0.1
-# Drive control stands for a wider piece without a measurement in one scan: its kWidestUnseenRad.
+# Drive control stands for a wider piece without a measurement in one scan: its kLegRad.
 MAX_UNSEEN_RAD = 0.175
 # A sweep ends before the next one begins; drivers round both.
 MAX_SWEEP_PERIODS = 1.05

@@ -27,6 +27,8 @@ constexpr std::int64_t kUnseenNs = 1'000'000'000;
 constexpr std::int64_t kGivenUpNs = 20'000'000'000;
 // What may be a person is followed up to here; farther away only what is wider than a person's two legs.
 constexpr double kThingReachM = 4.0;
+// Fewer beams than these that look through surfaces may be a person who left; 30 are a car that drove away.
+constexpr int kMinCarriedBeams = 30;
 // Echoes of the other LiDAR count up to here: farther away the smallest tilt lets one see what the other does not.
 constexpr double kOtherReachM = 4.0;
 
@@ -41,6 +43,7 @@ bool is_at_edge(const View& view, const Bearing& bearing) {
 
 EmptyBeams EchoMemory::observe(const View& view, const Witness& lidar, const std::vector<Echo>& echoes) {
   empty_ = EmptyBeams();
+  confirmed_ = seen_through_ = 0;
   counting_.assign(view.beams(), false);
   for (const Echo& echo : echoes) {
     counting_[echo.beam] = true;
@@ -48,6 +51,10 @@ EmptyBeams EchoMemory::observe(const View& view, const Witness& lidar, const std
   const auto gone = std::remove_if(remembered_.begin(), remembered_.end(),
                                    [&](Remembered& remembered) { return !survives(remembered, view, lidar, echoes); });
   remembered_.erase(gone, remembered_.end());
+  if (was_carried()) {
+    remembered_.clear();
+    empty_ = EmptyBeams();
+  }
   for (const Echo& echo : echoes) {
     if (echo.range_m <= kThingReachM || (echo.is_wide && echo.span_rad > kLegRad)) {
       remembered_.push_back({echo, lidar.index, rest_ns_, std::nullopt});
@@ -67,6 +74,7 @@ bool EchoMemory::survives(Remembered& remembered, const View& view, const Witnes
   const double range_m = bearing->range_m;
   switch (view.evidence_at(*bearing, kToleranceM + kTolerancePerRange * range_m, kToleranceRad)) {
     case Evidence::kConfirmed:
+      ++confirmed_;
       if (remembered.lidar != lidar.index) {
         // Its own LiDAR still has to show it.
         return is_recent || remembered.missing_ns;
@@ -77,6 +85,7 @@ bool EchoMemory::survives(Remembered& remembered, const View& view, const Witnes
       // Its echo takes its place, unless it is too weak to count.
       return !counts(bearing->beam);
     case Evidence::kSeenThrough:
+      ++seen_through_;
       return false;
     case Evidence::kHidden:
       // A raindrop before it shows nothing of the window, something that passes does; and a person walks on meanwhile.
@@ -95,6 +104,8 @@ bool EchoMemory::survives(Remembered& remembered, const View& view, const Witnes
   }
   return true;
 }
+
+bool EchoMemory::was_carried() const { return seen_through_ >= kMinCarriedBeams && seen_through_ > confirmed_; }
 
 bool EchoMemory::counts(std::size_t beam) const {
   const std::size_t first = beam - std::min<std::size_t>(beam, 1);

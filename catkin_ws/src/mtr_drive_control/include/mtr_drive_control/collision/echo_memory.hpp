@@ -34,7 +34,8 @@ struct Witness {
 ///
 /// Proof is an echo from behind the place, or a new place within a step of the old one: a person who walks, a car that
 /// drives. A beam that returns nothing proves nothing. It may as well be covered, dazzled or too near its target, so
-/// the surface stays where it was.
+/// the surface stays where it was. A sweep that looks through more surfaces than it confirms is from another place: the
+/// robot was carried, and all that was remembered is forgotten.
 class EchoMemory {
  public:
   /// Compares what is remembered with a sweep of a LiDAR, then adds the sweep's echoes.
@@ -61,6 +62,8 @@ class EchoMemory {
   };
   bool survives(Remembered& remembered, const View& view, const Witness& lidar, const std::vector<Echo>& echoes);
   bool is_explained(const Remembered& remembered, double range_m, const std::vector<Echo>& echoes) const;
+  /// True when the sweep that is compared is from another place than the odometry tells.
+  bool was_carried() const;
   /// True when an echo that counts came from this direction.
   bool counts(std::size_t beam) const;
 
@@ -68,6 +71,9 @@ class EchoMemory {
   /// Of the sweep that is compared, by beam.
   std::vector<bool> counting_;
   EmptyBeams empty_;
+  /// Of the same sweep: remembered surfaces that it shows, and that it looks through.
+  int confirmed_ = 0;
+  int seen_through_ = 0;
   std::int64_t rest_ns_ = 0;
 };
 
