@@ -63,6 +63,14 @@ void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   }
   tick_ns_ = tick_ns;
   has_motion_ = sensors.motion.has_value();
+  if (had_position_ && !sensors.map) {
+    // A robot that lost its position may have been carried: what it remembers would be elsewhere.
+    memory_ = EchoMemory();
+    for (Lidar& lidar : lidars_) {
+      lidar.empty = EmptySector();
+    }
+  }
+  had_position_ = sensors.map.has_value();
   has_map_ = sensors.map.has_value() && !sensors.map->map->occupied.empty();
   const bool is_known =
       has_motion_ && mtr_core::is_fresh(sensors.motion->stamp_ns, tick_ns, parameters_.odometry_timeout_s);

@@ -192,7 +192,7 @@ class LiveRobot:
         self.status_times_s.append(time.monotonic())
 
     def _speak(self, _: Any) -> None:
-        self._joy.header.stamp = rospy.Time.now()
+        # Without a stamp, as some drivers send it: this process does not follow the robot's clock when it is set.
         self._joystick.publish(self._joy)
 
     def _take_command(self, twist: Any) -> None:

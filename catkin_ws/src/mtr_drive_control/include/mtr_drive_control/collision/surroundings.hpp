@@ -112,6 +112,8 @@ class Surroundings {
   GroundMemory ground_;
   EchoMemory memory_;
   bool has_map_ = false;
+  /// At the previous tick.
+  bool had_position_ = false;
   /// The newest one that was used.
   std::optional<Motion> followed_;
   std::int64_t tick_ns_ = 0;
