@@ -67,7 +67,7 @@ std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
     } else if (!mtr_core::is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {
       engaged.push_back({owner, problems::kLockSilent({{"owner", owner}})});
     } else if (lock->engaged) {
-      engaged.push_back({owner, lock->reason, lock->emergency});
+      engaged.push_back({owner, lock->reason});
     }
   }
   return engaged;

@@ -28,8 +28,6 @@ struct Lock {
 struct EngagedLock {
   std::string owner;
   mtr_core::Problem reason;
-  /// The owner is an emergency stop.
-  bool emergency = false;
 };
 
 /// Locks of the required owners, and of every other owner that was ever heard.

@@ -118,9 +118,7 @@ class TestRobot {
 
   /// One tick with this desired velocity.
   Decision step(const Velocity& desired, bool by_hand = false) {
-    const double period_s = static_cast<double>(period_ns) * 1e-9;
-    world_from_base = world_from_base.after({wheels.linear_mps, grip * wheels.angular_radps}, period_s);
-    odom_from_base = odom_from_base.after(wheels, period_s);
+    world_from_base = world_from_base.after(wheels, static_cast<double>(period_ns) * 1e-9);
     now_ns += period_ns;
     if (now_ns / kTestSweepNs != (now_ns - period_ns) / kTestSweepNs && !lidars_are_silent) {
       observe();
@@ -130,7 +128,7 @@ class TestRobot {
     inputs.locks = locks;
     (by_hand ? inputs.manual : inputs.planner) = command;
     inputs.sensors = {front_, rear_,
-                      Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, odom_from_base, wheels}, map};
+                      Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, world_from_base, wheels}};
     inputs.key = KeyHeight{now_ns, 0.35};
     const Decision decision = control.step(now_ns, inputs);
     velocity = decision.velocity;
@@ -155,10 +153,6 @@ class TestRobot {
   Scene scene;
   DriveControl control;
   Pose world_from_base;
-  /// By the wheels, which tell a turn wrongly where they slip.
-  Pose odom_from_base;
-  double grip = 1.0;
-  std::optional<LocalizedMap> map;
   /// What was sent last, and what the wheels make of it.
   Velocity velocity;
   Velocity wheels;
