@@ -1032,12 +1032,12 @@
     <message>
         <location filename="../../station/checks/check_texts.py" line="222"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
-        <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte.</translation>
+        <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="46"/>
         <source>Ground next to the Car</source>
-        <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
+        <translation>Zem vedle auta</translation>
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="46"/>
