@@ -73,11 +73,8 @@ def content_problems(path: pathlib.Path, done: Callable[[int], None]) -> Sequenc
     done: receives the size of each file once it was read, in bytes.
     """
     with zipfile.ZipFile(path) as container:
-        def entry(name: str) -> FileEntry:
-            found = _member(container, name)
-            done(found.size)
-            return found
-        return _verified(container.namelist(), lambda name: _start_of(container, name), entry).problems
+        return _verified(container.namelist(), lambda name: _start_of(container, name),
+                         lambda name: _member(container, name), done).problems
 
 
 def is_newer(path: pathlib.Path) -> bool:
@@ -111,7 +108,7 @@ def chain_problems(found: Sequence[Verification]) -> list[str]:
 
 
 def _verified(names: Sequence[str], read: Callable[[str], bytes],
-              entry: Callable[[str], FileEntry]) -> Verification:
+              entry: Callable[[str], FileEntry], done: Callable[[int], None] = lambda _: None) -> Verification:
     try:
         content, signature = read(MANIFEST), json.loads(read(SIGNATURE))
         manifest = manifest_from(content)
@@ -124,7 +121,11 @@ def _verified(names: Sequence[str], read: Callable[[str], bytes],
     for name, wanted in manifest.files.items():
         if name not in names:
             problems.append(f"{name} is missing.")
-        elif _entry_or_none(entry, name) != wanted:
+            continue
+        # What is raised by done ends the verification; it is no fault of the file.
+        found = _entry_or_none(entry, name)
+        done(wanted.size)
+        if found != wanted:
             problems.append(f"{name} is changed.")
     known = {MANIFEST, SIGNATURE, *manifest.files}
     problems += [f"{name} was added." for name in names if name not in known]
