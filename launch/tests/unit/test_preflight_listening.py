@@ -58,8 +58,9 @@ def test_widest_piece_without_a_measurement_is_that_of_the_own_view(first, last,
 
 def test_what_counts_as_covered_is_drive_control_s():
     collision = pathlib.Path(__file__).resolve().parents[3] / "catkin_ws/src/mtr_drive_control/src/collision"
-    text = "".join(path.read_text(encoding="utf-8") for path in collision.glob("*.cpp"))
-    assert f"kWidestUnseenRad = {topics.MAX_UNSEEN_RAD};" in text
+    headers = collision.parents[1] / "include" / "mtr_drive_control" / "collision"
+    text = "".join(path.read_text(encoding="utf-8") for path in [*collision.glob("*.cpp"), *headers.glob("*.hpp")])
+    assert f"kLegRad = {topics.MAX_UNSEEN_RAD};" in text
     assert f"kSharedViewRad = {listening.SHARED_VIEW_RAD};" in text
 
 

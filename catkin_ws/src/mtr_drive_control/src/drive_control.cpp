@@ -41,6 +41,11 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   adapt_limits(tick_ns, inputs.key);
   follow_wheels(tick_ns, inputs.sensors.motion);
   const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
+  if (contradiction_ ||
+      std::any_of(locks.begin(), locks.end(), [](const EngagedLock& lock) { return lock.emergency; })) {
+    // Somebody may carry the robot, or push it.
+    collision_stop_.forget_ground();
+  }
   const Selection selection =
       locks.empty() ? wanted_at(tick_ns, inputs) : Selection{"locked", std::nullopt, locks.front().reason};
   Decision decision;

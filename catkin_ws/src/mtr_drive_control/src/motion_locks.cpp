@@ -4,6 +4,7 @@
 #include "mtr_drive_control/motion_locks.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "mtr_core/steady_time.hpp"
 #include "problems.hpp"
@@ -43,7 +44,15 @@ bool MotionLocks::take(const std::string& owner, Lock lock) {
     lock.reason = problems::kEmergencyNotReleased({{"owner", owner}});
   }
   locks_.try_emplace(owner, mtr_core::kClockStep).first->second.add(lock.stamp_ns, lock);
-  return lock.engaged && !was_engaged;
+  return lock.engaged && !was_engaged && is_first_in_period(lock.stamp_ns);
+}
+
+bool MotionLocks::is_first_in_period(std::int64_t stamp_ns) {
+  if (engaged_ns_ && std::abs(stamp_ns - *engaged_ns_) < mtr_core::kDriveControl.period_ns) {
+    return false;
+  }
+  engaged_ns_ = stamp_ns;
+  return true;
 }
 
 bool MotionLocks::is_latched(const std::string& owner, const Lock& lock) const {
@@ -67,7 +76,7 @@ std::vector<EngagedLock> MotionLocks::engaged_at(std::int64_t tick_ns) {
     } else if (!mtr_core::is_fresh(lock->stamp_ns, tick_ns, timeout_s_)) {
       engaged.push_back({owner, problems::kLockSilent({{"owner", owner}})});
     } else if (lock->engaged) {
-      engaged.push_back({owner, lock->reason});
+      engaged.push_back({owner, lock->reason, lock->emergency});
     }
   }
   return engaged;

@@ -34,6 +34,28 @@ constexpr Sentence kLidarNotNumbers{"drive_control.lidar_not_numbers",
 constexpr Sentence kLidarWithoutRange{"drive_control.lidar_without_range",
                                       "The {lidar} sends sweeps without a range of measurement."};
 constexpr Sentence kLidarCovered{"drive_control.lidar_covered", "The {lidar} is covered."};
+constexpr Sentence kLidarSectorCovered{
+    "drive_control.lidar_sector_covered",
+    "The {lidar} is covered or dirty from {from_deg} to {to_deg} degrees (0 is ahead, 90 left): clean or "
+    "uncover it."};
+constexpr Sentence kLidarSeesNothing{
+    "drive_control.lidar_sees_nothing",
+    "The {lidar} sees nothing from {from_deg} to {to_deg} degrees (0 is ahead, 90 left), where something was: "
+    "clean or uncover it, or walk past in front of it."};
+constexpr Sentence kLidarNeverSaw{"drive_control.lidar_never_saw",
+                                  "The {lidar} has seen nothing since its start, but the {other} shows a surface: "
+                                  "clean or uncover it, or walk past in "
+                                  "front of it."};
+constexpr Sentence kLidarSweepTime{"drive_control.lidar_sweep_time",
+                                   "The {lidar} sends sweeps of {sweep_s:.3g} s; allowed is 0 to {most_s:.2f} s: set "
+                                   "time_increment of its driver."};
+constexpr Sentence kLidarTimeIncrement{
+    "drive_control.lidar_time_increment",
+    "The {lidar} states {stated_us:.1f} us from beam to beam, by its turns it is {expected_us:.1f} us: set "
+    "time_increment of its driver."};
+constexpr Sentence kLidarTooCoarse{"drive_control.lidar_too_coarse",
+                                   "The {lidar} sends a beam each {step_deg:.1f} degrees; a leg needs one each 2 "
+                                   "degrees at least: set its resolution."};
 constexpr Sentence kLidarFrozen{"drive_control.lidar_frozen", "The {lidar} is frozen: it repeats the same sweep."};
 constexpr Sentence kWaitingForOdometry{"drive_control.waiting_for_odometry", "Waiting for the wheels' odometry."};
 constexpr Sentence kOdometrySilent{"drive_control.odometry_silent", "The wheels' odometry is silent."};
@@ -58,9 +80,10 @@ constexpr Sentence kSecondPublisher{"drive_control.second_publisher",
 
 // Collision stop
 constexpr Sentence kObstacle{"drive_control.obstacle", "Blocked by an obstacle {distance_m:.1f} m {side}."};
-constexpr Sentence kUnseenGround{"drive_control.unseen_ground",
-                                 "Blocked: the ground behind was not seen free lately; turn the robot once on the spot "
-                                 "with the manual controller, so that its LiDAR sees it."};
+constexpr Sentence kUnseenGround{
+    "drive_control.unseen_ground",
+    "Blocked: ground behind was not seen free lately; drive the robot ahead for half a metre with the manual "
+    "controller, then turn it once on the spot."};
 constexpr Sentence kPausing{"drive_control.pausing", "Waits a moment before it goes on."};
 
 }  // namespace mtr_drive_control::problems

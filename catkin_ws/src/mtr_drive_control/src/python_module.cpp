@@ -52,7 +52,8 @@ std::shared_ptr<const Sweep> sweep_of(const py::object& scan) {
   return std::make_shared<const Sweep>(Sweep{scan.attr("stamp_ns").cast<std::int64_t>(), number("angle_min_rad"),
                                              number("angle_increment_rad"), number("time_increment_s"),
                                              number("range_min_m"), number("range_max_m"),
-                                             std::vector<float>(ranges.data(), ranges.data() + ranges.size()), "", ""});
+                                             std::vector<float>(ranges.data(), ranges.data() + ranges.size()), "", "",
+                                             py::hasattr(scan, "scan_time_s") ? number("scan_time_s") : 0.0});
 }
 
 std::optional<Motion> motion_of(std::int64_t stamp_ns, const py::object& odometry) {

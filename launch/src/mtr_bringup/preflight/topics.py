@@ -17,7 +17,7 @@ MAX_AHEAD_S = 0.005
 MAX_AHEAD_SIMULATED_S = CLOCK_STEP.period_ns * 1e-9 + MAX_AHEAD_S
 # Beams that are not a number are no measurement (REP 117), nor are those of zero; a few are usual with some drivers.
 MAX_NOT_NUMBERS = 0.1
-# Drive control stands for a wider piece without a measurement in one scan: its kWidestUnseenRad.
+# Drive control stands for a wider piece without a measurement in one scan: its kLegRad.
 MAX_UNSEEN_RAD = 0.175
 # A sweep ends before the next one begins; drivers round both.
 MAX_SWEEP_PERIODS = 1.05
@@ -138,14 +138,14 @@ def scan_problems(topic: str, scans: List[ScanContent]) -> Iterator[Finding]:
     share = statistics.median(scan.not_numbers / scan.beams for scan in scans if scan.beams)
     if share > MAX_NOT_NUMBERS:
         yield bad(CONTENT, topic, f"{100.0 * share:.0f} % of its beams are zero or not a number, allowed is "
-                  f"{100.0 * MAX_NOT_NUMBERS:.0f} %: look at filters and at the range in its driver, which has to say "
-                  "inf where nothing is in reach (REP 117).", share, MAX_NOT_NUMBERS)
+                  f"{100.0 * MAX_NOT_NUMBERS:.0f} %: uncover and clean the LiDAR, look at filters, or bring the "
+                  "robot to where something stands within its range.", share, MAX_NOT_NUMBERS)
         return
     wide = [scan.unseen_rad for scan in scans if scan.unseen_rad > MAX_UNSEEN_RAD]
     if len(wide) > MAX_NOT_NUMBERS * len(scans):
         yield bad(CONTENT, topic, f"Up to {math.degrees(max(wide)):.0f} deg of it in one piece are zero or not a "
                   f"number, allowed is {math.degrees(MAX_UNSEEN_RAD):.0f} deg, beyond which drive control stands: "
-                  "uncover the LiDAR, or have its driver say inf where nothing is in reach (docs/other-bases.md).",
+                  "uncover and clean the LiDAR, or bring the robot to where something stands within its range.",
                   max(wide), MAX_UNSEEN_RAD, unit="rad")
 
 

@@ -21,6 +21,8 @@ from .parameters import Parameters
 
 OWNER = "controller_input"
 KEPT = 100
+# A node that was started again says for so many ticks that it does not drive: what its predecessor wanted ends.
+RELEASED_TICKS = 50
 # A driver speaks in no slot of the schedule: within a period it has said something at any phase.
 LOCKSTEP_LAG_NS = schedule.CONTROLLER_INPUT.period_ns
 
@@ -80,12 +82,13 @@ class DueJoys:
 
 
 class ControllerInputNode:
-    """Publishes the lock at each tick, and what is wanted while a dead-man button is held and once after."""
+    """Publishes the lock at each tick; the velocity at the start, while a dead-man button is held, and once after."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
         self._core = Controller(parameters)
         self._before = Outcome()
+        self._released_ticks = RELEASED_TICKS
         self._start, self._said = QuietStart(), (NO_PROBLEM, False)
         self._velocity = publisher(names.MANUAL_VELOCITY, VelocityCommand)
         self._lift = publisher(names.MANUAL_LIFT, LiftCommand)
@@ -118,7 +121,8 @@ class ControllerInputNode:
                           problems=messages_of(outcome.lock_reason, ProblemMessage), emergency=True)
         lock.header.stamp = stamp
         self._lock.publish(lock)
-        if outcome.velocity.active or self._before.velocity.active:
+        self._released_ticks = max(0, self._released_ticks - 1)
+        if outcome.velocity.active or self._before.velocity.active or self._released_ticks:
             message = VelocityCommand(None, *outcome.velocity)
             message.header.stamp, message.header.frame_id = stamp, names.BASE
             self._velocity.publish(message)

@@ -28,6 +28,8 @@ struct Lock {
 struct EngagedLock {
   std::string owner;
   mtr_core::Problem reason;
+  /// The owner is an emergency stop.
+  bool emergency = false;
 };
 
 /// Locks of the required owners, and of every other owner that was ever heard.
@@ -40,7 +42,10 @@ class MotionLocks {
   MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
               const std::optional<mtr_core::Waiting>& waiting);
 
-  /// Takes an owner's word; true when it engages a lock that was released or never heard.
+  /// Takes the newest state of an owner's lock.
+  ///
+  /// @return true when it engages a lock that was released or never heard, once per period: an emergency stop whose
+  /// contact bounces, or that several owners report, causes one immediate step
   bool take(const std::string& owner, Lock lock);
 
   /// Locks that forbid motion at the tick, ordered by owner.
@@ -50,6 +55,8 @@ class MotionLocks {
   double age_s() const { return age_s_; }
 
  private:
+  bool is_first_in_period(std::int64_t stamp_ns);
+
   /// The newest word of an owner.
   struct Word {
     std::int64_t stamp_ns;
@@ -61,6 +68,8 @@ class MotionLocks {
   bool is_latched(const std::string& owner, const Lock& lock) const;
 
   double timeout_s_;
+  /// Stamp of the engagement that was reported last.
+  std::optional<std::int64_t> engaged_ns_;
   double age_s_ = 0.0;
   std::map<std::string, mtr_core::Samples<Lock>> locks_;
   std::map<std::string, Word> words_;

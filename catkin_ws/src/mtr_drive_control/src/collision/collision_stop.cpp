@@ -14,22 +14,44 @@ constexpr int kHalvings = 8;
 constexpr double kLeastShare = 0.05;
 // Rounding is no approach; anything more would let the robot creep nearer tick by tick.
 constexpr double kRoundingM = 1e-9;
-constexpr double kRearStepM = 0.05;
+constexpr double kEdgeStepM = 0.05;
+
+/// Points on the outline of the robot.
+std::vector<Point> edge_of(const Footprint& footprint) {
+  std::vector<Point> edge;
+  for (double y = -footprint.half_width_m; y <= footprint.half_width_m; y += kEdgeStepM) {
+    edge.push_back({-footprint.rear_m, y});
+    edge.push_back({footprint.front_m, y});
+  }
+  for (double x = -footprint.rear_m; x <= footprint.front_m; x += kEdgeStepM) {
+    edge.push_back({x, -footprint.half_width_m});
+    edge.push_back({x, footprint.half_width_m});
+  }
+  edge.push_back({-footprint.rear_m, footprint.half_width_m});
+  return edge;
+}
 
 }  // namespace
 
 CollisionStop::CollisionStop(const CollisionParameters& parameters, const RobotShape& shape)
-    : parameters_(parameters), footprint_(shape.footprint), surroundings_(parameters, shape) {
+    : parameters_(parameters),
+      footprint_(shape.footprint),
+      edge_(edge_of(shape.footprint)),
+      surroundings_(parameters, shape) {
   check(parameters);
 }
 
 Assessment CollisionStop::assess(std::int64_t tick_ns, const DesiredMotion& desired, const Deceleration& normal) {
-  if (blindness()) {
+  const mtr_core::Problem blind = blindness() ? blindness() : surroundings_.distrust(desired.velocity);
+  if (blind || desired.velocity.is_zero()) {
+    surroundings_.rest(rested_ns_);
+  }
+  if (blind) {
     if (!desired.velocity.is_zero()) {
       blocked_motion_ = desired;
       last_blocked_ns_ = tick_ns;
     }
-    return {{}, Zone::kBlind, std::nullopt, blindness()};
+    return {{}, Zone::kBlind, std::nullopt, blind};
   }
   // A planner that stops for the obstacle must not thereby make the way free.
   const DesiredMotion tried = within_sight(desired.velocity.is_zero() && blocked_motion_ ? *blocked_motion_ : desired);
@@ -93,8 +115,9 @@ std::optional<Hindrance> CollisionStop::hindrance_of(const DesiredMotion& desire
   if (nearest != nullptr) {
     return hindrance_at(nearest->point);
   }
-  const bool unwatched = !surroundings_.watches_rear() && !desired.by_hand && desired.velocity.linear_mps < 0.0;
-  return unwatched ? unseen_ground(path) : std::nullopt;
+  // Who backs by hand sees the way.
+  const bool is_seen_by_person = desired.by_hand && desired.velocity.linear_mps < 0.0;
+  return surroundings_.watches_rear() || is_seen_by_person ? std::nullopt : unseen_ground(desired, path);
 }
 
 bool CollisionStop::may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const {
@@ -145,11 +168,15 @@ bool CollisionStop::is_approached_by_person(const Obstacle& obstacle, const std:
   return false;
 }
 
-std::optional<Hindrance> CollisionStop::unseen_ground(const std::vector<PathPoint>& path) const {
+std::optional<Hindrance> CollisionStop::unseen_ground(const DesiredMotion& desired,
+                                                      const std::vector<PathPoint>& path) const {
+  // A person at the controller has an eye on ground that was free longer ago, not on ground that was never seen.
+  const double max_age_s = desired.by_hand ? std::numeric_limits<double>::infinity() : parameters_.ground_memory_s;
   for (const PathPoint& then : path) {
-    for (double y = -footprint_.half_width_m; y <= footprint_.half_width_m; y += kRearStepM) {
-      const Point rear = then.pose.apply({-footprint_.rear_m, y});
-      if (footprint_.distance_to(rear) > kRoundingM && !surroundings_.was_free(rear)) {
+    for (const Point& edge : edge_) {
+      const Point point = then.pose.apply(edge);
+      if (footprint_.distance_to(point) > kRoundingM && !surroundings_.is_watched(point) &&
+          !surroundings_.was_free(point, max_age_s)) {
         Hindrance nothing_seen;
         nothing_seen.is_unseen_ground = true;
         return nothing_seen;

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace mtr_drive_control {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kNothing = std::numeric_limits<double>::infinity();
 // Two echoes belong together when they are nearer than this plus a share of their range, which covers the wider
 // spacing of beams and echoes farther away.
 constexpr double kGapM = 0.08;
@@ -23,17 +25,20 @@ constexpr int kSweepsThatCount = 4;
 constexpr double kSamePlaceM = 0.05;
 // Two legs in full stride measure less across; a wheel seen from its side more.
 constexpr double kWiderThanAPersonM = 0.5;
-// In 1 m a leg is as wide; two legs are farther apart.
-constexpr double kWidestUnseenRad = 0.175;
+// A LiDAR with a narrower view to either side leaves ground beside the robot to nobody.
+constexpr double kLeastViewRad = 2.0;
 // What is too near to be measured is looked for in such steps.
 constexpr double kNearStepM = 0.01;
 
 struct Cluster {
   int beams = 0;
+  std::size_t first = std::numeric_limits<std::size_t>::max(), last = 0;
   double min_x = 1e9, max_x = -1e9, min_y = 1e9, max_y = -1e9;
 
-  void add(const Point& point) {
+  void add(std::size_t beam, const Point& point) {
     ++beams;
+    first = std::min(first, beam);
+    last = std::max(last, beam);
     min_x = std::min(min_x, point.x_m);
     max_x = std::max(max_x, point.x_m);
     min_y = std::min(min_y, point.y_m);
@@ -44,12 +49,19 @@ struct Cluster {
 
 }  // namespace
 
+EchoFinder::EchoFinder(const LidarMount& mount, const Footprint& footprint, double own_view_rad)
+    : mount_(mount),
+      footprint_(footprint),
+      own_view_rad_(own_view_rad),
+      lowest_rad_(-kLeastViewRad),
+      highest_rad_(kLeastViewRad) {}
+
 std::vector<Echo> EchoFinder::find(const Sweep& sweep, const Motion& motion, double max_range_m) {
   const std::vector<Hit> hits = hits_of(sweep, max_range_m);
   std::vector<Cluster> clusters;
   for (const Hit& hit : hits) {
     clusters.resize(std::max(clusters.size(), static_cast<std::size_t>(hit.cluster) + 1));
-    clusters[static_cast<std::size_t>(hit.cluster)].add(hit.in_base);
+    clusters[static_cast<std::size_t>(hit.cluster)].add(hit.beam, hit.in_base);
   }
   std::vector<Echo> echoes;
   std::vector<Small> small;
@@ -63,23 +75,55 @@ std::vector<Echo> EchoFinder::find(const Sweep& sweep, const Motion& motion, dou
         continue;
       }
     }
-    echoes.push_back({point, stamp_ns, cluster.is_wide()});
+    const double span_rad = static_cast<double>(cluster.last - cluster.first) * std::abs(sweep.angle_increment_rad);
+    echoes.push_back({point, stamp_ns, cluster.is_wide(), hit.range_m, hit.beam, span_rad});
   }
   small_ = std::move(small);
   return echoes;
 }
 
-bool EchoFinder::is_covered(const Sweep& sweep) const {
+View EchoFinder::view_of(const Sweep& sweep, const Motion& motion) const {
+  std::vector<double> returned_m(sweep.ranges_m.size());
+  for (std::size_t beam = 0; beam < returned_m.size(); ++beam) {
+    const double without_echo = sweep.is_echo(beam) ? 0.0 : kNothing;
+    returned_m[beam] = range_of(sweep, beam).value_or(without_echo);
+  }
+  return {sweep, mount_, motion, std::move(returned_m)};
+}
+
+std::optional<Sector> EchoFinder::covered_sector(const Sweep& sweep) {
+  const double first_rad = sweep.angle_of(0);
+  const double last_rad = sweep.angle_of(sweep.ranges_m.size() - 1);
+  const auto [low_rad, high_rad] = std::minmax(first_rad, last_rad);
+  lowest_rad_ = std::min(lowest_rad_, low_rad);
+  highest_rad_ = std::max(highest_rad_, high_rad);
+  Sector widest{std::max(lowest_rad_, -own_view_rad_), low_rad};
+  const auto keep_wider = [&widest](double from_rad, double to_rad) {
+    widest = to_rad - from_rad > widest.to_rad - widest.from_rad ? Sector{from_rad, to_rad} : widest;
+  };
+  keep_wider(high_rad, std::min(highest_rad_, own_view_rad_));
+  const double step_rad = std::abs(sweep.angle_increment_rad);
   double unseen_rad = 0.0;
   for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
-    const bool is_own = std::abs(std::remainder(sweep.angle_of(beam), 2.0 * kPi)) <= own_view_rad_;
+    const double angle_rad = sweep.angle_of(beam);
+    const bool is_own = std::abs(std::remainder(angle_rad, 2.0 * kPi)) <= own_view_rad_;
     const bool is_unseen = is_own && !sweep.is_far(beam) && !range_of(sweep, beam);
-    unseen_rad = is_unseen ? unseen_rad + std::abs(sweep.angle_increment_rad) : 0.0;
-    if (unseen_rad > kWidestUnseenRad) {
-      return true;
-    }
+    unseen_rad = is_unseen ? unseen_rad + step_rad : 0.0;
+    const double begun_rad = sweep.angle_increment_rad > 0.0 ? angle_rad - unseen_rad : angle_rad;
+    keep_wider(begun_rad, begun_rad + unseen_rad);
   }
-  return false;
+  return widest.to_rad - widest.from_rad > kLegRad ? std::optional<Sector>(in_base(widest.from_rad, widest.to_rad))
+                                                   : std::nullopt;
+}
+
+bool EchoFinder::sees(const Point& point) const {
+  const double angle_rad =
+      std::remainder(std::atan2(point.y_m - mount_.y_m, point.x_m - mount_.x_m) - mount_.yaw_rad, 2.0 * kPi);
+  return angle_rad >= lowest_rad_ && angle_rad <= highest_rad_;
+}
+
+Sector EchoFinder::in_base(double low_rad, double high_rad) const {
+  return {std::remainder(mount_.yaw_rad + low_rad, 2.0 * kPi), std::remainder(mount_.yaw_rad + high_rad, 2.0 * kPi)};
 }
 
 std::optional<double> EchoFinder::range_of(const Sweep& sweep, std::size_t beam) const {

@@ -9,6 +9,9 @@ namespace mtr_drive_control {
 namespace {
 
 constexpr double kCellM = 0.1;
+// From the centre of a cell to its corner.
+constexpr double kHalfDiagonalM = 0.0708;
+constexpr double kDrivesMps = 0.05;
 // Cells per side; the grid wraps around, so that it needs no moving when the robot does.
 constexpr int kSide = 64;
 constexpr double kReachM = 0.45 * kSide * kCellM;
@@ -35,8 +38,10 @@ std::size_t index_of(int column, int row) {
 GroundMemory::GroundMemory() : cells_(static_cast<std::size_t>(kSide * kSide)) {}
 
 void GroundMemory::stand(const Footprint& footprint, const Motion& motion) {
-  // A cell that it covers only in part may hold a foot behind; beside it there is no room for one.
-  const Footprint covered{footprint.front_m, footprint.rear_m, footprint.half_width_m + kCellM};
+  // A cell that it covers only in part may hold a foot. Beside its track the LiDAR saw the ground when it came.
+  const double beside_m = std::abs(motion.velocity.linear_mps) > kDrivesMps ? kCellM : -kHalfDiagonalM;
+  const Footprint covered{footprint.front_m - kHalfDiagonalM, footprint.rear_m - kHalfDiagonalM,
+                          footprint.half_width_m + beside_m};
   for (double x = -covered.rear_m; x <= covered.front_m; x += kCellM / 2.0) {
     for (double y = -covered.half_width_m; y <= covered.half_width_m; y += kCellM / 2.0) {
       const Point centre = centre_of(motion.odom_from_base.apply({x, y}));

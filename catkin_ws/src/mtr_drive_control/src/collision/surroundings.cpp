@@ -3,6 +3,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/surroundings.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "mtr_core/plausible.hpp"
 #include "mtr_core/steady_time.hpp"
 #include "problems.hpp"
 
@@ -18,8 +22,23 @@ constexpr double kLostPersonS = 3.0;
 constexpr double kBehindRad = 1.75;
 
 constexpr double kPi = 3.14159265358979323846;
+// A sector of so much of the view is all of it.
+constexpr double kWholeShare = 0.95;
+// Longest range of the supported LiDARs.
+constexpr double kMemoryReachM = 30.0;
+// A thing that vanished may be a person for so long; what does not come back into view stands, or has gone.
+constexpr double kMayHaveWalkedS = 0.3;
+// A process that was stopped did not see what moved meanwhile; a tick that is late comes sooner.
+constexpr double kLookedAwayS = 0.5;
+// As localization's rules for odometry: silent for longer, or farther than a base drives, and it began again.
+constexpr double kOdometryGapS = 0.2;
+constexpr double kJumpM = 0.05;
+constexpr double kJumpRad = 0.1;
 // Of two LiDARs each has to see so far to both sides of where it points; farther back the other one sees as well.
 constexpr double kSharedViewRad = 2.0;
+
+/// Whole degrees, for a person.
+std::int64_t degrees(double angle_rad) { return std::lround(angle_rad * 180.0 / kPi); }
 
 double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<double>(now_ns - stamp_ns) * 1e-9; }
 
@@ -27,13 +46,13 @@ double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<do
 
 Surroundings::Surroundings(const CollisionParameters& parameters, const RobotShape& shape)
     : parameters_(parameters), footprint_(shape.footprint), watches_rear_(shape.rear_lidar.has_value()) {
-  const double timeout_s = parameters.lidar_timeout_s;
   const double own_view_rad = shape.rear_lidar ? kSharedViewRad : kPi;
-  lidars_.push_back(
-      {LidarWatch("front LiDAR", timeout_s), EchoFinder(shape.front_lidar, footprint_, own_view_rad), false, {}, {}});
+  const auto add = [&](const char* name, const LidarMount& mount) {
+    lidars_.push_back({LidarWatch(name, parameters.lidar_timeout_s), EchoFinder(mount, footprint_, own_view_rad)});
+  };
+  add("front LiDAR", shape.front_lidar);
   if (shape.rear_lidar) {
-    lidars_.push_back(
-        {LidarWatch("rear LiDAR", timeout_s), EchoFinder(*shape.rear_lidar, footprint_, own_view_rad), false, {}, {}});
+    add("rear LiDAR", *shape.rear_lidar);
   }
 }
 
@@ -41,15 +60,24 @@ void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   if (tick_ns < tick_ns_) {
     // A clock that goes back would let old ground count as seen and new echoes as old.
     ground_ = GroundMemory();
+    followed_.reset();
+  }
+  if (may_have_been_carried(tick_ns, sensors)) {
+    forget_echoes();
   }
   tick_ns_ = tick_ns;
   has_motion_ = sensors.motion.has_value();
+  had_position_ = sensors.map.has_value();
+  has_map_ = sensors.map && sensors.map->map && !sensors.map->map->occupied.empty();
   const bool is_known =
       has_motion_ && mtr_core::is_fresh(sensors.motion->stamp_ns, tick_ns, parameters_.odometry_timeout_s);
   motion_ = is_known ? sensors.motion : std::nullopt;
-  bool has_observed = observe(lidars_.front(), sensors.front);
-  if (watches_rear_) {
-    has_observed = observe(lidars_.back(), sensors.rear) || has_observed;
+  if (motion_) {
+    follow(*motion_);
+  }
+  bool has_observed = false;
+  for (std::size_t i = 0; i < lidars_.size(); ++i) {
+    has_observed = observe(i, sensors) || has_observed;
   }
   if (has_observed) {
     classify();
@@ -63,23 +91,86 @@ void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   }
 }
 
-bool Surroundings::was_free(const Point& point) const {
-  return ground_.was_free(odom_from_base_.apply(point), tick_ns_, parameters_.ground_memory_s);
+bool Surroundings::may_have_been_carried(std::int64_t tick_ns, const Sensors& sensors) const {
+  const bool looked_away = tick_ns < tick_ns_ || age_s(tick_ns, tick_ns_) > kLookedAwayS;
+  // A position is also lost when the LiDARs are covered.
+  const bool is_lost = had_position_ && !sensors.map &&
+                       std::all_of(lidars_.begin(), lidars_.end(), [](const Lidar& each) { return each.sees_surface; });
+  return looked_away || is_lost;
 }
 
-bool Surroundings::observe(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep) {
+void Surroundings::forget_echoes() {
+  memory_ = EchoMemory();
+  for (Lidar& lidar : lidars_) {
+    lidar.empty = EmptySector();
+    lidar.has_seen = lidar.has_seen_surface = false;
+  }
+}
+
+void Surroundings::follow(const Motion& motion) {
+  if (followed_ && motion.stamp_ns != followed_->stamp_ns) {
+    const double since_s = age_s(motion.stamp_ns, followed_->stamp_ns);
+    const double moved_m = distance_m(motion.odom_from_base.position(), followed_->odom_from_base.position());
+    const double turned_rad = std::abs(
+        std::remainder(motion.odom_from_base.heading_rad() - followed_->odom_from_base.heading_rad(), 2.0 * kPi));
+    const bool jumps = moved_m > mtr_core::kMaxWheelsMps * since_s + kJumpM ||
+                       turned_rad > mtr_core::kMaxTurnRadps * since_s + kJumpRad;
+    if (since_s < 0.0 || since_s > kOdometryGapS || jumps) {
+      ground_ = GroundMemory();
+    }
+    if (jumps) {
+      memory_.move(followed_->odom_from_base, motion.odom_from_base);
+    }
+  }
+  followed_ = motion;
+}
+
+bool Surroundings::was_free(const Point& point, double max_age_s) const {
+  return ground_.was_free(odom_from_base_.apply(point), tick_ns_, max_age_s);
+}
+
+bool Surroundings::is_watched(const Point& point) const {
+  return std::any_of(lidars_.begin(), lidars_.end(), [&](const Lidar& lidar) { return lidar.finder.sees(point); });
+}
+
+bool Surroundings::observe(std::size_t index, const Sensors& sensors) {
+  Lidar& lidar = lidars_[index];
+  const std::shared_ptr<const Sweep>& sweep = index == 0 ? sensors.front : sensors.rear;
   // What is stale or from the future would be remembered as of a wrong time.
   if (!lidar.watch.take(sweep)) {
     return false;
   }
-  lidar.is_covered = lidar.finder.is_covered(*sweep);
+  lidar.covered = lidar.finder.covered_sector(*sweep);
   if (lidar.watch.problem_at(tick_ns_) || !motion_) {
     return false;
   }
-  lidar.echoes = lidar.finder.find(*sweep, *motion_, kRangeOfInterestM);
+  lidar.echoes = lidar.finder.find(*sweep, *motion_, kMemoryReachM);
+  for (Echo& echo : lidar.echoes) {
+    // A piece of the Car that is just about to leave the view is still known as such.
+    echo.is_wide = echo.is_wide || ground_.was_wide(echo.point);
+  }
+  look_for_gaps(index, *sweep, lidar.echoes, sensors);
+  const auto far = std::remove_if(lidar.echoes.begin(), lidar.echoes.end(),
+                                  [](const Echo& echo) { return echo.range_m >= kRangeOfInterestM; });
+  lidar.echoes.erase(far, lidar.echoes.end());
   ground_.observe(*sweep, lidar.finder.mount(), *motion_);
   ground_.remember(lidar.echoes, *motion_);
   return true;
+}
+
+void Surroundings::look_for_gaps(std::size_t index, const Sweep& sweep, const std::vector<Echo>& echoes,
+                                 const Sensors& sensors) {
+  Lidar& lidar = lidars_[index];
+  lidar.has_seen = lidar.has_seen || !echoes.empty();
+  lidar.sees_surface = std::any_of(echoes.begin(), echoes.end(), [](const Echo& echo) { return echo.is_wide; });
+  lidar.has_seen_surface = lidar.has_seen_surface || lidar.sees_surface;
+  const View view = lidar.finder.view_of(sweep, *motion_);
+  const Witness witness{index, lidar.finder.own_view_rad()};
+  EmptyBeams empty = memory_.observe(view, witness, echoes);
+  if (sensors.map) {
+    lidar.map.observe(view, witness, echoes, *sensors.map, empty);
+  }
+  lidar.empty.update(empty, view);
 }
 
 void Surroundings::classify() {
@@ -98,8 +189,8 @@ mtr_core::Problem Surroundings::blindness_at(std::int64_t tick_ns) const {
     if (mtr_core::Problem problem = lidar.watch.problem_at(tick_ns)) {
       return problem;
     }
-    if (lidar.is_covered) {
-      return problems::kLidarCovered({{"lidar", lidar.watch.name()}});
+    if (mtr_core::Problem problem = blindness_of(lidar)) {
+      return problem;
     }
   }
   if (motion_) {
@@ -108,8 +199,41 @@ mtr_core::Problem Surroundings::blindness_at(std::int64_t tick_ns) const {
   return has_motion_ ? problems::kOdometrySilent() : problems::kWaitingForOdometry();
 }
 
+mtr_core::Problem Surroundings::blindness_of(const Lidar& lidar) const {
+  const std::string& name = lidar.watch.name();
+  if (lidar.covered) {
+    const double covered_rad = lidar.covered->to_rad - lidar.covered->from_rad;
+    const bool is_whole = covered_rad > kWholeShare * 2.0 * std::min(kSharedViewRad, lidar.finder.own_view_rad());
+    return is_whole ? problems::kLidarCovered({{"lidar", name}})
+                    : problems::kLidarSectorCovered({{"lidar", name},
+                                                     {"from_deg", degrees(lidar.covered->from_rad)},
+                                                     {"to_deg", degrees(lidar.covered->to_rad)}});
+  }
+  const std::optional<Sector> empty = lidar.empty.confirmed();
+  return empty ? problems::kLidarSeesNothing(
+                     {{"lidar", name}, {"from_deg", degrees(empty->from_rad)}, {"to_deg", degrees(empty->to_rad)}})
+               : mtr_core::Problem{};
+}
+
+mtr_core::Problem Surroundings::distrust(const Velocity& desired) const {
+  const bool is_backwards = desired.linear_mps < 0.0;
+  if (desired.linear_mps == 0.0 || (is_backwards && !watches_rear_)) {
+    return {};
+  }
+  const Lidar& lidar = is_backwards ? lidars_.back() : lidars_.front();
+  if (lidar.has_seen) {
+    return {};
+  }
+  const auto other =
+      std::find_if(lidars_.begin(), lidars_.end(), [](const Lidar& each) { return each.has_seen_surface; });
+  const std::string shown_by = other != lidars_.end() ? other->watch.name() : has_map_ ? "map" : "";
+  return shown_by.empty() ? mtr_core::Problem{}
+                          : problems::kLidarNeverSaw({{"lidar", lidar.watch.name()}, {"other", shown_by}});
+}
+
 void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind) {
-  obstacles_.push_back({point, age_s(tick_ns_, seen_ns), kind, footprint_.distance_to(point)});
+  // An echo of the future is one of now.
+  obstacles_.push_back({point, std::max(0.0, age_s(tick_ns_, seen_ns)), kind, footprint_.distance_to(point)});
 }
 
 void Surroundings::find_obstacles() {
@@ -117,6 +241,16 @@ void Surroundings::find_obstacles() {
     for (std::size_t i = 0; i < lidar.echoes.size(); ++i) {
       const Echo& echo = lidar.echoes[i];
       add_obstacle(odom_from_base_.undo(echo.point), echo.stamp_ns, lidar.kinds[i]);
+    }
+  }
+  for (const MissingEcho& missing : memory_.missing()) {
+    const Point point = odom_from_base_.undo(missing.point);
+    const bool may_walk = !missing.is_wide && age_s(tick_ns_, missing.seen_ns) < kMayHaveWalkedS;
+    if (distance_m(point, Point{}) < kRangeOfInterestM) {
+      add_obstacle(point, may_walk ? missing.seen_ns : tick_ns_,
+                   missing.is_wide ? Kind::kWide
+                   : may_walk      ? Kind::kThing
+                                   : Kind::kStanding);
     }
   }
   if (!watches_rear_) {

@@ -15,8 +15,31 @@ namespace {
 // Noise changes some range of a live LiDAR with every sweep, unless hardly anything is in reach.
 constexpr int kFrozenAfterRepetitions = 2;
 constexpr std::ptrdiff_t kFewestEchoesToTell = 10;
+// A turn of the slowest LiDAR that is of use takes 0.2 s.
+constexpr double kMaxSweepS = 0.25;
+// Of the time between beams by the LiDAR's turns; some firmware states three times of it.
+constexpr double kMostTimeRatio = 1.5;
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kMicroseconds = 1e6;
 // A hand, mud or a wrong driver on so much of the view is no view.
 constexpr double kCoveredShare = 0.5;
+// A leg of 0.14 m is met by three beams at 1.3 m.
+constexpr double kWidestStepRad = 0.035;
+
+/// Times that no LiDAR's sweep has: echoes would be taken for older or newer than they are.
+mtr_core::Problem time_defect(const Sweep& sweep, const std::string& lidar) {
+  const double sweep_s = sweep.time_increment_s * static_cast<double>(sweep.ranges_m.size() - 1);
+  if (!(sweep_s >= 0.0) || sweep_s > kMaxSweepS) {
+    return problems::kLidarSweepTime({{"lidar", lidar}, {"sweep_s", sweep_s}, {"most_s", kMaxSweepS}});
+  }
+  const double by_turns_s = sweep.scan_time_s * std::abs(sweep.angle_increment_rad) / (2.0 * kPi);
+  if (by_turns_s > 0.0 && sweep.time_increment_s > kMostTimeRatio * by_turns_s) {
+    return problems::kLidarTimeIncrement({{"lidar", lidar},
+                                          {"stated_us", kMicroseconds * sweep.time_increment_s},
+                                          {"expected_us", kMicroseconds * by_turns_s}});
+  }
+  return {};
+}
 
 }  // namespace
 
@@ -30,6 +53,12 @@ mtr_core::Problem defect_of(const Sweep& sweep, const std::string& lidar) {
   if (!std::isfinite(sweep.angle_min_rad) || !(std::abs(sweep.angle_increment_rad) > 0.0) ||
       !std::isfinite(sweep.angle_increment_rad) || !std::isfinite(sweep.time_increment_s)) {
     return problems::kLidarNotNumbers({{"lidar", lidar}});
+  }
+  if (mtr_core::Problem problem = time_defect(sweep, lidar)) {
+    return problem;
+  }
+  if (std::abs(sweep.angle_increment_rad) > kWidestStepRad) {
+    return problems::kLidarTooCoarse({{"lidar", lidar}, {"step_deg", sweep.angle_increment_rad * 180.0 / kPi}});
   }
   if (!(sweep.range_min_m >= 0.0) || !(sweep.range_max_m > sweep.range_min_m)) {
     return problems::kLidarWithoutRange({{"lidar", lidar}});
@@ -49,6 +78,8 @@ bool LidarWatch::take(const std::shared_ptr<const Sweep>& sweep) {
   repetitions_ = newest_ && repeats(*sweep) ? repetitions_ + 1 : 0;
   newest_ = sweep;
   defect_ = defect_of(*sweep, name_);
+  has_wrong_times_ =
+      defect_.code == problems::kLidarSweepTime.code || defect_.code == problems::kLidarTimeIncrement.code;
   if (!defect_ && repetitions_ >= kFrozenAfterRepetitions) {
     defect_ = problems::kLidarFrozen({{"lidar", name_}});
   }
@@ -58,6 +89,10 @@ bool LidarWatch::take(const std::shared_ptr<const Sweep>& sweep) {
 mtr_core::Problem LidarWatch::problem_at(std::int64_t tick_ns) const {
   if (!newest_) {
     return problems::kWaitingForLidar({{"lidar", name_}});
+  }
+  // Wrong times make a sweep look old: they are the cause.
+  if (has_wrong_times_) {
+    return defect_;
   }
   if (!mtr_core::is_fresh(newest_->stamp_ns, tick_ns, timeout_s_)) {
     const bool is_old = newest_->stamp_ns < tick_ns;

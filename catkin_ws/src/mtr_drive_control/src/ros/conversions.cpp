@@ -11,6 +11,23 @@
 #include "mtr_core/plausible.hpp"
 
 namespace mtr_drive_control {
+namespace {
+
+// Share in percent from which a cell of a map counts as occupied, as map_server has it.
+constexpr int kOccupied = 65;
+// A quaternion is a rotation when its norm is 1; single precision and rounding in text leave this.
+constexpr double kNormTolerance = 0.05;
+
+bool is_rotation(const geometry_msgs::Quaternion& turn) {
+  const double norm = std::sqrt(turn.w * turn.w + turn.x * turn.x + turn.y * turn.y + turn.z * turn.z);
+  return std::abs(norm - 1.0) <= kNormTolerance;
+}
+
+double heading_of(const geometry_msgs::Quaternion& turn) {
+  return std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z));
+}
+
+}  // namespace
 
 std::optional<SourceCommand> command_of(const Received<mtr_msgs::VelocityCommand>& received) {
   if (!received) {
@@ -27,12 +44,10 @@ std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received) {
   }
   const nav_msgs::Odometry& message = *received.message;
   const auto& position = message.pose.pose.position;
-  const auto& turn = message.pose.pose.orientation;
-  const double heading =
-      std::atan2(2.0 * (turn.w * turn.z + turn.x * turn.y), 1.0 - 2.0 * (turn.y * turn.y + turn.z * turn.z));
+  const double heading = heading_of(message.pose.pose.orientation);
   const Velocity velocity{message.twist.twist.linear.x, message.twist.twist.angular.z};
-  if (!std::isfinite(position.x + position.y + heading) || !mtr_core::is_wheel_speed(velocity.linear_mps) ||
-      !mtr_core::is_turn_rate(velocity.angular_radps)) {
+  if (!is_rotation(message.pose.pose.orientation) || !std::isfinite(position.x + position.y + heading) ||
+      !mtr_core::is_wheel_speed(velocity.linear_mps) || !mtr_core::is_turn_rate(velocity.angular_radps)) {
     return std::nullopt;
   }
   return Motion{received.time_ns, Pose(position.x, position.y, heading), velocity};
@@ -92,13 +107,34 @@ mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& to
   return message;
 }
 
+std::shared_ptr<const SiteMap> site_map_of(const nav_msgs::OccupancyGrid& message) {
+  const auto& info = message.info;
+  const std::size_t cells = static_cast<std::size_t>(info.width) * info.height;
+  const bool is_whole = cells == message.data.size() && info.resolution > 0.0F && std::isfinite(info.resolution) &&
+                        std::isfinite(info.origin.position.x + info.origin.position.y) &&
+                        is_rotation(info.origin.orientation);
+  if (!is_whole) {
+    return nullptr;
+  }
+  auto map = std::make_shared<SiteMap>();
+  const Pose origin(info.origin.position.x, info.origin.position.y, heading_of(info.origin.orientation));
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    if (message.data[cell] >= kOccupied) {
+      map->occupied.push_back(
+          origin.apply({(static_cast<double>(cell % info.width) + 0.5) * static_cast<double>(info.resolution),
+                        (static_cast<double>(cell / info.width) + 0.5) * static_cast<double>(info.resolution)}));
+    }
+  }
+  return map;
+}
+
 std::shared_ptr<const Sweep> SweepReader::read(const Received<sensor_msgs::LaserScan>& received) {
   const sensor_msgs::LaserScan::ConstPtr& message = received.message;
   if (message && message != message_) {
     message_ = message;
-    sweep_ = std::make_shared<const Sweep>(Sweep{received.time_ns, message->angle_min, message->angle_increment,
-                                                 message->time_increment, message->range_min, message->range_max,
-                                                 message->ranges, message->header.frame_id, frame_});
+    sweep_ = std::make_shared<const Sweep>(Sweep{
+        received.time_ns, message->angle_min, message->angle_increment, message->time_increment, message->range_min,
+        message->range_max, message->ranges, message->header.frame_id, frame_, message->scan_time});
   }
   return sweep_;
 }

@@ -88,6 +88,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       imu_(node, names::kImuData, mtr_core::kSensors, 0),
       peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
       front_(node, names::kFrontScan, mtr_description::message_frame(names::kFrontLidar)),
+      map_(node),
       markers_(node),
       wheels_(node.advertise<geometry_msgs::Twist>(
           parameters.base_guard ? names::kGuardedWheelCommand : names::kWheelCommand, 10)),
@@ -164,6 +165,7 @@ void Node::tick(const mtr_core::Instant& tick) {
   inputs.sensors.front = front_.at(tick_ns);
   inputs.sensors.rear = rear_ ? rear_->at(tick_ns) : nullptr;
   inputs.sensors.motion = motion_of(odometry_.at(tick_ns));
+  inputs.sensors.map = map_.at(inputs.sensors.motion);
   inputs.imu = imu_reading_of(imu_.at(tick_ns));
   inputs.key = key_height_of(peripherals_.at(tick_ns));
   inputs.locks = locks_.engaged_at(tick_ns);

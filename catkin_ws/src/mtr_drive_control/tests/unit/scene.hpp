@@ -45,11 +45,19 @@ class Scene {
   std::size_t beams = 720;
   double noise_m = 0.005;
   double range_min_m = 0.1;
+  double range_max_m = 30.0;
 
   /// What a LiDAR at this pose in world sees.
   std::shared_ptr<Sweep> sweep(const Pose& world_from_lidar, std::int64_t stamp_ns) const {
-    auto seen = std::make_shared<Sweep>(Sweep{
-        stamp_ns, -0.75 * kTestPi, 1.5 * kTestPi / static_cast<double>(beams - 1), 0.0, range_min_m, 30.0, {}, "", ""});
+    auto seen = std::make_shared<Sweep>(Sweep{stamp_ns,
+                                              -0.75 * kTestPi,
+                                              1.5 * kTestPi / static_cast<double>(beams - 1),
+                                              0.0,
+                                              range_min_m,
+                                              range_max_m,
+                                              {},
+                                              "",
+                                              ""});
     for (std::size_t beam = 0; beam < beams; ++beam) {
       const Point start = world_from_lidar.position();
       const double angle = seen->angle_of(beam);
@@ -58,7 +66,8 @@ class Scene {
       // A different sweep each time, as a live LiDAR's.
       const double noise = noise_m * std::sin(static_cast<double>(beam * 7919 + (stamp_ns / kTestMs) * 104729));
       const bool is_near = range + noise < range_min_m;
-      seen->ranges_m.push_back(is_near ? -std::numeric_limits<float>::infinity() : static_cast<float>(range + noise));
+      const double measured_m = range > range_max_m ? std::numeric_limits<double>::infinity() : range + noise;
+      seen->ranges_m.push_back(is_near ? -std::numeric_limits<float>::infinity() : static_cast<float>(measured_m));
     }
     for (const auto& [beam, range] : raindrops) {
       seen->ranges_m[beam] = static_cast<float>(range);
@@ -118,7 +127,9 @@ class TestRobot {
 
   /// One tick with this desired velocity.
   Decision step(const Velocity& desired, bool by_hand = false) {
-    world_from_base = world_from_base.after(wheels, static_cast<double>(period_ns) * 1e-9);
+    const double period_s = static_cast<double>(period_ns) * 1e-9;
+    world_from_base = world_from_base.after({wheels.linear_mps, grip * wheels.angular_radps}, period_s);
+    odom_from_base = odom_from_base.after(wheels, period_s);
     now_ns += period_ns;
     if (now_ns / kTestSweepNs != (now_ns - period_ns) / kTestSweepNs && !lidars_are_silent) {
       observe();
@@ -128,7 +139,7 @@ class TestRobot {
     inputs.locks = locks;
     (by_hand ? inputs.manual : inputs.planner) = command;
     inputs.sensors = {front_, rear_,
-                      Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, world_from_base, wheels}};
+                      Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, odom_from_base, wheels}, map};
     inputs.key = KeyHeight{now_ns, 0.35};
     const Decision decision = control.step(now_ns, inputs);
     velocity = decision.velocity;
@@ -153,6 +164,10 @@ class TestRobot {
   Scene scene;
   DriveControl control;
   Pose world_from_base;
+  /// By the wheels, which tell a turn wrongly where they slip.
+  Pose odom_from_base;
+  double grip = 1.0;
+  std::optional<LocalizedMap> map;
   /// What was sent last, and what the wheels make of it.
   Velocity velocity;
   Velocity wheels;

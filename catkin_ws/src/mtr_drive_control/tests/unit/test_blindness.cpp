@@ -1,5 +1,5 @@
 /// @file
-/// LiDARs that see nothing, odometry that is silent, and ground that nobody watches.
+/// LiDARs that see nothing, odometry that is silent.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -153,7 +153,12 @@ TEST(CoveredLidar, SectorThatMayHideALegStopsTheRobotAndANarrowOneDoesNot) {
       robot.settle();
       EXPECT_EQ(robot.drive({0.5, 0.0}, 0.5).zone, Zone::kClear) << said_m << " at " << direction_rad;
       hide(robot, false, direction_rad, 6.0 * kDegree, said_m);
-      EXPECT_EQ(robot.drive({0.5, 0.0}, 0.6).message.text, "The front LiDAR is covered.") << said_m;
+      const Decision decision = robot.drive({0.5, 0.0}, 0.6);
+      EXPECT_EQ(decision.velocity.linear_mps, 0.0) << said_m;
+      const long from_deg = std::lround(direction_rad / kDegree - 6.0);
+      EXPECT_NE(decision.message.text.find("The front LiDAR is covered or dirty from " + std::to_string(from_deg)),
+                std::string::npos)
+          << decision.message.text;
     }
   }
 }
@@ -212,74 +217,23 @@ TEST(TooNearToMeasure, WallAtTheBumperMayBeLeft) {
   EXPECT_GT(robot.clearance(), 0.1);
 }
 
-TEST(UnwatchedRear, GroundNeverSeenIsNotBackedInto) {
-  TestRobot robot(false);
-  robot.settle();
-  const Decision decision = robot.drive({-0.5, 0.0}, 1.0);
-  EXPECT_EQ(decision.velocity.linear_mps, 0.0);
-  EXPECT_EQ(decision.message.text,
-            "Blocked: the ground behind was not seen free lately; turn the robot once on the spot with the manual "
-            "controller, so that its LiDAR sees it.");
-}
-
-TEST(UnwatchedRear, RobotThatHasTurnedOnceOnTheSpotBacksAgain) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  robot.drive({0.0, 0.0}, 25.0);
-  ASSERT_EQ(robot.drive({-0.5, 0.0}, 1.0).velocity.linear_mps, 0.0);
-  robot.drive({0.0, 0.6}, 10.5, true);
-  robot.drive({0.0, 0.0}, 1.0);
-  EXPECT_NEAR(robot.drive({-0.5, 0.0}, 2.0).velocity.linear_mps, -0.3, 1e-9);
-}
-
-TEST(UnwatchedRear, OwnTrackIsBackedIntoSlowlyUntilItEnds) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 5.0);
-  robot.drive({0.0, 0.0}, 1.0);
-  EXPECT_NEAR(robot.drive({-0.8, 0.0}, 2.0).velocity.linear_mps, -0.3, 1e-9);
-  EXPECT_EQ(robot.drive({-0.8, 0.0}, 12.0).velocity.linear_mps, 0.0);
-  EXPECT_NEAR(robot.world_from_base.position().x_m, 0.0, 0.15);
-}
-
-TEST(UnwatchedRear, GroundSeenTooLongAgoIsNotBackedInto) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  robot.drive({0.0, 0.0}, 25.0);
-  EXPECT_EQ(robot.drive({-0.5, 0.0}, 1.0).velocity.linear_mps, 0.0);
-}
-
-TEST(UnwatchedRear, PersonWhoWalkedOutOfViewBehindStopsBacking) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  const double behind_x = robot.world_from_base.position().x_m - 1.0;
-  for (double y = 3.0; y > 0.8; y -= 0.03) {
-    robot.scene.discs = {{{behind_x, y}, 0.1}};
-    robot.step({0.0, 0.0});
+TEST(LidarWatch, TimesThatNoSweepHasAreRefusedBeforeTheyMakeItLookSilent) {
+  const auto problem_of = [](double increment_s, double scan_time_s, std::int64_t age_ns) {
+    auto sweep = std::make_shared<Sweep>(*sweep_at(0));
+    sweep->time_increment_s = increment_s;
+    sweep->scan_time_s = scan_time_s;
+    LidarWatch lidar = watch();
+    lidar.take(sweep);
+    return lidar.problem_at(age_ns).code;
+  };
+  for (const double increment_s : {1e30, -1e30, 1.0, 0.4 / 719, -1e-6, std::numeric_limits<double>::max()}) {
+    EXPECT_EQ(problem_of(increment_s, 0.0, 1000 * kTestMs), "drive_control.lidar_sweep_time") << increment_s;
   }
-  robot.scene.discs.clear();
-  robot.scene.discs = {{{behind_x, 0.0}, 0.1}};
-  EXPECT_EQ(robot.drive({-0.3, 0.0}, 1.0).velocity.linear_mps, 0.0);
-}
-
-TEST(UnwatchedRear, ThingThatVanishesBehindTheCarBesideTheRobotDoesNotStopBacking) {
-  TestRobot robot(false);
-  robot.settle();
-  robot.drive({0.5, 0.0}, 4.0);
-  const double x = robot.world_from_base.position().x_m;
-  robot.scene.discs = {{{x + 0.2, 1.7}, 0.1}};
-  robot.drive({0.0, 0.0}, 0.2);
-  robot.scene.walls = {{{x - 1.0, 1.2}, {x + 2.0, 1.2}}};
-  EXPECT_NEAR(robot.drive({-0.3, 0.0}, 1.5).velocity.linear_mps, -0.3, 1e-9);
-}
-
-TEST(UnwatchedRear, PersonAtTheManualControllerMayBackSlowly) {
-  TestRobot robot(false);
-  robot.settle();
-  EXPECT_NEAR(robot.drive({-0.5, 0.0}, 1.0, true).velocity.linear_mps, -0.3, 1e-9);
+  EXPECT_EQ(problem_of(0.2 / 719, 0.0, 60 * kTestMs), "");
+  // The turn of a LiDAR of 15 Hz, and firmware that states three times of the time between beams.
+  EXPECT_EQ(problem_of(3.0 * 0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_time_increment");
+  EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 60 * kTestMs), "");
+  EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_silent");
 }
 
 }  // namespace

@@ -48,6 +48,20 @@ TEST(MotionLocks, OnlyTheFirstEngagedWordEngages) {
   EXPECT_TRUE(locks.take("dispatcher", {1400 * kMs, true, mtr_core::problem_with_text("Stop.")}));
 }
 
+TEST(MotionLocks, ContactThatBouncesEngagesOncePerPeriod) {
+  MotionLocks locks = locks_of({"dispatcher", "/e_stop"});
+  int steps = 0;
+  for (int edge = 0; edge < 20; ++edge) {
+    steps += locks.take("/e_stop", {(1000 + edge) * kMs, edge % 2 == 0, {}, true});
+  }
+  EXPECT_EQ(steps, 1);
+  EXPECT_FALSE(locks.take("dispatcher", {1019 * kMs, true, {}, true}));
+  EXPECT_FALSE(locks.engaged_at(1020 * kMs).empty());
+  locks.take("dispatcher", {1040 * kMs, false, {}});
+  locks.take("dispatcher", {1045 * kMs, true, {}, true});
+  EXPECT_EQ(locks.engaged_at(1045 * kMs).size(), 2u);
+}
+
 TEST(MotionLocks, AgeIsThatOfTheOwnerHeardLongestAgo) {
   MotionLocks locks = locks_of({"dispatcher", "state_machine"});
   locks.take("dispatcher", {1000 * kMs, false, {}});

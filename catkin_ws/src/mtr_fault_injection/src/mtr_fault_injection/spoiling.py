@@ -18,6 +18,10 @@ _USUAL = 1000.0
 _SHARE_OF_NONSENSE = 0.5
 
 
+# Range of each beam of a LiDAR that is covered or dazzled, m.
+_SAID = {Kind.EMPTY: math.inf, Kind.SECTOR: math.inf, Kind.DARK: 0.0, Kind.NEAR: 0.05}
+
+
 class Spoiler:
     """The messages of one topic on their way."""
 
@@ -37,6 +41,8 @@ class Spoiler:
             return [self._stuck(message)]
         if kind is Kind.GARBAGE:
             return [garbled(message, self._random)]
+        if fault and kind in _SAID:
+            return [_without_echoes(message, fault)]
         self._late.append((now_s, message))
         delay_s = fault.amount if fault and kind is Kind.SLOW else 0.0
         arrived = []
@@ -52,6 +58,16 @@ class Spoiler:
         if hasattr(message, HEADER):
             again.header = message.header
         return again
+
+
+def _without_echoes(message: Any, fault: Fault) -> Any:
+    """A scan whose beams, or those of the fault's sector, have no echo, or one from the LiDAR's cap."""
+    half_rad = math.radians(fault.amount) if fault.kind is Kind.SECTOR else math.inf
+    covered = copy.copy(message)
+    covered.ranges = [
+        _SAID[fault.kind] if abs(message.angle_min + beam * message.angle_increment) <= half_rad else range_m
+        for beam, range_m in enumerate(message.ranges)]
+    return covered
 
 
 def garbled(message: Any, source: random.Random) -> Any:

@@ -56,6 +56,23 @@ def test_part_that_is_stuck_says_with_new_stamps_what_it_said_before():
     assert ranges(spoiler.passed(scan(4), None, 0.1)) == [(4, 4.0)]
 
 
+@pytest.mark.parametrize("kind, amount, said", [
+    ("empty", 0.0, [math.inf] * 5), ("dark", 0.0, [0.0] * 5), ("near", 0.0, [0.05] * 5),
+    ("sector", 30.0, [1.0, 1.0, math.inf, 1.0, 1.0]), ("sector", 60.0, [1.0, math.inf, math.inf, math.inf, 1.0])])
+def test_lidar_without_echoes_says_so_in_its_sector_and_its_header_stays(kind, amount, said):
+    message = LaserScan(ranges=[1.0] * 5, angle_min=-math.pi / 2, angle_increment=math.pi / 4, range_max=30.0)
+    message.header.stamp = rospy.Time(7)
+    (spoilt,) = Spoiler(1).passed(message, fault(kind, amount=amount), 0.0)
+    assert (spoilt.ranges, spoilt.header.stamp.secs) == (said, 7)
+    assert message.ranges == [1.0] * 5
+
+
+@pytest.mark.parametrize("kind", ["empty", "sector", "dark", "near"])
+def test_only_lidars_can_be_without_echoes(kind):
+    with pytest.raises(FaultError):
+        kind_of(part_of("imu"), kind)
+
+
 def test_board_that_is_stuck_repeats_its_clock_too():
     spoiler = Spoiler(1)
     spoiler.passed(FirmwareState(time_us=10), None, 0.0)

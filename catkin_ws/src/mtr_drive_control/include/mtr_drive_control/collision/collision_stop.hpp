@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -57,6 +58,8 @@ class CollisionStop {
   void take(std::int64_t tick_ns, const Sensors& sensors, double late_s) {
     late_s_ = late_s;
     surroundings_.take(tick_ns, sensors);
+    rested_ns_ = assessed_ns_ ? std::max<std::int64_t>(0, tick_ns - *assessed_ns_) : 0;
+    assessed_ns_ = tick_ns;
   }
 
   /// Largest part of the desired motion that is safe when stopped at this deceleration.
@@ -69,6 +72,9 @@ class CollisionStop {
 
   /// Nobody wants to move any more.
   void rest() { blocked_motion_.reset(); }
+
+  /// The robot may have been carried: it knows no ground.
+  void forget_ground() { surroundings_.forget_ground(); }
 
   const mtr_core::Problem& blindness() const { return surroundings_.blindness(); }
   const Footprint& footprint() const { return footprint_; }
@@ -83,7 +89,8 @@ class CollisionStop {
   bool is_in_reach(const Obstacle& obstacle, const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   bool gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const;
   bool is_approached_by_person(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
-  std::optional<Hindrance> unseen_ground(const std::vector<PathPoint>& path) const;
+  /// Ground that the outline would sweep, that no LiDAR sees, and that was not seen free.
+  std::optional<Hindrance> unseen_ground(const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   Hindrance hindrance_at(const Point& point) const;
   DesiredMotion within_sight(const DesiredMotion& desired) const;
   double safe_share(const DesiredMotion& desired, const Deceleration& normal) const;
@@ -92,8 +99,12 @@ class CollisionStop {
 
   CollisionParameters parameters_;
   Footprint footprint_;
+  std::vector<Point> edge_;
   Surroundings surroundings_;
   double late_s_ = 0.0;
+  std::optional<std::int64_t> assessed_ns_;
+  /// Since the tick before.
+  std::int64_t rested_ns_ = 0;
   /// Direction of the motion that was stopped for an obstacle, until the way has been free for the pause.
   std::optional<DesiredMotion> blocked_motion_;
   std::int64_t last_blocked_ns_ = 0;

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "mtr_drive_control/collision/sweep.hpp"
-#include "mtr_drive_control/robot_shape.hpp"
+#include "mtr_drive_control/collision/sector.hpp"
+#include "mtr_drive_control/collision/view.hpp"
 
 namespace mtr_drive_control {
 
@@ -17,17 +17,11 @@ struct Echo {
   std::int64_t stamp_ns;
   /// Part of a surface wider than a person, which does not walk: Car, wall.
   bool is_wide;
-};
-
-/// Motion of the base about a moment, from the wheels' odometry.
-struct Motion {
-  std::int64_t stamp_ns;
-  Pose odom_from_base;
-  Velocity velocity;
-
-  Pose at(std::int64_t time_ns) const {
-    return odom_from_base.after(velocity, static_cast<double>(time_ns - stamp_ns) * 1e-9);
-  }
+  /// From the LiDAR.
+  double range_m;
+  std::size_t beam;
+  /// Angle over which its cluster is seen.
+  double span_rad;
 };
 
 /// Turns the sweeps of one LiDAR into echoes.
@@ -38,17 +32,24 @@ struct Motion {
 class EchoFinder {
  public:
   /// @param own_view_rad to each side of where the LiDAR points: what nobody else watches
-  EchoFinder(const LidarMount& mount, const Footprint& footprint, double own_view_rad)
-      : mount_(mount), footprint_(footprint), own_view_rad_(own_view_rad) {}
+  EchoFinder(const LidarMount& mount, const Footprint& footprint, double own_view_rad);
 
   /// Echoes of the next sweep nearer than max_range_m.
   std::vector<Echo> find(const Sweep& sweep, const Motion& motion, double max_range_m);
 
-  /// True when a piece of its own view tells nothing of what is there: no measurement, or only something within the
-  /// footprint, which is the robot's mast where it is small and a cover where it is not.
-  bool is_covered(const Sweep& sweep) const;
+  /// What each beam of a sweep returned.
+  View view_of(const Sweep& sweep, const Motion& motion) const;
+
+  /// Widest piece of its own view that measures nothing, when it is wider than a leg: no measurement (NaN, zero), only
+  /// something within the footprint, which is the mast where it is small and a cover where it is not, or directions
+  /// that its sweeps do not contain any longer.
+  std::optional<Sector> covered_sector(const Sweep& sweep);
+
+  /// True when a place in base_link is in the view of its sweeps, as far as they are known to be seen.
+  bool sees(const Point& point) const;
 
   const LidarMount& mount() const { return mount_; }
+  double own_view_rad() const { return own_view_rad_; }
 
  private:
   struct Hit {
@@ -66,11 +67,15 @@ class EchoFinder {
   /// Range of what a beam has met outside the footprint; nothing where it has met nothing there.
   std::optional<double> range_of(const Sweep& sweep, std::size_t beam) const;
   int sweeps_seen(const Point& point) const;
+  Sector in_base(double low_rad, double high_rad) const;
 
   LidarMount mount_;
   Footprint footprint_;
   double own_view_rad_;
   std::vector<Small> small_;
+  /// Directions in the LiDAR's frame that its sweeps have contained.
+  double lowest_rad_;
+  double highest_rad_;
 };
 
 }  // namespace mtr_drive_control

@@ -11,7 +11,9 @@
 
 #include "mtr_core/problem.hpp"
 #include "mtr_drive_control/collision/collision_parameters.hpp"
+#include "mtr_drive_control/collision/echo_memory.hpp"
 #include "mtr_drive_control/collision/ground_memory.hpp"
+#include "mtr_drive_control/collision/map_witness.hpp"
 
 namespace mtr_drive_control {
 
@@ -20,6 +22,8 @@ struct Sensors {
   std::shared_ptr<const Sweep> front;
   std::shared_ptr<const Sweep> rear;
   std::optional<Motion> motion;
+  /// Nothing while the position is unknown or lost.
+  std::optional<LocalizedMap> map = std::nullopt;
 };
 
 /// Kinds of obstacles by what they may do next.
@@ -54,25 +58,55 @@ class Surroundings {
 
   /// One sentence when a sensor that should see does not, else empty.
   const mtr_core::Problem& blindness() const { return blindness_; }
+
+  /// One sentence when the LiDAR that looks where the robot is to drive has returned no echo since the start although
+  /// the other one, or the map, shows a surface; else empty.
+  mtr_core::Problem distrust(const Velocity& desired) const;
+
   const std::vector<Obstacle>& obstacles() const { return obstacles_; }
   bool watches_rear() const { return watches_rear_; }
 
-  /// True when this ground, in base_link, was seen free within the memory.
-  bool was_free(const Point& point) const;
+  /// True when this ground, in base_link, was seen free not longer ago.
+  bool was_free(const Point& point, double max_age_s) const;
+
+  /// True when this place, in base_link, is in the view of a LiDAR.
+  bool is_watched(const Point& point) const;
+
+  /// The robot has stood for this time more, as nothing wants to move it, or as a LiDAR shows nothing.
+  void rest(std::int64_t duration_ns) { memory_.rest(duration_ns); }
+
+  /// The robot may have been carried: ground that was seen is unknown from now on.
+  void forget_ground() { ground_ = GroundMemory(); }
 
  private:
   struct Lidar {
     LidarWatch watch;
     EchoFinder finder;
-    bool is_covered;
-    std::vector<Echo> echoes;
+    /// What its newest sweep does not measure.
+    std::optional<Sector> covered = std::nullopt;
+    EmptySector empty = {};
+    MapWitness map = {};
+    /// It has returned an echo since the start.
+    bool has_seen = false;
+    /// And one of a surface.
+    bool has_seen_surface = false;
+    /// One is in its newest sweep.
+    bool sees_surface = false;
+    std::vector<Echo> echoes = {};
     /// Of each echo.
-    std::vector<Kind> kinds;
+    std::vector<Kind> kinds = {};
   };
 
-  bool observe(Lidar& lidar, const std::shared_ptr<const Sweep>& sweep);
+  bool observe(std::size_t index, const Sensors& sensors);
+  void look_for_gaps(std::size_t index, const Sweep& sweep, const std::vector<Echo>& echoes, const Sensors& sensors);
+  /// True when what is remembered may be elsewhere by now.
+  bool may_have_been_carried(std::int64_t tick_ns, const Sensors& sensors) const;
+  void forget_echoes();
+  /// Forgets what an interrupted odometry does not place any longer.
+  void follow(const Motion& motion);
   void classify();
   mtr_core::Problem blindness_at(std::int64_t tick_ns) const;
+  mtr_core::Problem blindness_of(const Lidar& lidar) const;
   void add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind);
   void find_obstacles();
 
@@ -81,6 +115,12 @@ class Surroundings {
   bool watches_rear_;
   std::vector<Lidar> lidars_;
   GroundMemory ground_;
+  EchoMemory memory_;
+  bool has_map_ = false;
+  /// At the previous tick.
+  bool had_position_ = false;
+  /// The newest one that was used.
+  std::optional<Motion> followed_;
   std::int64_t tick_ns_ = 0;
   /// False before the first word of the odometry; a stale one is no motion.
   bool has_motion_ = false;

@@ -26,6 +26,8 @@ struct Sweep {
   /// Frame that the LiDAR names, and the one that it should.
   std::string frame_id;
   std::string expected_frame_id;
+  /// Of one turn; 0 when the driver does not state it.
+  double scan_time_s = 0.0;
 
   double angle_of(std::size_t beam) const { return angle_min_rad + angle_increment_rad * static_cast<double>(beam); }
   bool is_echo(std::size_t beam) const { return ranges_m[beam] >= range_min_m && ranges_m[beam] <= range_max_m; }
@@ -58,6 +60,7 @@ class LidarWatch {
   double timeout_s_;
   std::shared_ptr<const Sweep> newest_;
   mtr_core::Problem defect_;
+  bool has_wrong_times_ = false;
   int repetitions_ = 0;
 };
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <mtr_msgs/DriveStatus.h>
+#include <mtr_msgs/LocalizedPose.h>
 #include <mtr_msgs/MotionLock.h>
 #include <mtr_msgs/PeripheralsState.h>
 #include <mtr_msgs/VelocityCommand.h>
+#include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 #include <sensor_msgs/LaserScan.h>
@@ -34,6 +36,9 @@ mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& deci
 /// What is known of the emergency stop on a topic of its own, as the lock of an owner with the topic's name.
 mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& topic,
                                     const std::vector<EngagedLock>& engaged);
+
+/// Occupied cells of a map; null for one whose numbers do not fit together.
+std::shared_ptr<const SiteMap> site_map_of(const nav_msgs::OccupancyGrid& message);
 
 /// Sweeps of one LiDAR; a message is converted once.
 class SweepReader {

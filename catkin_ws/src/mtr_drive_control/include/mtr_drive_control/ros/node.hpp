@@ -18,6 +18,7 @@
 #include "mtr_drive_control/drive_control.hpp"
 #include "mtr_drive_control/ros/base_parameters.hpp"
 #include "mtr_drive_control/ros/conversions.hpp"
+#include "mtr_drive_control/ros/map_input.hpp"
 #include "mtr_drive_control/ros/publisher_watch.hpp"
 #include "mtr_drive_control/ros/zone_markers.hpp"
 
@@ -85,6 +86,7 @@ class Node {
   mtr_core::TickInput<mtr_msgs::PeripheralsState> peripherals_;
   LidarInput front_;
   std::optional<LidarInput> rear_;
+  MapInput map_;
   ZoneMarkers markers_;
   InterventionCounter interventions_;
   std::int64_t lock_age_ns_ = 0;

@@ -1,0 +1,44 @@
+/// @file
+/// Beams that returned nothing from where something is known to be: a LiDAR that is covered, dirty or dazzled.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "mtr_drive_control/collision/sector.hpp"
+#include "mtr_drive_control/collision/view.hpp"
+
+namespace mtr_drive_control {
+
+/// Beams of one sweep that contradict what is known.
+class EmptyBeams {
+ public:
+  /// @param bearing of the surface that the sweep does not show
+  void add(const Bearing& bearing) { bearings_.push_back(bearing); }
+
+  /// Widest piece of them without an echo in between, when it is wider than a leg.
+  std::optional<Sector> widest(const View& view) const;
+
+  /// Range of the nearest surface; infinite without any.
+  double nearest_m() const;
+
+ private:
+  std::vector<Bearing> bearings_;
+};
+
+/// Sector of one LiDAR that contradicts what is known for longer than a flicker.
+class EmptySector {
+ public:
+  /// Evaluates the next sweep.
+  void update(const EmptyBeams& empty, const View& view);
+
+  const std::optional<Sector>& confirmed() const { return confirmed_; }
+
+ private:
+  std::optional<std::int64_t> since_ns_;
+  std::optional<Sector> confirmed_;
+};
+
+}  // namespace mtr_drive_control

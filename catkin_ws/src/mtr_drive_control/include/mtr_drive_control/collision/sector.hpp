@@ -1,0 +1,17 @@
+/// @file
+/// A piece of a LiDAR's view.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace mtr_drive_control {
+
+/// A wider piece without a measurement may hide a person: at 1 m a leg is as wide, and two legs are farther apart.
+inline constexpr double kLegRad = 0.175;
+
+/// Directions in base_link, counterclockwise from the first to the last.
+struct Sector {
+  double from_rad;
+  double to_rad;
+};
+
+}  // namespace mtr_drive_control

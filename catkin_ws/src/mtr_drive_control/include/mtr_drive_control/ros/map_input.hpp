@@ -1,0 +1,48 @@
+/// @file
+/// The map of the site, and where the robot is in it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <mtr_msgs/LocalizedPose.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <ros/ros.h>
+
+#include <memory>
+#include <optional>
+
+#include "mtr_drive_control/collision/map_witness.hpp"
+
+namespace mtr_drive_control {
+
+/// Subscription to the map and the localized pose.
+///
+/// Both only ever speak against a LiDAR that returns nothing; without them drive control works as well.
+class MapInput {
+ public:
+  explicit MapInput(ros::NodeHandle& node);
+
+  /// Place of map in odom by the newest pose, and the map when the pose is in it; nothing without a valid pose.
+  std::optional<LocalizedMap> at(const std::optional<Motion>& motion) const;
+
+ private:
+  void take(const nav_msgs::OccupancyGrid& grid);
+  void take(const mtr_msgs::LocalizedPose& pose);
+  /// The map that this pose is in.
+  std::shared_ptr<const SiteMap> map_of(const mtr_msgs::LocalizedPose& pose);
+
+  struct Located {
+    std::int64_t time_ns;
+    Pose map_from_base;
+    std::shared_ptr<const SiteMap> map;
+  };
+
+  std::shared_ptr<const SiteMap> map_;
+  /// Revision of the poses that are in this map; nothing before the first one after the map came.
+  std::optional<std::uint32_t> revision_;
+  std::optional<Located> located_;
+  std::int64_t usual_age_ns_ = 0;
+  ros::Subscriber grids_;
+  ros::Subscriber poses_;
+};
+
+}  // namespace mtr_drive_control

@@ -1,0 +1,63 @@
+/// @file
+/// Occupied places of the map that a sweep does not show.
+// SPDX-License-Identifier: Apache-2.0
+#include "mtr_drive_control/collision/map_witness.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace mtr_drive_control {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Farther away the tilt of the robot hides what the map has; a stop takes less than 1 m.
+constexpr double kReachM = 8.0;
+// Error of the position up to which it is valid, and of the heading.
+constexpr double kToleranceM = 0.4;
+constexpr double kToleranceRad = 0.035;
+// Something that passes in front of an empty place for that long shows that the beam works.
+constexpr std::int64_t kWorksNs = 1'000'000'000;
+
+}  // namespace
+
+void MapWitness::observe(const View& view, const Witness& lidar, const std::vector<Echo>& echoes,
+                         const LocalizedMap& here, EmptyBeams& empty) {
+  take(here.map);
+  const Point robot = here.map_from_odom.apply(view.position());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    const Point& occupied = map_->occupied[i];
+    if (places_[i].is_gone || distance_m(occupied, robot) > kReachM) {
+      continue;
+    }
+    const Point in_odom = here.map_from_odom.undo(occupied);
+    const std::optional<Bearing> bearing = view.bearing_of(in_odom);
+    const bool is_own = bearing && bearing->range_m >= view.range_min_m() &&
+                        std::abs(std::remainder(view.angle_rad(bearing->beam), 2.0 * kPi)) <= lidar.own_view_rad;
+    if (is_own && is_contradicted(places_[i], view, *bearing) &&
+        std::none_of(echoes.begin(), echoes.end(),
+                     [&](const Echo& echo) { return distance_m(echo.point, in_odom) <= kToleranceM; })) {
+      empty.add(*bearing);
+    }
+  }
+}
+
+void MapWitness::take(const std::shared_ptr<const SiteMap>& map) {
+  if (map != map_) {
+    map_ = map;
+    places_.assign(map ? map->occupied.size() : 0, Place{});
+  }
+}
+
+bool MapWitness::is_contradicted(Place& place, const View& view, const Bearing& bearing) const {
+  const Evidence evidence = view.evidence_at(bearing, kToleranceM, kToleranceRad);
+  if (evidence == Evidence::kNothing) {
+    place.missing_ns = place.missing_ns.value_or(view.stamp_ns());
+    return true;
+  }
+  const bool was_empty_long = place.missing_ns && view.stamp_ns() - *place.missing_ns > kWorksNs;
+  place.is_gone = evidence == Evidence::kSeenThrough || (evidence == Evidence::kHidden && was_empty_long);
+  place.missing_ns.reset();
+  return false;
+}
+
+}  // namespace mtr_drive_control
