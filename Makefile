@@ -5,7 +5,7 @@ SHELL := /bin/bash
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
 .PHONY: help setup build demo test lint unit firmware-test rostest system sim gui screenshots translations wheels clean \
-	bench bench-kills fuzz fuzz-commands hostile-texts bench-motion bench-clearance bench-localization bench-range bench-gui bench-stalls bench-real-time \
+	bench bench-kills fuzz fuzz-commands hostile-texts bench-motion bench-clearance bench-lidar bench-localization bench-range bench-gui bench-stalls bench-real-time \
 	bench-truth red-team sanitize bench-link bench-real bench-results bench-campaign browser-test bench-faults fault-matrix soak bench-can gazebo try-cars firmware flash bare-root noetic-root \
 	noetic-container docs tidy mutants
 
@@ -185,6 +185,9 @@ bench-faults: setup build ## Matrix, an hour of soak, fuzz, kills and the link's
 
 fault-matrix: setup build ## The matrix of states and faults on the simulated robot; figures in out/bench/matrix/faults.json
 	@$(RUN) python -m mtr_benchmarks.faults --seed $(SEED) --out out/bench/matrix $(MATRIX_OPTIONS)
+
+bench-lidar: setup build ## Drives toward a wall and a pole while a LiDAR is covered, dazzled or frozen; figures in out/bench/lidar_course.json
+	@$(RUN) python -m mtr_benchmarks.lidar_course --seed $(SEED) --out out/bench
 
 HOURS ?= 8
 soak: setup build ## Hours of the robot's time with faults sprinkled in: does anything grow? figures in out/bench/soak.json; HOURS=8
