@@ -103,6 +103,8 @@ class MotionParameters(ParameterSet):
         run_in_m: straight piece with the heading held before a goal whose direction of travel is given.
         longest_reverse_m: a longer way is not driven backwards, but for the straight piece to a goal; for a robot that
             does not see what is behind it.
+        rear_lidar: the robot has one; else it drives half a metre straight ahead before it turns after a rest, as drive
+            control lets it turn on ground only that was seen free.
         degenerate_speed_mps: speed limit while localization says that its surroundings do not hold the pose.
         input_age_limit_s: older inputs stop the robot.
         accept_nav_goal: for developers: goals from rviz are taken while the robot follows waypoints and the Operator
@@ -116,6 +118,7 @@ class MotionParameters(ParameterSet):
     arrival: Arrival = field(default_factory=Arrival)
     run_in_m: float = number(0.3, 0.0, 2.0, "m")
     longest_reverse_m: float = number(50.0, 0.0, 50.0, "m")
+    rear_lidar: bool = True
     degenerate_speed_mps: float = number(0.3, 0.05, 2.0, "m/s")
     input_age_limit_s: float = number(0.3, 0.1, 2.0, "s")
     accept_nav_goal: bool = False

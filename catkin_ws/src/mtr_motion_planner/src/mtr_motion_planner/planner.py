@@ -13,8 +13,10 @@ from mtr_description.mounts import Footprint
 
 from . import problems
 from .following.follower import Follower, FollowerOutput
+from .following.ground_behind import GroundBehind
 from .following.ramp import Ramp
 from .following.tolerance import miss_of, problem_of_miss, was_displaced
+from .following.tracking import Velocity
 from .following.watch import StallWatch, is_heading_into, problem_of_drive
 from .geometry.robot_outline import RobotOutline
 from .inputs import Inputs, InputsUnusable, Situation, Zone, situation_of
@@ -45,6 +47,9 @@ class MotionPlanner:
         self._replanning = Replanning(parameters, executor)
         self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
+        self._behind = None if parameters.rear_lidar else GroundBehind()
+        # Once for each goal: where that does not help, drive control reports what does.
+        self._may_uncover = True
         self._goal = NO_GOAL
         self._result, self._message = Result.IDLE, NO_PROBLEM
         self._corrections = 0
@@ -61,13 +66,15 @@ class MotionPlanner:
         """Velocity and status at a tick."""
         desired = inputs.desired
         if desired and desired.goal.id != self._goal.id:
-            self._goal, self.site = desired.goal, None
+            self._goal, self.site, self._may_uncover = desired.goal, None, True
             self._begin(Result.PENDING if desired.goal.waypoint.id else Result.IDLE)
         try:
             now = situation_of(inputs, self._parameters.input_age_limit_s)
         except InputsUnusable as fault:
             return self._stop_at_once(fault.problem)
         self._ramp.begin(now.tick_s, now.robot)
+        if self._behind:
+            self._behind.observe(now.robot.pose, now.tick_s)
         if not self._goal.waypoint.id:
             self._ramp.brake()
             self._replanning.stop()
@@ -143,7 +150,8 @@ class MotionPlanner:
         robot = Moving(pose, now.robot.speed_mps, now.robot.yaw_rate_radps)
         try:
             if self._replanning.is_needed:
-                self._replanning.plan(site, target, robot, now.tick_s, speed)
+                self._replanning.plan(site, target, robot, now.tick_s, speed,
+                                      uncovers=self._has_to_uncover(now.tick_s))
             self._replanning.change_over(site, now.tick_s, speed)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), pose)
@@ -151,6 +159,9 @@ class MotionPlanner:
         except Exception as defect:
             logging.exception("No plan was made for a defect of the planner.")
             self._settle(Result.REFUSED, problems.PLANNING_DEFECT(what=type(defect).__name__), pose)
+
+    def _has_to_uncover(self, now_s: float) -> bool:
+        return self._behind is not None and self._may_uncover and not self._behind.is_seen(now_s)
 
     def _direction(self) -> Direction:
         number = self._goal.waypoint.direction
@@ -169,13 +180,17 @@ class MotionPlanner:
             self._ramp.brake()
             return self._output(Result.PENDING, wanted.remaining_m)
         if wanted.finished:
-            if not self._replanning.is_under_way:
+            if self._replanning.is_uncovering:
+                self._may_uncover = False
+                self._replanning.stop()
+            elif not self._replanning.is_under_way:
                 self._arrive(site, pose)
             return self._stay()
         if is_heading_into(site.keep_out, pose, now.robot, wanted.velocity, self._parameters):
             self._ramp.brake()
             return self._output(Result.BLOCKED, wanted.remaining_m, problems.BEFORE_CAR())
-        self._ramp.drive(wanted.velocity)
+        # Any turn would sweep ground that was not seen.
+        self._ramp.drive(Velocity(wanted.velocity.linear_mps) if self._replanning.is_uncovering else wanted.velocity)
         return self._under_way(pose, now, wanted)
 
     def _under_way(self, pose: Pose2, now: Situation, wanted: FollowerOutput) -> PlannerOutput:

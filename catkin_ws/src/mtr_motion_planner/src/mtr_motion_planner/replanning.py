@@ -9,14 +9,18 @@ from concurrent.futures import Executor, Future
 from dataclasses import dataclass
 from typing import Optional
 
+from mtr_core.states import Direction
+
 from .following.follower import Follower
+from .following.ground_behind import AHEAD_M
 from .following.tracking import deviation
+from .geometry.route import moved
 from .outputs import Path
 from .parameters import MotionParameters
 from .search.options import Target
 from .search.planning import Planning, moves
 from .site import Site
-from .timing.plan import Moving, Plan
+from .timing.plan import Moving, Plan, PlanRefused
 
 # So long after a new goal a moving robot goes on with the new plan, which takes less time to make (planning.py).
 LEAD_S = 0.4
@@ -52,6 +56,7 @@ class Replanning:
     Attributes:
         follower: at work, None when there is nothing to follow.
         is_needed: True when another plan is to be made.
+        is_uncovering: True while the robot drives straight ahead to see the ground behind it, before a plan that turns.
     """
 
     def __init__(self, parameters: MotionParameters, executor: Executor):
@@ -62,6 +67,7 @@ class Replanning:
         self._new_path: Optional[Path] = None
         self.follower: Optional[Follower] = None
         self.is_needed = True
+        self.is_uncovering = False
 
     @property
     def is_under_way(self) -> bool:
@@ -85,10 +91,11 @@ class Replanning:
         path, self._new_path = self._new_path, None
         return path
 
-    def plan(self, site: Site, target: Target, robot: Moving, tick_s: float, speed: float) -> None:
+    def plan(self, site: Site, target: Target, robot: Moving, tick_s: float, speed: float, *,
+             uncovers: bool = False) -> None:
         """Follow a plan that is quickly made, or begin to make another; without a reference the robot stops first.
 
-        PlanRefused when there is none.
+        uncovers: a robot at rest that has to turn drives straight ahead first. PlanRefused when there is no plan.
         """
         planning = Planning(site.keep_out, site.fence, self._parameters, speed)
         # Another frame has other coordinates: what was followed means nothing in it.
@@ -96,6 +103,10 @@ class Replanning:
             self.follower = None
         present = self.follower.moving() if self.follower else robot
         plan = planning.straight(present, target)
+        self.is_uncovering = False
+        if uncovers and not moves(present) and (plan is None or _turns_first(present, plan)):
+            ahead = _ahead_of(present, planning)
+            self.is_uncovering, plan = ahead is not None, ahead or plan
         if plan:
             self._follow(plan, site, speed)
         elif not moves(present):
@@ -127,3 +138,16 @@ class Replanning:
         self._in_car_frame = site.in_car_frame
         self.follower = Follower(plan, self._parameters, speed)
         self._new_path = Path(site.in_car_frame, tuple(plan.points))
+
+
+def _turns_first(start: Moving, plan: Plan) -> bool:
+    """True for a plan without a drive: a turn on the spot."""
+    return abs((start.pose.inverse() @ plan.goal).x) < START_M
+
+
+def _ahead_of(start: Moving, planning: Planning) -> Optional[Plan]:
+    """None where the way straight ahead is not free."""
+    try:
+        return planning.straight(start, Target(moved(start.pose, AHEAD_M), Direction.FORWARD))
+    except PlanRefused:
+        return None

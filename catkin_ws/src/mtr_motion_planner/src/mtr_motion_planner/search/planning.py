@@ -122,6 +122,8 @@ class Planning:
         wrong = Direction.BACKWARD if sign > 0 else Direction.FORWARD
         if direction == wrong and way > CORRECTION_M:
             return None
+        if sign < 0 and direction == Direction.ANY and way > self._parameters.longest_reverse_m:
+            return None
         drive = line(moved(goal, offset.x), StraightPiece(sign, way))
         return self._assembly.timed([(drive, sign * start.linear_mps)], start.pose)
 

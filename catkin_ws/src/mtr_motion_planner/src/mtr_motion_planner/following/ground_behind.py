@@ -1,0 +1,46 @@
+"""Has the front LiDAR seen the ground that a turn sweeps behind the robot? For a robot without a rear LiDAR."""
+# SPDX-License-Identifier: Apache-2.0
+import math
+from collections import deque
+from typing import Deque, NamedTuple
+
+from mtr_core.se2 import Pose2
+
+# Drive control uses ground that was seen free for 20 s, its ground_memory_s.
+MEMORY_S = 15.0
+# After so much straight ahead the robot stands where its outline was seen or stood, and a little more is driven.
+NEEDED_M, AHEAD_M = 0.4, 0.5
+ASIDE_M, TURNED_RAD = 0.05, 0.1
+STEP_M = 0.05
+
+
+class _Passed(NamedTuple):
+    """A pose of the robot and when it was there, s."""
+
+    pose: Pose2
+    time_s: float
+
+
+class GroundBehind:
+    """Follows the robot's way; poses in one frame, of which jumps count as motion."""
+
+    def __init__(self) -> None:
+        self._way: Deque[_Passed] = deque()
+        self._seen_s = -math.inf
+
+    def observe(self, pose: Pose2, now_s: float) -> None:
+        """Take the pose of a tick."""
+        while self._way and now_s - self._way[0].time_s > MEMORY_S:
+            self._way.popleft()
+        if any(_is_straight_ahead(passed.pose.inverse() @ pose) for passed in self._way):
+            self._seen_s = now_s
+        if not self._way or self._way[-1].pose.distance_to(pose) > STEP_M:
+            self._way.append(_Passed(pose, now_s))
+
+    def is_seen(self, now_s: float) -> bool:
+        """True when the robot may turn on ground that was seen free lately."""
+        return now_s - self._seen_s <= MEMORY_S
+
+
+def _is_straight_ahead(way: Pose2) -> bool:
+    return way.x >= NEEDED_M and abs(way.y) <= ASIDE_M and abs(way.heading) <= TURNED_RAD
