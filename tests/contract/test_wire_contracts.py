@@ -23,7 +23,7 @@ ROBOT_STATE = {
 COMMAND = {
     "session_id": 1, "id": 2, "sent_time_s": 3, "seen_status_id": 4, "seen_robot_time_s": 5, "stop": 6, "waypoint": 7,
     "max_speed_mps": 8, "device_height_m": 9, "press": 10, "map_car_id": 11, "end_session": 12,
-    "check_car_id": 13, "resume_hold_id": 14,
+    "check_car_id": 13, "resume_hold_id": 14, "watches": 15,
 }
 STATUS = {
     "id": 1, "robot_session_id": 2, "sent_time_s": 3, "state": 4, "car": 5, "mode": 6, "session_id": 7,

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import threading
+import time
 
 from mtr_operator.station.mailbox import Mailbox
 
-LIMIT_S = 30.0
+LIMIT_S, TOTAL_LIMIT_S = 30.0, 120.0
 
 
 class Post:
@@ -18,11 +19,18 @@ class Post:
 
     def wait_for(self, kind):
         """The first event of a kind that was not taken yet."""
+        deadline = time.monotonic() + TOTAL_LIMIT_S
         while True:
             for event in self.events:
                 if isinstance(event, kind):
                     self.events.remove(event)
                     return event
-            assert self._arrived.wait(LIMIT_S), f"no {kind.__name__}; there were {self.events}"
-            self._arrived.clear()
-            self.events += self.box.take().events
+            # Statuses of the robot alone do not prolong it.
+            assert time.monotonic() < deadline, f"no {kind.__name__}; there were {self.events}"
+            self.take(f"no {kind.__name__}")
+
+    def take(self, missing="nothing"):
+        """Wait for something, an event or a Status, and keep the events."""
+        assert self._arrived.wait(LIMIT_S), f"{missing}; there were {self.events}"
+        self._arrived.clear()
+        self.events += self.box.take().events

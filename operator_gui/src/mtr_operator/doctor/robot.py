@@ -20,7 +20,6 @@ from mtr_operator.station.checks.checklist import UNSEEN, Facts, checklist
 from mtr_operator.station.checks.finding import Check, Finding, Item, State
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.mailbox import Mailbox
-from mtr_operator.station.readiness import LINK_LOST_CODE
 
 # A robot tells of its preflight once a second, and lets another application take over after 3 s of silence.
 LISTEN_S = 3.0
@@ -68,16 +67,11 @@ def listen(link: RobotLink, listen_s: float, clock: Callable[[], float] = time.m
         # What passes before the first one is the robot's period, and the subscription's way.
         gaps_s += [now_s - newest_s] if count else []
         newest_s, count = now_s, count + 1
-        is_abandoned = is_abandoned and _is_abandoned(status)
+        is_abandoned = is_abandoned and status.is_abandoned
         mailbox.put_robot(RobotSnapshot(status, LockState.UNKNOWN, NO_ADAPTER, is_secret=link.is_secret,
                                         is_exposed=link.is_exposed))
     silent_s = clock() - newest_s
     return Heard(mailbox.take().robot, silent_s, max(*gaps_s, silent_s), count, link.statistics.lost, is_abandoned)
-
-
-def _is_abandoned(status: RobotStatus) -> bool:
-    """A robot obeys an application that was killed, and tells that it misses it, until another one sends."""
-    return status.controlled_by_other and any(each.code == LINK_LOST_CODE for each in status.notifications)
 
 
 def robot_items(heard: Heard) -> tuple[Item, ...]:

@@ -199,6 +199,13 @@ class RobotLink(ABC):
         A changed content gets a new id; calling it again with an equal one sends it again with the same id.
         """
 
+    def watch(self) -> None:
+        """Answer the newest Status without an order and without a claim to control the robot.
+
+        A robot that knows one application only makes no difference.
+        """
+        self.send(DesiredState())
+
     def is_answered(self, status: RobotStatus) -> bool:
         """True when the robot had received the last order before it sent this Status; always so without delay."""
         return True

@@ -167,6 +167,8 @@ class CarCheck:
 
 # Code of the notification with which no test begins; the measurement itself is on the laptop, so one that runs goes on.
 DISK_FULL_CODE = "disk_full"
+# The application in control has fallen silent.
+LINK_LOST_CODE = "link_lost"
 
 
 @dataclass(frozen=True)
@@ -300,6 +302,11 @@ class RobotStatus:
     surroundings: Surroundings | None = None
     preflight: PreflightReport | None = None
     waits_for_answer: bool = False
+
+    @property
+    def is_abandoned(self) -> bool:
+        """Another application controls the robot and has fallen silent; the next order of any other takes over."""
+        return self.controlled_by_other and any(each.code == LINK_LOST_CODE for each in self.notifications)
 
     @property
     def key_place(self) -> Point:

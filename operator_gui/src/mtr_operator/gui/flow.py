@@ -110,6 +110,8 @@ class Flow(QObject):
             self.show(Step.MEASUREMENT)
             return
         self.model.lay_aside()
+        if self.connecting.worker is not None:
+            self.connecting.worker.lay_aside()
         self.show(Step.WELCOME)
 
     def use_language(self, code: str) -> None:

@@ -58,6 +58,7 @@ class ZmqRobotLink(RobotLink):
         self._lock = threading.RLock()
         self._inbox = Inbox(self.statistics)
         self._desired: DesiredState | None = None
+        self._watches = False
         self._command_id = 0
         self._seen: RobotStatus | None = None
         self._answered: RobotStatus | None = None
@@ -121,10 +122,20 @@ class ZmqRobotLink(RobotLink):
             if moves(desired):
                 raise RobotFailed(VIEWER_NOTICE.text)
             return
+        self._answer(desired, watches=False)
+
+    def watch(self) -> None:
+        """See RobotLink."""
+        if not self._is_viewer:
+            self._answer(DesiredState(), watches=True)
+
+    def _answer(self, desired: DesiredState, *, watches: bool) -> None:
         with self._lock:
+            # Also for one that watches: an earlier robot takes it for an order.
             if desired != self._desired:
                 self._command_id += 1
                 self._desired = desired
+            self._watches = watches
             self._publish(desired)
             self._answered = self._seen
 
@@ -192,7 +203,8 @@ class ZmqRobotLink(RobotLink):
         seen = self._seen
         header = CommandHeader(self.session_id, self._command_id, time.monotonic(),
                                seen_status_id=seen.id if seen else None,
-                               seen_robot_time_s=_time_of_sending(seen) if seen else None, end_session=end_session)
+                               seen_robot_time_s=_time_of_sending(seen) if seen else None, end_session=end_session,
+                               watches=self._watches and not end_session)
         payload = command_from_desired(desired, header).SerializeToString()
         with self._lock:
             if self._sockets is None:

@@ -42,6 +42,7 @@ class CommandHeader:
     seen_status_id: int | None = None
     seen_robot_time_s: float | None = None
     end_session: bool = False
+    watches: bool = False
 
 
 def command_from_desired(desired: requests.DesiredState, header: CommandHeader) -> pb.Command:
@@ -55,6 +56,8 @@ def command_from_desired(desired: requests.DesiredState, header: CommandHeader) 
             setattr(command, name, value)
     if header.end_session:
         command.end_session = True
+    if header.watches:
+        command.watches = True
     if desired.waypoint is not None:
         waypoint, pose = desired.waypoint, desired.waypoint.pose
         command.waypoint.CopyFrom(pb.Waypoint(id=waypoint.id, x=pose.x, y=pose.y, heading=pose.heading,

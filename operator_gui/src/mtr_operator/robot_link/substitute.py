@@ -14,6 +14,7 @@ import time
 import zmq
 
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.domain.robot_status import LINK_LOST_CODE
 
 from .address import PUBLISHER_PORT, SUBSCRIBER_PORT
 from .conversions import (
@@ -79,6 +80,8 @@ class RobotSubstitute:
             self._unanswered += 1
             message = status_message_from(self._robot.status())
             message.rejected_messages = self.rejected
+            if message.session_id and self._is_silent(time.monotonic()):
+                message.notifications.add(code=LINK_LOST_CODE, severity=3, text="The application has fallen silent.")
             self.server.status_socket.send(message.SerializeToString())
 
     def _is_silent(self, now: float) -> bool:
@@ -100,11 +103,13 @@ class RobotSubstitute:
         except UndecodableMessage:
             self.rejected += 1
             return
+        if command.watches:
+            return
         if command.session_id != self._session_id and not self._is_silent(now):
             self.rejected += 1
             return
         if command.end_session:
-            self._robot.halt()
+            self._robot.leave()
             self._newest_command_s = -math.inf
             self._unanswered = math.inf
             return

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import DISK_FULL_CODE, Mode, RobotStatus, WaypointResult
+from mtr_operator.domain.robot_status import DISK_FULL_CODE, LINK_LOST_CODE, Mode, RobotStatus, WaypointResult
 
 from .events import RobotSnapshot
 from .motion import Motion, is_driving
@@ -74,7 +74,6 @@ NOT_BLOCKING = ("no_emergency_stop", "unencrypted", HELD_CODE)
 # Red, and no reason to stop what runs: the lines of the test are written on the laptop.
 NOT_BLOCKING_A_RUN = (DISK_FULL_CODE,)
 # In these the robot itself says what is the matter.
-LINK_LOST_CODE = "link_lost"
 MODE_CODES = ("fault", LINK_LOST_CODE, "not_localized")
 
 

@@ -42,6 +42,7 @@ class Command:
     end_session: bool = False
     check_car_id: int = 0
     resume_hold_id: int = 0
+    watches: bool = False
 
 
 def problem_of(command: Command, platform_speed_mps: float) -> Problem:

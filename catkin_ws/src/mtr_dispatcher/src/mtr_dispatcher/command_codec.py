@@ -40,7 +40,7 @@ def decode(data: bytes) -> Command:
         waypoint=_waypoint(message), max_speed_mps=_choice(message, "max_speed_mps"),
         key_height_m=_choice(message, "device_height_m"), press=_press(message), map_car_id=message.map_car_id,
         end_session=message.end_session, check_car_id=message.check_car_id,
-        resume_hold_id=message.resume_hold_id)
+        resume_hold_id=message.resume_hold_id, watches=message.watches)
 
 
 def _float(message: Any, name: str, absent: float) -> float:

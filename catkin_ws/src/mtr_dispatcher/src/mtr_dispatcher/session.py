@@ -35,6 +35,7 @@ class CommandResult(enum.Enum):
     REFUSED = "refused"        # its content is unacceptable; the robot stops
     ENDED = "ended"            # goodbye
     FORBIDDEN = "forbidden"    # whoever sent it may not
+    WATCHED = "watched"        # claims nothing; the Operator's stop can reach the robot
 
 
 # Commands that moved nothing and are counted as rejected.
@@ -43,7 +44,7 @@ REJECTIONS = (CommandResult.EXPIRED, CommandResult.FOREIGN, CommandResult.REFUSE
 
 @dataclass(frozen=True)
 class SessionState:
-    """What the robot shall do now. stop_reason is no problem when it may move."""
+    """What the robot shall do now. stop_reason is no problem when it may move, without a session by hand only."""
 
     session_id: int
     command: Command
@@ -61,7 +62,7 @@ class ControlSession:
         owner: key that opened its session; empty on a link without keys.
         command: newest Command that was taken.
         refusal: why its newest Command was refused; no problem when it was not.
-        answered_status_id: newest Status that the application in control has answered.
+        answered_status_id: newest Status that the application in control, or without one a watching one, has answered.
         map_orders: numbers of the orders to map the Car.
         check_orders: numbers of the orders to check it.
     """
@@ -75,7 +76,7 @@ class ControlSession:
         self.answered_status_id = 0
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
-        self._seen_s = -math.inf
+        self._seen_s = self._watched_s = -math.inf
         self._former: Dict[int, str] = {}
 
     def owner_of(self, session_id: int) -> Optional[str]:
@@ -88,6 +89,8 @@ class ControlSession:
         Both are times of the steady clock. key: of its sender, who owns its session unless that is a new one; empty
         on a link without keys.
         """
+        if command.watches and command.session_id != self.session_id:
+            return self._watch(command, now_s, answered_s)
         if command.session_id in self._former:
             return CommandResult.OUTDATED
         if command.id - self._newest_id_of(command) > MAX_ID_STEP:
@@ -104,19 +107,26 @@ class ControlSession:
         """True while the application in control has seen the robot of less than link_timeout_s ago, also at the next
         turn: nobody looks in between.
         """
-        limit_s = self._parameters.link_timeout_s - DISPATCHER.period_ns * NS
-        return bool(self.session_id) and is_fresh(now_s - self._seen_s, limit_s)
+        return bool(self.session_id) and self._is_recent(now_s, self._seen_s)
+
+    def is_watched(self, now_s: float) -> bool:
+        """True while an application watches, whose Stop takes control: a person may drive the robot by hand."""
+        return self._is_recent(now_s, self._watched_s)
+
+    def _is_recent(self, now_s: float, seen_s: float) -> bool:
+        return is_fresh(now_s - seen_s, self._parameters.link_timeout_s - DISPATCHER.period_ns * NS)
 
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""
         alive = self.link_alive(now_s)
         map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
         check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
-        return SessionState(self.session_id, self.command, map_order, check_order, alive, self._stop_reason(alive))
+        return SessionState(self.session_id, self.command, map_order, check_order, alive,
+                            self._stop_reason(alive, now_s))
 
-    def _stop_reason(self, alive: bool) -> Problem:
+    def _stop_reason(self, alive: bool, now_s: float) -> Problem:
         if not self.session_id:
-            return problems.NO_APPLICATION()
+            return NO_PROBLEM if self.is_watched(now_s) else problems.NO_APPLICATION()
         if not alive:
             return problems.APPLICATION_SILENT(limit_s=self._parameters.link_timeout_s)
         if self.refusal:
@@ -140,6 +150,14 @@ class ControlSession:
             return CommandResult.REFUSED
         self.command = command
         return CommandResult.TAKEN
+
+    def _watch(self, command: Command, now_s: float, answered_s: Optional[float]) -> CommandResult:
+        if answered_s is None or not is_fresh(now_s - answered_s, self._parameters.command_lifetime_s):
+            return CommandResult.OUTDATED
+        self._watched_s = max(self._watched_s, answered_s)
+        if not self.session_id:
+            self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
+        return CommandResult.WATCHED
 
     def _take_late(self, command: Command) -> CommandResult:
         """A Command that comes too late moves nothing; one that only stops is never too late."""
@@ -184,7 +202,7 @@ def desired_state(desired: SessionState, default_speed_mps: float) -> DesiredSta
     command = desired.command
     return DesiredState(
         session_id=desired.session_id, command_id=command.id, link_alive=desired.link_alive,
-        stop=bool(desired.stop_reason), waypoint=command.waypoint or NO_WAYPOINT,
+        stop=bool(desired.stop_reason) or not desired.link_alive, waypoint=command.waypoint or NO_WAYPOINT,
         max_speed_mps=default_speed_mps if command.max_speed_mps is None else command.max_speed_mps,
         key_height_m=math.nan if command.key_height_m is None else command.key_height_m,
         press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order,

@@ -58,13 +58,13 @@ def test_status_says_whether_time_waits_for_its_answer(waits):
 def test_command_survives_the_round_trip():
     sent = link.Command(
         session_id=5, id=6, seen_status_id=7, seen_robot_time_s=8.0, stop=True, max_speed_mps=0.5, device_height_m=1.0,
-        map_car_id=2, check_car_id=4,
+        map_car_id=2, check_car_id=4, watches=True,
         waypoint=link.Waypoint(id=9, x=1.0, y=2.0, heading=3.0, direction=link.DIRECTION_BACKWARD),
         press=link.ButtonPress(id=3, buttons=[1, 2], strength=0.5, duration_s=0.25))
     command = decode(sent.SerializeToString())
     assert (command.session_id, command.id, command.seen_status_id, command.seen_robot_time_s) == (5, 6, 7, 8.0)
     assert (command.stop, command.max_speed_mps, command.key_height_m, command.map_car_id) == (True, 0.5, 1.0, 2)
-    assert command.check_car_id == 4
+    assert command.check_car_id == 4 and command.watches
     waypoint, press = command.waypoint, command.press
     assert waypoint == Waypoint(9, "application/5", "car", Pose2(1.0, 2.0, 3.0), 2)
     assert press == Press(3, 5, (1, 2), 0.5, 0.25)

@@ -10,7 +10,7 @@ from mtr_core.requests import Press, Waypoint
 from mtr_core.se2 import Pose2
 from mtr_dispatcher.command import Command
 from mtr_dispatcher.parameters import Parameters
-from mtr_dispatcher.session import REMEMBERED_SESSIONS, CommandResult, ControlSession, is_same
+from mtr_dispatcher.session import REMEMBERED_SESSIONS, CommandResult, ControlSession, desired_state, is_same
 
 NEWEST_STATUS = 10
 
@@ -270,3 +270,63 @@ def test_the_last_applications_are_remembered(session):
     take(session, command(another, 2, end_session=True))
     assert take(session, command(2)) is CommandResult.OUTDATED
     assert take(session, command(1)) is CommandResult.TAKEN
+
+
+def test_watching_application_claims_nothing_and_lets_a_person_drive(session):
+    assert take(session, command(watches=True)) is CommandResult.WATCHED
+    desired = session.desired(100.0)
+    assert (desired.session_id, desired.link_alive, desired.stop_reason) == (0, False, NO_PROBLEM)
+    # No other node moves by itself.
+    assert desired_state(desired, 0.5).stop
+    assert take(session, command(session_id=2)) is CommandResult.TAKEN
+    assert session.session_id == 2
+
+
+def test_robot_without_a_fresh_watcher_is_locked(session):
+    take(session, command(watches=True))
+    assert session.desired(100.89).stop_reason == NO_PROBLEM
+    assert session.desired(100.91).stop_reason.code == "dispatcher.no_application"
+
+
+@pytest.mark.parametrize("seen_s", [98.9, 101.1, math.nan])
+def test_watcher_that_answers_no_recent_status_counts_for_nothing(session, seen_s):
+    assert take(session, command(watches=True, seen_s=seen_s)) is CommandResult.OUTDATED
+    assert session.desired(100.0).stop_reason.code == "dispatcher.no_application"
+
+
+def test_robot_stays_with_the_application_that_was_paused_while_another_one_watches(session):
+    take(session, command(stop=True))
+    assert take(session, command(session_id=2, watches=True)) is CommandResult.WATCHED
+    assert take(session, command(end_session=True, number=2)) is CommandResult.ENDED
+    assert take(session, command(session_id=2, watches=True)) is CommandResult.WATCHED
+    assert take(session, command(session_id=3, stop=True)) is CommandResult.TAKEN
+    assert session.session_id == 3 and session.desired(100.0).stop_reason.code == "dispatcher.stopped_by_operator"
+
+
+def test_silent_application_locks_the_robot_although_another_one_watches(session):
+    take(session, command())
+    take(session, command(session_id=2, watches=True, seen_s=101.0), 101.0)
+    assert session.desired(101.0).stop_reason.code == "dispatcher.application_silent"
+
+
+def test_watcher_answers_for_lockstep_only_while_no_application_is_in_control(session):
+    take(session, command(watches=True))
+    assert session.answered_status_id == NEWEST_STATUS
+    take(session, command(session_id=2))
+    session.answered_status_id = 0
+    take(session, command(watches=True))
+    assert session.answered_status_id == 0
+
+
+def test_application_that_has_lost_control_may_watch(session):
+    take(session, command())
+    take(session, command(session_id=2, seen_s=104.0), 104.0)
+    take(session, command(session_id=2, number=2, end_session=True, seen_s=104.0), 104.0)
+    assert take(session, command(number=2, seen_s=104.0), 104.0) is CommandResult.OUTDATED
+    assert take(session, command(number=2, watches=True, seen_s=104.0), 104.0) is CommandResult.WATCHED
+
+
+def test_application_in_control_that_says_it_watches_keeps_control(session):
+    take(session, command())
+    assert take(session, command(number=2, watches=True)) is CommandResult.TAKEN
+    assert session.session_id == 1

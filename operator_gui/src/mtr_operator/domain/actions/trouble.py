@@ -5,11 +5,10 @@ from __future__ import annotations
 import math
 
 from ..ports import CarLink, LockState
-from ..robot_status import RobotStatus
+from ..robot_status import LINK_LOST_CODE, RobotStatus
 
 # Robot time between two Status messages beyond which the link counts as interrupted. The robot stops by itself then.
 LINK_GAP_S = 1.0
-_LINK_LOST_CODE = "link_lost"
 # A robot whose state is a fault, or unknown, stands, whether or not a motion lock had to stop it.
 _FAULT_CODES = ("fault", "state_machine_silent")
 
@@ -49,7 +48,7 @@ def _link_trouble(before: RobotStatus | None, status: RobotStatus) -> str:
     if before is not None and status.stamp_s - before.stamp_s > LINK_GAP_S:
         return f"The link to the robot was interrupted for {status.stamp_s - before.stamp_s:.1f} s."
     for notification in status.notifications:
-        if notification.code == _LINK_LOST_CODE:
+        if notification.code == LINK_LOST_CODE:
             return f"The link to the robot was interrupted: {notification.text}"
     return ""
 

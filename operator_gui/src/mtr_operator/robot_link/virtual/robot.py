@@ -117,10 +117,7 @@ class VirtualRobot:
     def take(self, session_id: int, command_id: int, desired: DesiredState) -> None:
         """Follow this desired state from now on. A new session forgets the ids of the old one."""
         if session_id != self._session_id:
-            self._session_id, self._map_car_id, self._waypoint = session_id, 0, None
-            self._result, self._result_text = WaypointResult.NONE, ""
-            self._key.begin_session()
-            self._check.begin_session()
+            self._begin_session(session_id)
         self._command_id, self._desired = command_id, desired
         if self._mode() in (Mode.FOLLOWING_WAYPOINT, Mode.CHECKING_CAR):
             self._check.request(desired.check_car_id)
@@ -135,10 +132,21 @@ class VirtualRobot:
         if waypoint is not None and (self._waypoint is None or waypoint.id != self._waypoint.id):
             self._set_waypoint(waypoint)
 
+    def _begin_session(self, session_id: int) -> None:
+        self._session_id, self._map_car_id, self._waypoint = session_id, 0, None
+        self._result, self._result_text = WaypointResult.NONE, ""
+        self._key.begin_session()
+        self._check.begin_session()
+
     def halt(self) -> None:
         """Stand still until the next desired state: the Operator has gone or is silent."""
         self._desired = DesiredState(stop=True)
         self._key.stop(None, self._time_s)
+
+    def leave(self) -> None:
+        """Stand still, for nobody: the Operator has said goodbye."""
+        self.halt()
+        self._begin_session(0)
 
     def step(self, dt_s: float = STATUS_PERIOD_S) -> None:
         """Let dt_s pass."""

@@ -1,8 +1,9 @@
-"""What the application asks of the robot while no test runs: to stand, and what the Operator calibrates."""
+"""What the application asks of the robot while no test runs: nothing, to stand, or what the Operator calibrates."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import enum
+import time
 from dataclasses import dataclass, replace
 from typing import Callable
 
@@ -14,6 +15,11 @@ from mtr_operator.domain.robot_status import RobotStatus
 from ..events import RobotSnapshot, known_facts
 from .watched_link import WatchedRobotLink
 
+# Wall time after which an order gives way to the application that controls the robot. Statuses of the first moments may
+# be older than the end of this application's own last session.
+FOREIGN_S = 1.0
+# Wall time after which the robot lets another application take over from a silent one.
+ABANDONED_S = 3.0
 # Wall time for which one step waits for a Status; the desired state is sent again after that.
 STEP_S = 0.1
 
@@ -37,10 +43,15 @@ class CalibrationRequest:
 
 
 class IdleLoop:
-    """One Status, one answer; without a request the answer asks for nothing."""
+    """One Status, one answer; before a request the answer only watches, so that another application can have the robot.
+
+    Attributes:
+        claims: true while this application wants the robot: for a paused test, or since an order.
+    """
 
     def __init__(self, robot: WatchedRobotLink, car: CarLink, resumed_hold: Callable[[int], int] = lambda _: 0,
-                 event_log: EventLog | None = None):
+                 event_log: EventLog | None = None, *, claims: bool = False,
+                 clock: Callable[[], float] = time.monotonic):
         self._robot = robot
         self._event_log = event_log or EventLog()
         self._resumed_hold = resumed_hold
@@ -48,10 +59,15 @@ class IdleLoop:
         self._desired = DesiredState()
         self._press_id = self._check_id = self._map_id = 0
         self._has_status = False
+        self.claims, self._released_hold = claims, resumed_hold(0)
+        self._clock = clock
+        # When the robot was last seen without another application, and without one that has fallen silent.
+        self._free_s = self._attended_s = clock()
         self.silent_s = 0.0
 
     def calibrate(self, request: CalibrationRequest) -> None:
         """Have the robot do this from now on; what a stop has ended stays ended."""
+        self._claim()
         press = self._desired.press
         if request.buttons:
             self._press_id += 1
@@ -64,6 +80,7 @@ class IdleLoop:
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so; it moves for that."""
+        self._claim()
         if request is CarRequest.CHECK:
             self._check_id += 1
         elif request is CarRequest.MAP:
@@ -88,15 +105,45 @@ class IdleLoop:
         if status is None:
             self.silent_s += STEP_S
             if self._has_status:
-                self._robot.send(self._desired)
+                self._answer()
             return None
         self._has_status, self.silent_s = True, 0.0
         self._event_log.learn(status, self._car.observe(status), self._car.problem)
         self._forget_done_press(status)
-        self._desired = replace(self._desired, resume_hold_id=self._resumed_hold(status.hold_id))
-        self._robot.send(self._desired)
+        self._release_hold(status)
+        self._give_way(status)
+        self._answer()
+        if self._clock() - self._attended_s >= ABANDONED_S:
+            status = replace(status, controlled_by_other=False)
         return RobotSnapshot(status, self._car.lock_state, self._car.problem, None, self._robot.is_secret,
                              self._car.traffic, known_facts(self._car), self._robot.is_exposed)
+
+    def _claim(self) -> None:
+        self.claims, self._free_s = True, self._clock()
+
+    def _answer(self) -> None:
+        if self.claims:
+            self._robot.send(self._desired)
+        else:
+            self._robot.watch()
+
+    def _release_hold(self, status: RobotStatus) -> None:
+        released = self._resumed_hold(status.hold_id)
+        if released != self._released_hold:
+            self._claim()
+        self._released_hold = released
+        self._desired = replace(self._desired, resume_hold_id=released)
+
+    def _give_way(self, status: RobotStatus) -> None:
+        """Drop what is ordered while another application keeps the robot: it would begin when that one ends."""
+        now_s = self._clock()
+        if not status.is_abandoned:
+            self._attended_s = now_s
+        if status.is_abandoned or not status.controlled_by_other:
+            self._free_s = now_s
+        if self.claims and now_s - self._free_s >= FOREIGN_S:
+            self.claims, self._desired = False, DesiredState()
+            self._robot.give_way()
 
     def _forget_done_press(self, status: RobotStatus) -> None:
         press = self._desired.press

@@ -21,7 +21,7 @@ from .watched_link import WatchedRobotLink
 
 class Links:
     """Attributes: car: the Car's link, or that of no Car. idle: what answers the robot while no test runs, None while
-    no session is open. time_line: what the Car's locks did."""
+    no session is open. time_line: what the Car's locks did. has_paused: an interrupted test keeps the robot."""
 
     def __init__(self, connection: Connection, opener: LinkOpener, stop: StopOrder, event_log: EventLog,
                  released: Callable[[int], int]):
@@ -32,6 +32,7 @@ class Links:
         self.time_line = TimeLine()
         self.car: CarLink = AbsentCarLink()
         self.idle: IdleLoop | None = None
+        self.has_paused = False
 
     def open(self) -> LinkRefused | None:
         """Open both; what refuses."""
@@ -62,7 +63,8 @@ class Links:
         """Open a session of its own for each purpose, for ids of requests begin anew; OperatorError."""
         robot = self.new_robot()
         robot.connect()
-        self._robot, self.idle = robot, IdleLoop(robot, self.car, self._released, self._event_log)
+        self._robot = robot
+        self.idle = IdleLoop(robot, self.car, self._released, self._event_log, claims=self.has_paused)
 
     def change_car(self, choice: CanChoice | None) -> LinkRefused | None:
         """Use another adapter for the Car; what refuses, and there is no Car then."""

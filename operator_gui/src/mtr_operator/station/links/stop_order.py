@@ -47,9 +47,13 @@ class StopOrder:
     def lift(self, ticket: int) -> bool:
         """The order with this ticket is carried out now; False when a stop came after it, and it is not to be."""
         with self._lock:
-            if ticket == self._count:
-                self._is_in_force = False
-            return ticket == self._count
+            self._is_in_force = ticket != self._count
+            return not self._is_in_force
+
+    def withdraw(self) -> None:
+        """The stop has nobody left to reach; it stays in force for each order that was given before it, see lift()."""
+        with self._lock:
+            self._is_in_force = False
 
     def attach(self, send: Callable[[DesiredState], None]) -> None:
         """A session begins: this sends its desired states."""

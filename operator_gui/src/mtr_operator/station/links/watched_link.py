@@ -46,6 +46,15 @@ class WatchedRobotLink(RobotLink):
         self.waypoint = desired.waypoint
         self._stop.pass_on(self._link.send, desired)
 
+    def watch(self) -> None:
+        """See RobotLink; a stop that is in force leaves instead."""
+        self.waypoint = None
+        self._stop.pass_on(self._watch_or_stop, DesiredState())
+
+    def give_way(self) -> None:
+        """The robot follows another application, which no stop of this one reaches."""
+        self._stop.withdraw()
+
     def is_answered(self, status: RobotStatus) -> bool:
         """See RobotLink."""
         return self._link.is_answered(status)
@@ -54,3 +63,9 @@ class WatchedRobotLink(RobotLink):
         """See RobotLink."""
         self._stop.detach()
         self._link.close()
+
+    def _watch_or_stop(self, desired: DesiredState) -> None:
+        if desired.stop:
+            self._link.send(desired)
+        else:
+            self._link.watch()

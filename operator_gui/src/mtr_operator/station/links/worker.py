@@ -23,6 +23,7 @@ from ..events import (
     CarLinkOpened,
     EventLogged,
     LinksOpened,
+    Outcome,
     PersonWanted,
     ProgressSaved,
     RobotSilent,
@@ -84,6 +85,10 @@ class Worker:
         """Measure what is left of a test; Ended comes into the mailbox."""
         ticket = self._stop.ticket
         self._requests.put(lambda: self._measure(test, ticket))
+
+    def lay_aside(self) -> None:
+        """Leave the robot to other applications unless something else was ordered: no test is at hand any more."""
+        self._requests.put(self._free_robot)
 
     def stop(self) -> None:
         """Stop the robot, whatever it does: the stop has left when this returns. A running test ends, and what is
@@ -178,12 +183,20 @@ class Worker:
             self._closing.wait(RETRY_S)
             return
         snapshot = idle.step()
+        # Lost for good: a test that was paused before another one took the robot does not take it back.
+        self._links.has_paused = self._links.has_paused and idle.claims
         self._look_for_standstill()
         if snapshot is not None:
             self._mailbox.put_robot(snapshot)
         elif idle.silent_s >= SILENCE_SHOWN_S:
             self._mailbox.put(RobotSilent(idle.silent_s))
             self._event_log.silent()
+
+    def _free_robot(self) -> None:
+        had_paused, self._links.has_paused = self._links.has_paused, False
+        if had_paused and self._links.idle is not None and not self._links.idle.has_order:
+            self._links.close_robot()
+            self._stop.withdraw()
 
     def _open_robot(self) -> IdleLoop | None:
         try:
@@ -211,7 +224,7 @@ class Worker:
             self._stop_unattended(said)
 
     def _stop_unattended(self, said: str) -> None:
-        if self._links.idle is not None:
+        if self._links.idle is not None and self._links.idle.claims:
             self._links.idle.request_car(CarRequest.STOP)
         self._event_log.add(EventKind.FAULT, said, WARNING)
         self._mailbox.put(StandstillSeen(said))
@@ -233,6 +246,7 @@ class Worker:
         run = MeasurementRun(test, self._links.new_robot, self._links.car, self._mailbox, answers,
                              event_log=self._event_log, standstill=self._new_standstill())
         ended = run.run(lambda: self._is_stopped(unattended), self._run_short_requests)
+        self._links.has_paused = ended.outcome is not Outcome.COMPLETE
         self._mailbox.put(replace(ended, text=ended.text or "".join(unattended)))
         # What happened during the run was told there.
         self._standstill = self._new_standstill()
