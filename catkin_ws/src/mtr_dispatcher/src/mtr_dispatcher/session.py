@@ -91,6 +91,9 @@ class ControlSession:
         """
         if command.watches and command.session_id != self.session_id:
             return self._watch(command, now_s, answered_s)
+        return self._judge(command, now_s, answered_s, key)
+
+    def _judge(self, command: Command, now_s: float, answered_s: Optional[float], key: str) -> CommandResult:
         if command.session_id in self._former:
             return CommandResult.OUTDATED
         if command.id - self._newest_id_of(command) > MAX_ID_STEP:
