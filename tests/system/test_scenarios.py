@@ -11,7 +11,8 @@ PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # The Car is almost a threshold and the robot sees its surroundings: the place is known to some mm.
 LARGEST_ERROR_M = 0.05
 
-AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
+AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_result_m,unlock_low_m,unlock_high_m,"
+                    "lock_result_m,lock_low_m,lock_high_m,unlock_status,unlock_distance_m,"
                     "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
                     "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
                     "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
@@ -28,7 +29,8 @@ AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unl
                     "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason,"
                     "unlock_to_outline_m,lock_to_outline_m,looks,look_percent,unlock_look_low_m,unlock_look_high_m,"
                     "lock_look_low_m,lock_look_high_m")
-KEY_PRESS_COLUMNS = ("radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
+KEY_PRESS_COLUMNS = ("radial,angle_deg,result_m,low_m,high_m,"
+                     "status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                      "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
                      "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
                      "unconfirmed_m,key_number,doors,"

@@ -24,7 +24,8 @@ from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import line_text, results_table
 
 HEADERS = {
-    "autolock": "axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_status,unlock_distance_m,"
+    "autolock": "axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_result_m,unlock_low_m,unlock_high_m,"
+                "lock_result_m,lock_low_m,lock_high_m,unlock_status,unlock_distance_m,"
                 "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
                 "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
                 "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"
@@ -41,30 +42,36 @@ HEADERS = {
                 "lock_own_sigma_m,lock_common_sigma_m,lock_expanded_m,verdict,verdict_reason,"
                 "unlock_to_outline_m,lock_to_outline_m,looks,look_percent,unlock_look_low_m,unlock_look_high_m,"
                 "lock_look_low_m,lock_look_high_m",
-    "key_press": "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
+    "key_press": "radial,angle_deg,result_m,low_m,high_m,"
+                 "status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s,"
                  "lateral_offset_m,heading_offset_deg,key_height_m,speed_mps,cause,method,reach,d50_m,d50_sigma_m,"
                  "d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,"
                  "unconfirmed_m,key_number,doors,"
                  "press_own_sigma_m,press_common_sigma_m,press_expanded_m,verdict,verdict_reason,press_to_outline_m,"
                  "looks,look_percent,press_look_low_m,press_look_high_m,boundaries,hole_from_m,hole_to_m",
-    "zone_map": "zone,side,height_m,status,presses,distance_m,low_m,high_m,uncertainty_m,coverage,coverage_low,"
+    "zone_map": "zone,side,height_m,reach_result_m,reach_low_m,reach_high_m,"
+                "status,presses,distance_m,low_m,high_m,uncertainty_m,coverage,coverage_low,"
                 "coverage_high,reach_own_sigma_m,reach_common_sigma_m,reach_expanded_m,verdict,verdict_reason,"
                 "reach_to_outline_m",
-    "handle_request": "axis,side,key_height_m,status,requests,inside,outside,border_m,inside_at_border,"
+    "handle_request": "axis,side,key_height_m,result_m,low_m,high_m,"
+                      "status,requests,inside,outside,border_m,inside_at_border,"
                       "outside_at_border,requested_by,distance_m,uncertainty_m,robot_time_s,lateral_offset_m,"
                       "heading_offset_deg,cause,reach,d50_m,d50_sigma_m,d50_low_m,d50_high_m,d95_m,d95_low_m,"
                       "d95_high_m,nearest_failure_m,holes_m,lapse,fit_quality,unconfirmed_m,origin_x_m,origin_y_m,"
                       "direction_x,direction_y,key_number,doors,handle_own_sigma_m,handle_common_sigma_m,handle_expanded_m,verdict,"
                       "verdict_reason,handle_to_outline_m,looks,look_percent,handle_look_low_m,handle_look_high_m,"
                       "boundaries,hole_from_m,hole_to_m",
-    "digital_key": "position,side,nominal_m,key_height_m,status,answer,samples,reported_m,reported_spread_m,"
+    "digital_key": "position,side,nominal_m,key_height_m,result_m,low_m,high_m,"
+                   "status,answer,samples,reported_m,reported_spread_m,"
                    "reported_sigma_m,age_s,reference_m,uncertainty_m,error_m,error_low_m,error_high_m,robot_time_s,x_m,"
                    "y_m,along_m,lateral_offset_m,heading_offset_deg,phone_own_sigma_m,phone_common_sigma_m,"
                    "phone_expanded_m,verdict,verdict_reason,phone_to_outline_m",
-    "sleep_time": "axis,side,key_height_m,status,asleep,answers_until_s,silent_from_s,trials,answered_after_s,"
+    "sleep_time": "axis,side,key_height_m,result_m,low_m,high_m,"
+                  "status,asleep,answers_until_s,silent_from_s,trials,answered_after_s,"
                   "unanswered_after_s,disturbed,requested_by,distance_m,uncertainty_m,robot_time_s,cause,"
                   "key_number,doors,held_own_sigma_m,held_common_sigma_m,held_expanded_m,verdict,verdict_reason,held_to_outline_m",
-    "relay_resistance": "axis,side,key_height_m,status,resistance,border_m,requests_off,unlocks_off,bound_off,"
+    "relay_resistance": "axis,side,key_height_m,result_m,low_m,high_m,"
+                        "status,resistance,border_m,requests_off,unlocks_off,bound_off,"
                         "requests_on,unlocks_on,bound_on,unlocked_off_m,silent_off_m,unlocked_on_m,silent_on_m,requested_by,"
                         "switched_by,distance_m,uncertainty_m,robot_time_s,lateral_offset_m,heading_offset_deg,cause,"
                         "key_number,doors,relay_own_sigma_m,relay_common_sigma_m,relay_expanded_m,verdict,"
@@ -102,10 +109,11 @@ def test_header_is_the_promised_one(name):
 def test_values_are_written_with_points_and_missing_ones_are_empty():
     scenario = SCENARIOS["autolock"]
     _, rows = lines_of(results_csv(scenario, progress_of(scenario, [axis(1), axis(2, "not_reached", "invalid")])))
-    assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,ok,1.2346,0.0300,12.346,ok,2.0000,,14.000," \
+    assert rows[1] == "1,left,0.0000,0.9000,0.000000,1.000000,1.2346,,,2.0000,,,ok,1.2346,0.0300,12.346,ok,2.0000,," \
+        "14.000," \
         "-0.0123,,,,passive_entry,,,,,,0,,,,,,,,,,0,,,,,,,,,,,,,,,,,,,,,,,,not_set,,,,,,,,,"
     passes = "0" + 10 * "," + "0" + 24 * "," + "not_set,,,,,,,,,"
-    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,not_reached,,,,invalid,,," + 11 * "," + passes
+    assert rows[2] == "2,left,0.0000,0.9000,0.000000,1.000000,,,0.5000,,,,not_reached,,,,invalid,,," + 11 * "," + passes
 
 
 def test_list_stands_in_one_cell_and_in_one_line_of_metadata():

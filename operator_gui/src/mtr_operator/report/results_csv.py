@@ -9,7 +9,7 @@ from __future__ import annotations
 import csv
 import io
 import re
-from typing import Any, Iterator
+from typing import Any, Iterator, Sequence
 
 from mtr_operator.domain.results.document import plain
 from mtr_operator.domain.results.line_result import Column
@@ -21,6 +21,7 @@ from mtr_operator.storage.recorded.spreadsheet import guarded
 from .assessed_columns import AssessedColumns
 from .figures import meanings
 from .identity.identity_rows import identity_lines
+from .shown_columns import ShownColumns
 from .table import line_text
 
 FILE_NAME = "results.csv"
@@ -33,18 +34,20 @@ def results_csv(scenario: AnyScenario, progress: Progress, assessment: Assessmen
     """Content of the file; without an assessment the columns that it fills are empty."""
     file = io.StringIO()
     added = AssessedColumns(scenario, assessment)
-    for line in (*_metadata(scenario, progress), *added.metadata()):
+    shown = ShownColumns(scenario, scenario.parameters_type.from_mapping(progress.parameters))
+    columns = shown.inserted(scenario.result_type.columns(), shown.columns)
+    for line in (*_metadata(scenario, progress, columns), *added.metadata()):
         file.write(f"# {_NO_TEXT.sub(_TEXT, ' '.join(line.splitlines()))}\n")
     writer = csv.writer(file, lineterminator="\n")
-    columns = scenario.result_type.columns()
     writer.writerow(column.name for column in (*columns, *added.columns))
     for result in progress.results:
-        own = (_cell(column, plain(getattr(result, column.name))) for column in columns)
-        writer.writerow((*own, *map(_cell, added.columns, added.values(result))))
+        own = [plain(getattr(result, column.name)) for column in scenario.result_type.columns()]
+        row = shown.inserted(own, shown.values(result))
+        writer.writerow((*map(_cell, columns, row), *map(_cell, added.columns, added.values(result))))
     return file.getvalue()
 
 
-def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
+def _metadata(scenario: AnyScenario, progress: Progress, columns: Sequence[Column]) -> Iterator[str]:
     yield f"scenario: {scenario.title}"
     for name, entry in progress.session.items():
         yield f"{name}: {_one_line(entry)}"
@@ -62,7 +65,7 @@ def _metadata(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     for name in scenario.parameters_type.flags():
         yield f"parameter {name}: {str(progress.parameters.get(name, False)).lower()}"
     yield from progress.frame_record.sentences()
-    for column in scenario.result_type.columns():
+    for column in columns:
         unit = f" [{column.unit}]" if column.unit else ""
         yield f"column {column.name}{unit}: {column.doc}"
     yield from _results(scenario, progress)

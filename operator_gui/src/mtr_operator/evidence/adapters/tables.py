@@ -13,6 +13,7 @@ from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.report.assessed_columns import AssessedColumns
+from mtr_operator.report.shown_columns import ShownColumns
 from mtr_operator.storage.recorded.course_file import Moment, read_course
 
 # Kinds of columns, as SQL calls them.
@@ -33,12 +34,14 @@ class Table(NamedTuple):
 def results_table(scenario: AnyScenario, progress: Progress, assessment: Assessment | None) -> Table:
     """The columns of results.csv, with the same names and units, not rounded."""
     added = AssessedColumns(scenario, assessment)
+    shown = ShownColumns(scenario, scenario.parameters_type.from_mapping(progress.parameters))
     kinds = kinds_of(scenario.result_type)  # type: ignore[arg-type]  # a class is hashable, which mypy does not see here
     names = [column.name for column in scenario.result_type.columns()]
-    columns = {**{name: _kind(kinds[name]) for name in names},
-               **{column.name: NUMBER if column.unit else TEXT for column in added.columns}}
-    return Table(columns, ([*(plain(getattr(result, name)) for name in names), *added.values(result)]
-                           for result in progress.results))
+    first = shown.inserted([(name, _kind(kinds[name])) for name in names],
+                           [(column.name, NUMBER) for column in shown.columns])
+    columns = {**dict(first), **{column.name: NUMBER if column.unit else TEXT for column in added.columns}}
+    return Table(columns, ([*shown.inserted([plain(getattr(result, name)) for name in names], shown.values(result)),
+                            *added.values(result)] for result in progress.results))
 
 
 def poses_table(courses: Sequence[pathlib.Path]) -> Table:
