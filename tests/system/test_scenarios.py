@@ -11,8 +11,8 @@ PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # The Car is almost a threshold and the robot sees its surroundings: the place is known to some mm.
 LARGEST_ERROR_M = 0.05
 
-AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,unlock_result_m,unlock_low_m,unlock_high_m,"
-                    "lock_result_m,lock_low_m,lock_high_m,unlock_status,unlock_distance_m,"
+AUTOLOCK_COLUMNS = ("axis,side,origin_x_m,origin_y_m,direction_x,direction_y,"
+                    "unlock_result_m,unlock_low_m,unlock_high_m,lock_result_m,lock_low_m,lock_high_m,unlock_status,unlock_distance_m,"
                     "unlock_uncertainty_m,unlock_robot_time_s,lock_status,lock_distance_m,lock_uncertainty_m,"
                     "lock_robot_time_s,unlock_lateral_offset_m,unlock_heading_offset_deg,unlock_key_height_m,"
                     "unlock_speed_mps,unlock_cause,lock_lateral_offset_m,lock_heading_offset_deg,lock_key_height_m,"

@@ -3,11 +3,14 @@
 import csv
 import dataclasses
 import itertools
+import math
+import random
 
 import pytest
 
 from mtr_operator.car_link.simulated_car import LOCK_M, PRESS_M, UNLOCK_M, SimulatedCarLink
 from mtr_operator.cli import commands, main
+from mtr_operator.cli.arguments import argument_parser
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotStatus
@@ -204,3 +207,34 @@ def test_extender_has_the_key_be_nearer_while_it_is_switched_on(reach_m, is_on, 
 def test_reach_of_the_extender_beyond_its_range_is_refused():
     with pytest.raises(InvalidParameter, match="reach of the simulated extender is 101 m; allowed is 0 to 100 m"):
         SimulatedCarLink(1, extender_m=101.0)
+
+
+def reaches(seed, car_seed):
+    """Where the Car reacts around it, without chance."""
+    link = SimulatedCarLink(seed, car_seed=car_seed)
+    return [link._part((math.cos(bearing), math.sin(bearing))) for bearing in (0.0, 1.0, 2.0, 3.0)]
+
+
+def test_another_seed_is_another_test_at_the_same_car_and_another_car_seed_another_car():
+    assert reaches(101, 1) == reaches(102, 1) == reaches(1, 1)
+    assert reaches(1, 2) != reaches(1, 1)
+
+    def presses(seed):
+        link = SimulatedCarLink(seed)
+        link.connect()
+        return tuple(bool(press_at(link, number, PRESS_M)) for number in range(1, 20))
+    assert presses(101) != presses(102)
+
+
+def test_first_car_and_seed_give_the_figures_of_before():
+    link = SimulatedCarLink(1)
+    chance = random.Random(1)
+    assert [phase for _, _, phase in link._lobes] == [chance.uniform(0.0, 2.0 * math.pi) for _ in link._lobes]
+    assert link._chance.random() == chance.random()
+
+
+@pytest.mark.parametrize("command", [["demo"], ["run", "autolock", "--params", "p.yaml", "--out", "out"],
+                                     ["try", "mtr_demo_car"], ["window"]])
+def test_car_seed_can_be_chosen_wherever_the_substitute_of_the_car_can(command):
+    assert argument_parser().parse_args([*command, "--car-seed", "7"]).car_seed == 7
+    assert argument_parser().parse_args(command).car_seed == 1

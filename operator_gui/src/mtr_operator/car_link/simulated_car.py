@@ -124,17 +124,21 @@ class SimulatedCarLink(CarLink):
     key be nearer while it is on, 0 to 100 m; 0: not at all.
 
     Passive entry rests once a button was pressed or the handle taken: only one of them can be measured at a time. It is
-    back with the next test, which has a session of its own. The same seed and the same Statuses give the same events.
+    back with the next test, which has a session of its own. car_seed: which Car it is, by its ranges; seed: of chance.
+    The same seeds and the same Statuses give the same events.
     A phone that is its key tells its distance with the errors of PhoneModel.
     """
 
-    def __init__(self, seed: int = 1, key_sleep_s: float = 0.0, extender_m: float = 0.0):
+    def __init__(self, seed: int = 1, key_sleep_s: float = 0.0, extender_m: float = 0.0, *, car_seed: int = 1):
         problem = KEY_SLEEP.violation(key_sleep_s) or EXTENDER.violation(extender_m)
         if problem:
             raise InvalidParameter(problem)
         self._key = SleepingKey(key_sleep_s)
-        self._chance = random.Random(seed)
-        self._lobes = [(count, part, self._chance.uniform(0.0, 2.0 * math.pi)) for count, part in _LOBES]
+        self._chance, car = random.Random(seed), random.Random(car_seed)
+        self._lobes = [(count, part, car.uniform(0.0, 2.0 * math.pi)) for count, part in _LOBES]
+        # A seed's first numbers once drew the Car; chance continues behind them, so that its results stay the same.
+        for _ in _LOBES:
+            self._chance.random()
         self._handle = SimulatedHandle()
         self._extender = SimulatedExtender(extender_m)
         self._phone = SimulatedPhone(seed)

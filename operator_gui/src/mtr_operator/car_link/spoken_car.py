@@ -48,7 +48,7 @@ class SpokenCar(RobotLink):
     """
 
     def __init__(self, robot: RobotLink, channel: str, seed: int = 1, profile: str = "mtr_demo_car",
-                 databases: pathlib.Path | None = None):
+                 databases: pathlib.Path | None = None, *, car_seed: int = 1):
         self.statistics = robot.statistics
         self.told: list[CarEvent] = []
         self._profile: CarProfile = load_profile(profile, databases)
@@ -62,7 +62,7 @@ class SpokenCar(RobotLink):
         self._buses = {name: can.Bus(interface=_INTERFACE, channel=each.channel) for name, each in further.items()}
         self._buses[FIRST_BUS] = can.Bus(interface=_INTERFACE, channel=channel)
         self._ecu = None if self._profile.poll is None else _ecu(self._profile.poll, self._buses[FIRST_BUS])
-        self._model = SimulatedCarLink(seed)
+        self._model = SimulatedCarLink(seed, car_seed=car_seed)
         self._phone = SimulatedPhone(seed)
         self._events: collections.deque[CarEvent] = collections.deque()
         self._now_s = self._sent_s = 0.0

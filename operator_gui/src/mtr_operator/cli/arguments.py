@@ -57,6 +57,7 @@ def _add_window(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--can-bitrate", type=_whole_number, metavar="N", help="bit/s")
     _add_can_mode(parser)
     parser.add_argument("--car-profile", metavar="NAME_OR_PATH", help="how the Car's bus tells its lock state")
+    _add_car_seed(parser)
 
 
 def _add_params(parser: argparse.ArgumentParser) -> None:
@@ -97,6 +98,7 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     car.add_argument("--car-profile", default="mtr_demo_car", metavar="NAME_OR_PATH",
                      help="how the Car's bus tells its lock state, default %(default)s")
     car.add_argument("--simulated-car", action="store_true", help="use a substitute inside the application")
+    _add_car_seed(car)
     car.add_argument("--simulated-key-sleep", type=_number, default=0.0, metavar="S",
                      help="rest in s after which the substitute's key sleeps, 0 to 3600; default 0: never")
     car.add_argument("--simulated-extender", type=_number, default=0.0, metavar="M",
@@ -141,8 +143,8 @@ def _add_try(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--databases", type=pathlib.Path, metavar="DIR",
                         help="folder of the profiles' CAN databases; default: beside the profile, then the folder that "
                              "MTR_CAR_DATABASES names, as for every command")
-    parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
-                        help="of the simulated Car's random numbers, default %(default)s")
+    _add_seed(parser)
+    _add_car_seed(parser)
 
 
 def _add_demo(parser: argparse.ArgumentParser) -> None:
@@ -153,8 +155,8 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=pathlib.Path, metavar="DIR",
                         help="folder for the results; default: a new one in the folder of results")
     parser.add_argument("--limits", type=pathlib.Path, metavar="FILE", help="limits that the lines are judged by, YAML")
-    parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
-                        help="of the substitutes' random numbers, default %(default)s")
+    _add_seed(parser)
+    _add_car_seed(parser)
     parser.set_defaults(phone_feed=None)
     parser.set_defaults(can_log=None, can_log_format="blf", bundle=False)
     parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
@@ -257,8 +259,19 @@ def _add_robot(parser: argparse.ArgumentParser) -> None:
     _add_ports(robot)
     _add_unencrypted(robot)
     robot.add_argument("--simulated-robot", action="store_true", help="use a substitute inside the application")
+    _add_seed(parser)
+
+
+def _add_seed(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--seed", type=_whole_number, default=1, metavar="N",
-                        help="of the substitutes' random numbers, default %(default)s")
+                        help="of chance: the substitutes' noise and misses; another seed is another test at the same "
+                             "Car, default %(default)s")
+
+
+def _add_car_seed(car: argparse._ActionsContainer) -> None:
+    car.add_argument("--car-seed", type=_whole_number, default=1, metavar="N",
+                     help="of the substitute of the Car: another one is another Car with ranges of its own, whatever "
+                          "--seed is; default %(default)s")
 
 
 def _number(text: str) -> float:

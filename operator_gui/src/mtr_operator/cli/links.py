@@ -28,7 +28,8 @@ def car_link(options: argparse.Namespace) -> CarLink:
     """Link to the Car or its substitute, not connected yet."""
     if options.simulated_car:
         from mtr_operator.car_link.simulated_car import SimulatedCarLink
-        return SimulatedCarLink(options.seed, options.simulated_key_sleep, options.simulated_extender)
+        return SimulatedCarLink(options.seed, options.simulated_key_sleep, options.simulated_extender,
+                                car_seed=options.car_seed)
     if options.can_log is not None:
         from mtr_operator.car_link.log.log_car import LogCarLink
         return LogCarLink(options.can_log, options.car_profile)

@@ -27,7 +27,7 @@ def open_window(options: argparse.Namespace) -> int:
         raise OperatorError("The window needs PyQt5, which is not installed; pip install PyQt5, or use the command "
                             "run.") from None
     _check_display(os.environ, sys.platform)
-    return run(_given(options, _ROBOT), _given(options, _CAN))
+    return run(_given(options, _ROBOT), _given(options, _CAN), getattr(options, "car_seed", 1))
 
 
 def _check_display(environment: Mapping[str, str], platform: str) -> None:

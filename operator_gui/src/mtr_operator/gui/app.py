@@ -124,12 +124,12 @@ def make_qt() -> QApplication:
     return app
 
 
-def run(robot: Mapping[str, Any], can: Mapping[str, Any]) -> int:
-    """Run the window until it is closed; the exit code."""
+def run(robot: Mapping[str, Any], can: Mapping[str, Any], car_seed: int = 1) -> int:
+    """Run the window until it is closed; the exit code. car_seed: which Car the substitute of the Car is."""
     app = make_qt()
     # Python sees Ctrl-C only when Qt lets it run; the heartbeat does.
     signal.signal(signal.SIGINT, lambda *_: app.quit())
-    application = Application()
+    application = Application(opener=LinkOpener(car_seed=car_seed))
     application.open(robot, can)
     status = app.exec_()
     application.close()

@@ -102,10 +102,11 @@ class LinkOpener:
 
     The simulated robot continues from one link to the next, as a real robot does: its clock, place and map are kept.
     time_factor: simulated seconds per second of wall time; a person watches at 1, and a real bus may be connected.
+    car_seed: which Car the substitute of the Car is.
     """
 
-    def __init__(self, time_factor: float = 1.0):
-        self._time_factor = time_factor
+    def __init__(self, time_factor: float = 1.0, car_seed: int = 1):
+        self._time_factor, self._car_seed = time_factor, car_seed
         self._simulated_robot: VirtualRobot | None = None
 
     def robot(self, choice: RobotChoice) -> RobotLink:
@@ -154,7 +155,7 @@ class LinkOpener:
             return AbsentCarLink()
         if choice.interface == SIMULATED:
             from mtr_operator.car_link.simulated_car import SimulatedCarLink
-            return SimulatedCarLink()
+            return SimulatedCarLink(car_seed=self._car_seed)
         from mtr_operator.car_link.bus import CanCarLink
         return CanCarLink(choice.interface, choice.channel, choice.bitrate_bps, choice.profile,
                           is_listening=not choice.is_normal, data_bitrate=choice.data_bitrate_bps,

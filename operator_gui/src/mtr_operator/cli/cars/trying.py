@@ -51,7 +51,7 @@ def try_profiles(options: argparse.Namespace) -> int:
     code = EXIT_PASS
     for profile in options.profiles:
         try:
-            tried = try_profile(profile, options.databases, options.seed)
+            tried = try_profile(profile, options.databases, options.seed, options.car_seed)
         except OperatorError as error:
             print(f"{profile}: {error}", file=sys.stderr)
             code = EXIT_ERROR
@@ -65,7 +65,7 @@ def try_profiles(options: argparse.Namespace) -> int:
     return code
 
 
-def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int = 1) -> Tried:
+def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int = 1, car_seed: int = 1) -> Tried:
     """An Autolock; OperatorError when the profile is wrong."""
     # What speaks on a bus is imported only when it is asked for.
     from mtr_operator.car_link.spoken_car import SpokenCar
@@ -74,7 +74,7 @@ def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int =
     kind = scenario.parameters_type
     parameters = kind.from_mapping({**kind.proposed(), **_PARAMETERS})
     progress = Progress(_SCENARIO, parameters.to_mapping())
-    spoken = SpokenCar(FakeRobotLink(seed), f"try {profile}", seed, profile, databases)
+    spoken = SpokenCar(FakeRobotLink(seed), f"try {profile}", seed, profile, databases, car_seed=car_seed)
     try:
         spoken.connect()
         spoken.car.connect()
