@@ -259,3 +259,25 @@ def test_other_multiplexers_have_an_allowed_value(tmp_path, end):
 def test_try_understands_each_change(tmp_path, database):
     tried = try_profile(written(tmp_path, database))
     assert tried.is_good, tried
+
+
+@pytest.mark.parametrize(("text", "reason"), [
+    # Cut off within a word, a signal, or the line of the message itself, as an interrupted copy leaves it.
+    ((HEAD + SPEED + DOORS)[:len(HEAD + SPEED) + 2], r"; not all of it could be read: .*line 14, column 1: .*"),
+    ((HEAD + SPEED + DOORS)[:len(HEAD + SPEED) - 12], r"; not all of it could be read: .*line 12, column 37: .*"),
+    ((HEAD + SPEED + DOORS)[:len(HEAD + SPEED) + 11],
+     r"; message DOO, line 14, could not be read: the line is not complete: .*"),
+    # Another message is refused by the library.
+    (HEAD + SPEED.replace("416", "4160") + DOORS.replace("DOORS", "OTHER"),
+     r"; not all of it could be read: .* in message SPEED.*"),
+    (HEAD + SPEED, ""), (HEAD, "")])
+def test_database_without_the_message_says_what_of_it_could_not_be_read(tmp_path, text, reason):
+    with pytest.raises(ConnectionFailed, match=rf"has no message DOORS{reason}\.$") as raised:
+        load_profile(written(tmp_path, text))
+    assert "\n" not in str(raised.value) and len(str(raised.value)) < 600
+    assert ("could" in str(raised.value)) is bool(reason)
+
+
+def test_database_that_was_cut_off_before_the_signal_says_so(tmp_path):
+    with pytest.raises(ConnectionFailed, match=r"has no signal LOCK; not all of it could be read: .*line 12"):
+        load_profile(written(tmp_path, (HEAD + DOORS)[:len(HEAD) + 24]))

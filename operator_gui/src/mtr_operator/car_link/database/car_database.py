@@ -22,12 +22,13 @@ class Problems:
 
 
 class CarDatabase:
-    """messages: cantools'."""
+    """messages: cantools'. refusal: why the library refused the file as a whole; empty when it did not."""
 
-    def __init__(self, path: pathlib.Path, messages: Sequence[Any], problems: Problems):
+    def __init__(self, path: pathlib.Path, messages: Sequence[Any], problems: Problems, refusal: str = ""):
         self.path = path
         self.messages = messages
         self._problems = problems
+        self._refusal = refusal
 
     def message(self, name: str) -> Any:
         """Return a message by its name; ConnectionFailed states the fault of one that cannot be used."""
@@ -40,7 +41,7 @@ class CarDatabase:
             found = [message for message in self.messages if message.name == each]
             if found:
                 return found[-1]
-        raise ConnectionFailed(f"CAN database {self.path} has no message {name}.")
+        raise ConnectionFailed(f"CAN database {self.path} has no message {name}{self._unread()}.")
 
     def signal(self, message: Any, name: str) -> str:
         """Return a signal's name as spelled in the database; ConnectionFailed states the fault of an unusable one."""
@@ -55,8 +56,16 @@ class CarDatabase:
             place = f"{self.path}{_line(self._problems.signal_lines.get((message.name, each)))}"
             raise ConnectionFailed(f"Signal {name} of message {message.name} of CAN database {place} cannot be used: "
                                    f"{problem}.")
-        raise ConnectionFailed(f"Message {message.name} of CAN database {self.path} has no signal {name}.")
+        raise ConnectionFailed(f"Message {message.name} of CAN database {self.path} has no signal {name}"
+                               f"{self._unread()}.")
 
+    def _unread(self) -> str:
+        """Why a message or signal may be missing: the library's reason, else the fault of the first message with one."""
+        if self._refusal:
+            return f"; not all of it could be read: {self._refusal}"
+        for name, problem in self._problems.messages.items():
+            return f"; message {name}{_line(self._problems.message_lines.get(name))} could not be read: {problem}"
+        return ""
 
     def is_usable(self, message: Any, name: str) -> bool:
         """True for a signal of a message that a profile can name."""

@@ -20,6 +20,9 @@ _MAX_DATABASE_BYTES = 16 * 1024 * 1024
 # Of a library's sentence, characters.
 _MAX_SAID = 300
 _DBC = ".dbc"
+# Exceptions whose texts a person understands, and what is said of all others.
+_READABLE = (OSError, UnicodeError, cantools.database.errors.Error)
+_DAMAGED = "it is damaged"
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
 
@@ -35,11 +38,11 @@ def load_database(path: pathlib.Path) -> CarDatabase:
             raise ConnectionFailed(f"CAN database {path} cannot be read: it says {size} where a place or a size of a "
                                    f"message or signal stands; allowed is up to {MAX_SIZE}.")
         return _parsed(path, text)
-    except (OSError, UnicodeError, cantools.database.errors.Error) as error:
+    except _READABLE as error:
         raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None
     # The library's readers of some five formats raise whatever a damaged file leads them to.
     except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
-        raise ConnectionFailed(f"CAN database {path} cannot be read: it is damaged.") from None
+        raise ConnectionFailed(f"CAN database {path} cannot be read: {_DAMAGED}.") from None
 
 
 def decoded_text(data: bytes) -> str:
@@ -59,16 +62,16 @@ def one_line(error: Exception) -> str:
 def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
     if path.suffix.lower() != _DBC:
         return CarDatabase(path, _messages(cantools.database.load_file(str(path), strict=False)), Problems())
-    lines = dbc_messages(text)
+    lines, refusal = dbc_messages(text), ""
     try:
         messages = _messages(cantools.database.load_file(str(path), strict=False))
     # The library refuses a file as a whole, by whatever exception; then the messages count that can be used.
-    except Exception:
+    except Exception as error:
         # Of a file without one complete line BO_ the library's sentence says more.
         if all(line.problem for line in lines):
             raise
-        messages = built(lines)
-    return CarDatabase(path, messages, problems(lines, messages))
+        messages, refusal = built(lines), one_line(error) if isinstance(error, _READABLE) else _DAMAGED
+    return CarDatabase(path, messages, problems(lines, messages), refusal)
 
 
 def _messages(database: Any) -> list[Any]:

@@ -198,7 +198,12 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Car profile {} lacks the entry {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} has {}: {}; allowed is a whole number with {}."),
     QT_TRANSLATE_NOOP("Sentence", "Message {} of CAN database {} has no signal {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Message {} of CAN database {} has no signal {}; not all of it could be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Message {} of CAN database {} has no signal {}; message {}, line {}, could not be "
+                                  "read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "CAN database {} has no message {}."),
+    QT_TRANSLATE_NOOP("Sentence", "CAN database {} has no message {}; not all of it could be read: {}."),
+    QT_TRANSLATE_NOOP("Sentence", "CAN database {} has no message {}; message {}, line {}, could not be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "CAN database {} cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "A message of {} bytes was ignored; allowed is at most {} bytes."),
     QT_TRANSLATE_NOOP("Sentence", "A message was ignored: {}"),

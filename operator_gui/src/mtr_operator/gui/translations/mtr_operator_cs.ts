@@ -4397,8 +4397,28 @@
     </message>
     <message>
         <location filename="../texts/application.py" line="9"/>
+        <source>Message {} of CAN database {} has no signal {}; not all of it could be read: {}.</source>
+        <translation>Zpráva {} databáze CAN {} nemá signál {}; databázi se nepodařilo přečíst celou: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>Message {} of CAN database {} has no signal {}; message {}, line {}, could not be read: {}.</source>
+        <translation>Zpráva {} databáze CAN {} nemá signál {}; zprávu {} na řádku {} se nepodařilo přečíst: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
         <source>CAN database {} has no message {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>CAN database {} has no message {}; not all of it could be read: {}.</source>
+        <translation>Databáze CAN {} nemá zprávu {}; nepodařilo se ji přečíst celou: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>CAN database {} has no message {}; message {}, line {}, could not be read: {}.</source>
+        <translation>Databáze CAN {} nemá zprávu {}; zprávu {} na řádku {} se nepodařilo přečíst: {}.</translation>
     </message>
     <message>
         <location filename="../texts/application.py" line="9"/>
