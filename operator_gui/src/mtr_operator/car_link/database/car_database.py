@@ -60,7 +60,7 @@ class CarDatabase:
                                f"{self._unread()}.")
 
     def _unread(self) -> str:
-        """Why a message or signal may be missing: the library's reason, else the fault of the first message with one."""
+        """Why a message or signal may be missing: the library's reason, else the first message with a fault."""
         if self._refusal:
             return f"; not all of it could be read: {self._refusal}"
         for name, problem in self._problems.messages.items():
