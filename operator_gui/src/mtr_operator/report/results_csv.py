@@ -18,10 +18,10 @@ from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.storage.recorded.spreadsheet import guarded
 
-from .assessed_columns import AssessedColumns
+from .columns.assessed_columns import AssessedColumns
+from .columns.shown_columns import ShownColumns
 from .figures import meanings
 from .identity.identity_rows import identity_lines
-from .shown_columns import ShownColumns
 from .table import line_text
 
 FILE_NAME = "results.csv"

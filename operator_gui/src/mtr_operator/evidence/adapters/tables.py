@@ -12,8 +12,8 @@ from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.verdict.assessment import Assessment
-from mtr_operator.report.assessed_columns import AssessedColumns
-from mtr_operator.report.shown_columns import ShownColumns
+from mtr_operator.report.columns.assessed_columns import AssessedColumns
+from mtr_operator.report.columns.shown_columns import ShownColumns
 from mtr_operator.storage.recorded.course_file import Moment, read_course
 
 # Kinds of columns, as SQL calls them.

@@ -8,7 +8,7 @@ from mtr_operator.domain.results.figure import Figure, Kind, interval_of
 from mtr_operator.domain.results.line_result import Column, LineResult, MeasuredDistance
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
-from .figures import figures_of
+from ..figures import figures_of
 
 Item = TypeVar("Item")
 _NAMES = ("result_m", "low_m", "high_m")
