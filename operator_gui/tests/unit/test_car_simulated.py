@@ -237,4 +237,10 @@ def test_first_car_and_seed_give_the_figures_of_before():
                                      ["try", "mtr_demo_car"], ["window"]])
 def test_car_seed_can_be_chosen_wherever_the_substitute_of_the_car_can(command):
     assert argument_parser().parse_args([*command, "--car-seed", "7"]).car_seed == 7
-    assert argument_parser().parse_args(command).car_seed == 1
+    # The window has a default of its own.
+    assert argument_parser().parse_args(command).car_seed == (None if command == ["window"] else 1)
+
+
+def test_window_opens_with_the_car_that_is_chosen():
+    ranges = [LinkOpener(car_seed=car_seed).car(CanChoice(SIMULATED))._lobes for car_seed in (1, 7)]
+    assert ranges == [SimulatedCarLink()._lobes, SimulatedCarLink(car_seed=7)._lobes]

@@ -57,7 +57,7 @@ def _add_window(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--can-bitrate", type=_whole_number, metavar="N", help="bit/s")
     _add_can_mode(parser)
     parser.add_argument("--car-profile", metavar="NAME_OR_PATH", help="how the Car's bus tells its lock state")
-    _add_car_seed(parser)
+    _add_car_seed(parser, default=None)
 
 
 def _add_params(parser: argparse.ArgumentParser) -> None:
@@ -268,10 +268,10 @@ def _add_seed(parser: argparse.ArgumentParser) -> None:
                              "Car, default %(default)s")
 
 
-def _add_car_seed(car: argparse._ActionsContainer) -> None:
-    car.add_argument("--car-seed", type=_whole_number, default=1, metavar="N",
+def _add_car_seed(car: argparse._ActionsContainer, default: int | None = 1) -> None:
+    car.add_argument("--car-seed", type=_whole_number, default=default, metavar="N",
                      help="of the substitute of the Car: another one is another Car with ranges of its own, whatever "
-                          "--seed is; default %(default)s")
+                          "--seed is; default 1")
 
 
 def _number(text: str) -> float:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-from typing import Mapping
+from typing import Any, Mapping
 
 from mtr_operator.doctor.computer import display_problem
 from mtr_operator.domain.errors import OperatorError
@@ -15,6 +15,7 @@ _ROBOT = {"host": "robot", "subscriber_port": "subscriber_port", "publisher_port
           "is_unencrypted": "unencrypted"}
 _CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile",
         "is_normal": "can_normal", "data_bitrate_bps": "can_data_bitrate"}
+_SUBSTITUTE = {"car_seed": "car_seed"}
 
 
 def open_window(options: argparse.Namespace) -> int:
@@ -27,7 +28,7 @@ def open_window(options: argparse.Namespace) -> int:
         raise OperatorError("The window needs PyQt5, which is not installed; pip install PyQt5, or use the command "
                             "run.") from None
     _check_display(os.environ, sys.platform)
-    return run(_given(options, _ROBOT), _given(options, _CAN), getattr(options, "car_seed", 1))
+    return run(_given(options, _ROBOT), _given(options, _CAN), **_given(options, _SUBSTITUTE))
 
 
 def _check_display(environment: Mapping[str, str], platform: str) -> None:
@@ -36,6 +37,6 @@ def _check_display(environment: Mapping[str, str], platform: str) -> None:
         raise OperatorError(problem)
 
 
-def _given(options: argparse.Namespace, names: dict[str, str]) -> dict[str, object]:
+def _given(options: argparse.Namespace, names: dict[str, str]) -> dict[str, Any]:
     found = {name: getattr(options, option, None) for name, option in names.items()}
     return {name: value for name, value in found.items() if value is not None}
