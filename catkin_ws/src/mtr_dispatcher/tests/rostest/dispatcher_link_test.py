@@ -150,6 +150,16 @@ class DispatcherLink(unittest.TestCase):
         self.assertEqual(status.session_id, self.application.session_id)
         other.close()
 
+    def test_watching_application_releases_the_lock_for_a_person_and_claims_nothing(self):
+        self.application.insist(lambda status: status.session_id == 0, end_session=True)
+        self.assertTrue(self.eventually(lambda: self.lock.engaged))
+        watching = Application(rospy.get_param("~status_port"), rospy.get_param("~command_port"))
+        watching.insist(lambda status: status.session_id == 0 and not self.lock.engaged, watches=True)
+        # Nothing moves but by hand.
+        self.assertTrue(self.desired.stop and not self.desired.session_id)
+        watching.close()
+        self.assertTrue(self.eventually(lambda: self.lock.engaged))
+
     def test_folders_of_the_robot_are_left_for_a_preflight(self):
         written = rospy.get_param(names.WRITTEN_FOLDERS)
         self.assertEqual(written, [rospkg.get_ros_home(), rospkg.get_log_dir(), "/robot/memory"])
