@@ -15,6 +15,8 @@ BEGINS_M = (0.0, 0.8, 2.0)
 # Time after the beginning of the fault during which the robot tries to drive on, s.
 WATCHED_S = 12.0
 REST_S = 1.0
+# A narrower sector, to both sides, may lie within a wall whose other parts stop the robot.
+NARROW_DEG = 10.0
 # Of the messages of drive control.
 OWN_CODES = "drive_control."
 
@@ -27,6 +29,11 @@ class Trial(NamedTuple):
     amount: float
     obstacle: str
     begins_m: float
+
+    @property
+    def is_narrow(self) -> bool:
+        """True for a sector of which the robot need not know."""
+        return 0.0 < self.amount < NARROW_DEG
 
     @property
     def name(self) -> str:
