@@ -18,6 +18,12 @@ from mtr_operator.station.readiness import Phase
 
 # Before the fixtures of this folder shorten it.
 SHIPPED_MS = HoldButton.HOLD_MS
+# Rows of the checklist behind the status word.
+LISTED = ["Link", "Encryption", "Robot", "Preflight", "Emergency stop", "Position", "Car's size", "Way of the lines",
+          "Ground next to the Car", "Cables", "Doors and lids", "Fittings", "LiDARs", "Lift and buttons", "Battery",
+          "CAN bus", "Car's locks", "Clocks", "Robot's clock", "Remote key", "Disk", "Limits"]
+# Of the checks that no sensor makes.
+UNSEEN_ADVICE = ["Walk around the Car", "Put the laptop into the Car", "Close doors", "Remove carriers"]
 KEYS = pytest.mark.parametrize("key", [Qt.Key_Space, Qt.Key_Return, Qt.Key_Enter], ids=["Space", "Return", "Enter"])
 
 
@@ -140,12 +146,20 @@ def rows(operator):
 def test_status_word_lists_everything_that_was_looked_at__B10(operator):
     operator.wait(lambda: operator.model.free_bytes is not None)
     texts = rows(operator)
-    assert [text.split()[1] for text in texts] == [
-        "Link", "Encryption", "Robot", "Preflight", "Emergency", "Position", "Car's", "Way", "LiDARs", "Lift",
-        "Battery", "CAN", "Car's", "Clocks", "Robot's", "Remote", "Disk", "Limits"]
+    assert [name for text, name in zip(texts, LISTED) if text[1:].startswith(f" {name} ")] == LISTED
+    assert len(texts) == len(LISTED)
     assert "\N{CHECK MARK} Encryption Not encrypted; it does not leave this computer." in texts
     assert "\N{CHECK MARK} Battery At 80 %; what a test takes is told when it is chosen." in texts
     assert "\N{CHECK MARK} Car's locks The Car says: locked." in texts
+
+
+def test_what_no_sensor_shows_is_left_to_a_person_with_what_to_do__B10(operator):
+    texts, first = rows(operator), LISTED.index("Ground next to the Car")
+    for name, text, advice in zip(LISTED[first:], texts[first:], UNSEEN_ADVICE):
+        assert text.startswith(f"? {name} ") and f". {advice}" in text and text.endswith(".")
+        # What is not seen, why, and what to do: three lines of the list, in short sentences.
+        sentences = text[len(f"? {name} "):].split(". ")
+        assert len(text) <= 250 and max(len(sentence.split()) for sentence in sentences) <= 25
 
 
 def test_checklist_knows_the_test_that_is_chosen_and_follows_what_happens__B10(operator, opener):
