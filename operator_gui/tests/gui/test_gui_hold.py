@@ -3,6 +3,7 @@
 import dataclasses
 
 import pytest
+from fit_checks import tell
 from PyQt5.QtCore import QEvent, QRect, Qt
 from PyQt5.QtGui import QKeyEvent
 from PyQt5.QtTest import QTest
@@ -199,6 +200,25 @@ def test_start_tells_why_not_in_the_words_of_the_checklist(operator, opener):
     # A busy machine may find it silent before.
     operator.wait(lambda: screen._hindrance.text() == "The robot is still starting.")
     assert not screen.start.isEnabled()
+
+
+def test_start_is_offered_again_after_a_silence_that_began_while_the_screen_was_drawn(application, main, monkeypatch):
+    screen, model = main.settings["key_press"], application.flow.model
+    passed_s = [model._clock()]
+    monkeypatch.setattr(model, "_clock", lambda: passed_s[0])
+    main.types.chosen.emit("key_press")
+    tell(application)
+    assert screen.start.isEnabled() and not screen._hindrance.text()
+    draw = screen._show_obstacles
+
+    def draw_slowly():
+        passed_s[0] += 2.0
+        draw()
+    monkeypatch.setattr(screen, "_show_obstacles", draw_slowly)
+    tell(application, battery_percent=70)
+    assert not screen.start.isEnabled() and screen._hindrance.text()
+    tell(application, battery_percent=70)
+    assert screen.start.isEnabled() and not screen._hindrance.text()
 
 
 @pytest.fixture

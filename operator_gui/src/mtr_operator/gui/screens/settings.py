@@ -11,8 +11,9 @@ from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBox
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.checks.checklist import Wanted, hindrances
-from mtr_operator.station.checks.finding import Check
+from mtr_operator.station.checks.finding import Check, Item
 from mtr_operator.station.estimate import USUAL_CAR, Plan, plan_of
+from mtr_operator.station.readiness import Readiness
 from mtr_operator.station.sight.ways import Ways, beside_car, spans, ways_of
 from mtr_operator.station.view_model import ViewModel
 
@@ -58,6 +59,7 @@ class SettingsScreen(QWidget):
         self._model = model
         self._plan: Plan | None = None
         self._shown: tuple[object, ...] = ()
+        self._judged: tuple[Readiness, tuple[Item, ...]] | None = None
         # Without a valid plan the view stays as it was.
         self._lines = LinesLayer()
         self._obstacles = ObstaclesLayer()
@@ -122,9 +124,7 @@ class SettingsScreen(QWidget):
     def show_model(self) -> None:
         """Something of robot or Car is another one."""
         status = self._model.robot.status if self._model.robot else None
-        bad = hindrances(self._model.checklist)
-        shown = (self._model.mapped_car, self._model.readiness, status and status.battery_percent, bad,
-                 self._model.facts)
+        shown = (self._model.mapped_car, status and status.battery_percent, self._model.facts)
         if shown != self._shown:
             self._shown = shown
             self._preview()
@@ -132,6 +132,8 @@ class SettingsScreen(QWidget):
             self._show_obstacles()
             self._tell_wanted()
             self.picture.view.refresh()
+        if self._standing() != self._judged:
+            self._judge()
 
     def _preview(self) -> None:
         parameters, mapped = self.form.parameters, self._model.mapped_car
@@ -214,10 +216,14 @@ class SettingsScreen(QWidget):
         warning = self.tr("The battery, at {percent} %, may not suffice: the test takes about {need} %.")
         return lines + " " + warning.format(percent=battery, need=round(plan.battery_percent))
 
+    def _standing(self) -> tuple[Readiness, tuple[Item, ...]]:
+        """Readiness and hindrances now; with the silence of the robot they become others from one call to the next."""
+        return self._model.readiness, hindrances(self._model.checklist)
+
     def _judge(self) -> None:
-        readiness = self._model.readiness
+        self._judged = readiness, bad = self._standing()
         # The fields of the files say themselves what is wrong with them.
-        missing = [item for item in hindrances(self._model.checklist) if item.check is not Check.LIMITS]
+        missing = [item for item in bad if item.check is not Check.LIMITS]
         self._hindrance.setText(" ".join(map(check_text, missing)))
         self._hindrance.setVisible(bool(missing))
         is_given_well = self.given.judge(None if self._plan is None else self.form.parameters)
