@@ -6,6 +6,7 @@ import pathlib
 import signal
 import subprocess
 import sys
+import threading
 
 import pytest
 
@@ -36,6 +37,14 @@ def executor(told):
         yield made
 
 
+@pytest.fixture
+def pipe(tmp_path):
+    """Whoever reads it waits for somebody who writes."""
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    return path
+
+
 def test_work_is_done_in_another_process_which_comes_second(executor):
     assert executor.submit(os.getpid).result() == executor.process_id != os.getpid()
     assert executor.submit(os.getsid, 0).result() == executor.process_id
@@ -51,7 +60,6 @@ def test_error_comes_back_as_it_was_raised(executor):
     with pytest.raises(ValueError, match="math domain error"):
         executor.submit(math.sqrt, -1.0).result()
     assert executor.submit(math.sqrt, 4.0).result() == 2.0
-
 
 
 def test_problem_comes_back_whole(executor):
@@ -80,13 +88,31 @@ def test_killed_while_it_works_it_is_replaced(executor, told):
 
 @pytest.mark.parametrize("size", [10, 10_000_000], ids=["small", "more than is taken in"])
 def test_stopped_it_is_waited_for_so_long_and_replaced(told, size):
-    with ProcessExecutor([], told.append, patience_s=0.3) as executor:
+    with ProcessExecutor([], told.append, patience_s=1.0) as executor:
         executor.submit(len, "four").result()
         stopped = executor.process_id
         os.kill(stopped, signal.SIGSTOP)
         assert executor.submit(len, bytes(size)).result() == size
-        assert len(told) == 1 and f"process {stopped}" in told[0] and "has not answered for 0.3 s" in told[0]
+        assert len(told) == 1 and f"process {stopped}" in told[0] and "has not answered for 1 s" in told[0]
         assert executor.submit(os.getpid).result() == executor.process_id != stopped
+
+
+def test_process_that_imports_for_longer_than_a_piece_may_take_is_waited_for(told, pipe, tmp_path, monkeypatch):
+    (tmp_path / "slow_to_import.py").write_text(f"open({str(pipe)!r}).read()\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path), prepend=os.pathsep)
+    ends = threading.Timer(1.5, pipe.write_text, ["imported"])
+    ends.daemon = True
+    with ProcessExecutor(["slow_to_import"], told.append, patience_s=1.0) as executor:
+        ends.start()
+        assert executor.submit(os.getpid).result() == executor.process_id
+    assert not told
+
+
+def test_process_that_dies_while_it_imports_is_replaced(told):
+    with ProcessExecutor(["no_such_module"], told.append) as executor:
+        assert executor.submit(math.sqrt, 4.0).result() == 2.0
+        assert executor.submit(math.sqrt, 9.0).result() == 3.0
+    assert len(told) == 2 and all("status 1" in sentence for sentence in told)
 
 
 def test_interrupted_with_all_of_a_service_it_waits_for_its_owner(executor, told):
@@ -112,14 +138,6 @@ def test_it_ends_with_its_owner_however_that_ends(how):
         owner.wait(LIMIT_S)
         # The process has its owner's output, which ends when nobody has it any more.
         owner.communicate(timeout=LIMIT_S)
-
-
-@pytest.fixture
-def pipe(tmp_path):
-    """Whoever reads it waits for somebody who writes."""
-    path = tmp_path / "pipe"
-    os.mkfifo(path)
-    return path
 
 
 def test_several_pieces_are_done_at_once_in_processes_of_their_own(told, pipe):

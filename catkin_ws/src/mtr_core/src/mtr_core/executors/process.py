@@ -4,13 +4,14 @@ In a thread of the node it does: the thread holds the lock of the interpreter wh
 whoever speaks for the node waits for that.
 """
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import subprocess
 import sys
 import threading
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from multiprocessing import Pipe
 from queue import SimpleQueue
-from typing import Any, Callable, Dict, List, Optional, Tuple, TypeVar
+from typing import Any, Callable, Dict, Iterator, List, Optional, Tuple, TypeVar
 
 from .inline import InlineExecutor
 
@@ -18,6 +19,8 @@ WORKER = f"{__package__}.worker"
 GONE = (EOFError, ConnectionError)
 # The longest work, a Car among all returns of a way round, took 5 s of the wall clock beside 16 processes on two cores.
 PATIENCE_S = 60.0
+# Until a process has imported what its work needs, which takes processor time and reads from the disk.
+START_PATIENCE_S = 60.0
 
 Value = TypeVar("Value")
 
@@ -31,7 +34,7 @@ class ProcessExecutor(Executor):
 
     def __init__(self, modules: List[str], tell: Callable[[str], None], patience_s: float = PATIENCE_S):
         """modules: what the work needs, imported at once; tell: takes the sentence that the process does not answer;
-        patience_s: how long it may take for one piece."""
+        patience_s: how long it may take for one piece, once it has imported its modules."""
         self._modules, self._tell, self._patience_s = modules, tell, patience_s
         self._lock = threading.Lock()
         self._inline = InlineExecutor()
@@ -46,6 +49,7 @@ class ProcessExecutor(Executor):
         """The work's result."""
         with self._lock:
             try:
+                self._wait_until_ready()
                 value, error = self._answer((fn, args, kwargs))
             except GONE:
                 self._replace()
@@ -63,17 +67,29 @@ class ProcessExecutor(Executor):
         if wait:
             self._process.wait()
 
+    def _wait_until_ready(self) -> None:
+        """Return when the process has imported its modules; GONE when it has died, or needs too long for it."""
+        if not self._is_ready:
+            with self._killed_after(START_PATIENCE_S):
+                self._connection.recv()
+            self._is_ready = True
+
     def _answer(self, work: Tuple[Any, ...]) -> Tuple[Any, Optional[Exception]]:
-        # A process that is stopped takes nothing in either: to end it is what wakes whoever sends to it.
-        watchdog = threading.Timer(self._patience_s, self._process.kill)
+        with self._killed_after(self._patience_s):
+            self._connection.send(work)
+            value, error = self._connection.recv()
+        return value, error
+
+    @contextlib.contextmanager
+    def _killed_after(self, patience_s: float) -> Iterator[None]:
+        """Kill the process unless the work within is done: one that is stopped does not even receive."""
+        watchdog = threading.Timer(patience_s, self._process.kill)
         watchdog.daemon = True
         watchdog.start()
         try:
-            self._connection.send(work)
-            value, error = self._connection.recv()
+            yield
         finally:
             watchdog.cancel()
-        return value, error
 
     def _start(self) -> None:
         self._connection, far = Pipe()
@@ -82,6 +98,7 @@ class ProcessExecutor(Executor):
             self._process = subprocess.Popen(
                 [sys.executable, "-m", WORKER, str(far.fileno()), *self._modules], pass_fds=[far.fileno()],
                 stdin=subprocess.DEVNULL, start_new_session=True)
+        self._is_ready = False
 
     def _replace(self) -> None:
         self._connection.close()

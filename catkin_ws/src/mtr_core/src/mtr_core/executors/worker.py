@@ -23,6 +23,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     for module in modules:
         importlib.import_module(module)
     with Connection(int(handle)) as connection, contextlib.suppress(*GONE):
+        connection.send(None)  # Ready: the modules are imported.
         while True:
             _work(connection)
     return 0
