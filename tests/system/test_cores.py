@@ -19,9 +19,9 @@ TESTS = {
     # Eight axes, one from each side and corner.
     "autolock": {"car": "honest", "seed": 3, "parameters.passes": 1, "parameters.measuring_speed_mps": 0.5,
                  "parameters.measurements_distance_m": 10.0},
-    # Four radials.
+    # Four radials; on each, presses look for holes on the way besides those that search for its boundary.
     "key_press": {"car": "honest_button", "seed": 3, "parameters.minimum_distance_m": 3.0,
-                  "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 6,
+                  "parameters.maximum_distance_m": 7.0, "parameters.interval_m": 0.5, "parameters.attempts_limit": 12,
                   "parameters.angle_between_radials_deg": 90.0}}
 # What is measured, by the names of the results' fields.
 DISTANCES = {"autolock": ("unlock_distance_m", "lock_distance_m"), "key_press": ("d50_m",)}
