@@ -19,6 +19,8 @@ from mtr_operator.domain.estimation.press.posterior import RadialPosterior
 from mtr_operator.domain.estimation.press.radial_estimate import Reach, estimate
 from mtr_operator.domain.estimation.press.radial_search import RadialSearch
 from mtr_operator.domain.estimation.press.transition import WIDTH_PER_SCALE
+from mtr_operator.domain.scenarios.handle_request.parameters import HandleRequestParameters
+from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 
 PLAN = SearchPlan(3.0, 10.0, interval_m=0.3)
 LATTICE = Lattice(0.0, 0.35)
@@ -160,6 +162,22 @@ def test_single_lapse_is_pressed_again_and_is_no_hole():
 
     result = estimate(PLAN, measured(PLAN, works))
     assert result.holes_m == () and abs(result.d50.value_m - 6.4) < 0.6
+
+
+@pytest.mark.parametrize("are_near", [True, False])
+def test_places_of_lines_that_end_elsewhere_say_nothing_of_the_next_one(are_near):
+    grid = PLAN.hypotheses()
+    campaign = Campaign(grid, are_near)
+    for radial in range(2, 6):
+        measured(PLAN, lambda place_m, _: place_m < 7.3, campaign, radial)
+    prior = campaign.log_place_prior(1)
+    assert (np.ptp(prior) > 1.0 if are_near else np.ptp(prior) == 0.0)
+    # How softly lines end they have in common all the same.
+    assert np.ptp(np.sum(np.exp(campaign.log_shape_prior(1)), axis=(0, 1))) > 0.1
+
+
+def test_plan_of_the_axes_of_a_car_leaves_each_its_own_place():
+    assert KeyPressParameters().search_plan.are_near and not HandleRequestParameters().search_plan.are_near
 
 
 def test_failures_inside_where_all_else_works_are_told_as_a_hole():

@@ -6,7 +6,8 @@ common one (the antenna's pattern, the way's loss), by a normal of SPREAD in the
     prior of r(shape) = sum over common of  K(shape | common) * prior(common) *
                         product over the other radials of  sum over theirs of  K(theirs | common) * evidence(theirs)
 
-Place: a radial's d50 is taken to be near that of another one, within NEAR of the range that is searched.
+Place: a radial's d50 is taken to be near that of another one, within NEAR of the range that is searched. That holds for
+distances from the Car's centre; from its sides and corners they differ by more, and nothing is taken from the others.
 
 Both are mixed with the chance that a radial is unlike the others, so that one behind a pillar is not argued away. No
 radial's presses count twice. Sources: Gelman et al., Bayesian Data Analysis, chapter 5 (hierarchy); Schmidli et al.,
@@ -34,7 +35,9 @@ _TINY = float(np.finfo(float).tiny)
 class Campaign:
     """What is known of each radial, by its number."""
 
-    def __init__(self, hypotheses: Hypotheses):
+    def __init__(self, hypotheses: Hypotheses, are_near: bool = True):
+        """are_near: the d50 of the radials are near each other."""
+        self._are_near = are_near
         self._prior = hypotheses.shape_prior()
         logs = np.log(hypotheses.width_m)
         kernel = np.exp(-0.5 * ((logs[:, None] - logs) / SPREAD) ** 2)
@@ -95,7 +98,7 @@ class Campaign:
         even = np.full(count, 1.0 / count)
         others = [_on_grid(place, grid, hypotheses) for number, (grid, place) in self._places.items()
                   if number != radial]
-        if not others:
+        if not others or not self._are_near:
             return np.asarray(np.log(even))
         near = gaussian_filter1d(np.mean(others, axis=0), NEAR * count, mode="constant")
         return np.asarray(np.log((1.0 - UNLIKE_PLACE) * near + UNLIKE_PLACE * even))

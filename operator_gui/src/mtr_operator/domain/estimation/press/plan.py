@@ -55,6 +55,7 @@ class SearchPlan:
         half_wavelength_m: presses so far apart are independent; 0.35 at 434 MHz, 0.17 at 868 MHz.
         checked_m: nearer than this the ground may have torn a hole into the range: each part of the way up to it gets a
             press. 0 where that cannot be.
+        are_near: where half of the presses work on one radial is near that of the others.
     """
 
     minimum_m: float
@@ -64,6 +65,7 @@ class SearchPlan:
     half_wavelength_m: float = 0.35
     times: RobotTimes = RobotTimes()
     checked_m: float = 0.0
+    are_near: bool = True
 
     def hypotheses(self) -> Hypotheses:
         """The grid that is fine enough for the interval wanted."""

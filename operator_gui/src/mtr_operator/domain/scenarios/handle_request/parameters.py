@@ -93,8 +93,11 @@ class HandleRequestParameters(ScenarioParameters):
 
     @property
     def search_plan(self) -> SearchPlan:
-        """What is wanted of each axis; a request that works costs the press that locks the Car again."""
+        """What is wanted of each axis; a request that works costs the press that locks the Car again.
+
+        A zone does not follow the Car's outline: the simulated one ends 1.6 m beside the doors, 1.0 m off the corners.
+        """
         times = RobotTimes(self.maximum_speed_mps, settle_s=self.settle_time_s, answer_s=_ANSWER_S + _LOCKED_S,
                            timeout_s=self.response_timeout_s)
         return SearchPlan(self.minimum_distance_m, self.farthest_m, self.interval_m, self.attempts_limit,
-                          self.half_wavelength_m, times)
+                          self.half_wavelength_m, times, are_near=False)

@@ -39,7 +39,7 @@ class LineCampaign:
     def __init__(self, plan: SearchPlan):
         self.plan = plan
         self._grids: dict[float, Hypotheses] = {plan.interval_m: plan.hypotheses()}
-        self._campaign = Campaign(self._grids[plan.interval_m])
+        self._campaign = Campaign(self._grids[plan.interval_m], plan.are_near)
 
     def search(self, number: int, plan: SearchPlan | None = None) -> RadialSearch:
         """Of one more line, with the key at its start; by a plan of its own that differs in what is wanted."""
