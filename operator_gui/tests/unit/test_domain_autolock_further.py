@@ -5,8 +5,9 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.car import Car
-from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S, ControlLoop
 from mtr_operator.domain.actions.robot import Robot
+from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.ports import PASSIVE_ENTRY
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.progress import Progress
@@ -31,6 +32,11 @@ def ways(answers):
             for each in first.values()]
 
 
+def since_the_run():
+    """A run ends with the last estimate, which may take as long as it likes: the robot has stopped before."""
+    return Standstill(SILENCE_LIMIT_S)
+
+
 @pytest.fixture
 def further(robot_link, car_link):
     """further(**changes) measures all axes, and the one in front once more with its result so changed; the result
@@ -38,6 +44,7 @@ def further(robot_link, car_link):
     def run(**changes):
         progress, loop = Progress("autolock", TWO.to_mapping()), ControlLoop(robot_link, car_link)
         Runner(SCENARIO, TWO, loop, progress, lambda _: None).run()
+        loop.standstill = since_the_run()
         robot, car = Robot(loop, progress.results), Car(loop)
         line = SCENARIO.lines(TWO, car.dimensions())[0]
         robot.go_to(line.ray, TWO.straightened_distance_m)
@@ -62,6 +69,7 @@ def measured(robot_link, car_link):
     progress, loop = Progress("autolock", TWO.to_mapping()), ControlLoop(robot_link, car_link)
     runner = Runner(SCENARIO, TWO, loop, progress, lambda _: None)
     runner.run()
+    loop.standstill = since_the_run()
     return runner, progress, SCENARIO.lines(TWO, loop.car_dimensions)[0]
 
 
