@@ -248,7 +248,10 @@ class Operator:
 
     def wait(self, condition):
         """Let time pass until the condition holds."""
-        self.bot.waitUntil(lambda: bool(condition()), timeout=LIMIT_MS)
+        try:
+            self.bot.waitUntil(lambda: bool(condition()), timeout=LIMIT_MS)
+        except self.bot.TimeoutError as error:
+            raise AssertionError(f"{self.model.phase} after {LIMIT_MS} ms: {self.model.trouble}") from error
 
     def choose(self, scenario):
         """Go to the settings screen of a scenario."""
