@@ -38,6 +38,7 @@ class ProcessExecutor(Executor):
         self._modules, self._tell, self._patience_s = modules, tell, patience_s
         self._lock = threading.Lock()
         self._inline = InlineExecutor()
+        self._is_ready = False
         self._start()
 
     @property
