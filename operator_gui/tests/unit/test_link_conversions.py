@@ -154,6 +154,6 @@ def test_other_bytes_are_undecodable(payload):
                                      "PreflightReport", "PreflightItem"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 14, "Status": 28, "RobotState": 19, "CarDimensions": 15, "CarCheck": 8, "Interventions": 7,
+    known = {"Command": 15, "Status": 28, "RobotState": 19, "CarDimensions": 15, "CarCheck": 8, "Interventions": 7,
              "PreflightReport": 4, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]
