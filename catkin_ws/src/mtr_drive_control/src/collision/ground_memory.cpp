@@ -26,6 +26,13 @@ constexpr std::int64_t kMovesBeforeNs = 1'000'000'000;
 // Longer than two sweeps: out of view.
 constexpr std::int64_t kLostAfterNs = 150'000'000;
 
+// A robot at rest is taken to stand so much wider.
+constexpr double kAroundRestM = 0.01;
+constexpr double kElsewhereM = 0.3;
+constexpr std::size_t kRests = 8;
+constexpr double kRestsMps = 0.02;
+constexpr double kRestsRadps = 0.02;
+
 int cell_of(double coordinate_m) { return static_cast<int>(std::floor(coordinate_m / kCellM)); }
 double centre_of(int cell) { return (cell + 0.5) * kCellM; }
 Point centre_of(const Point& point) { return {centre_of(cell_of(point.x_m)), centre_of(cell_of(point.y_m))}; }
@@ -38,6 +45,7 @@ std::size_t index_of(int column, int row) {
 GroundMemory::GroundMemory() : cells_(static_cast<std::size_t>(kSide * kSide)) {}
 
 void GroundMemory::stand(const Footprint& footprint, const Motion& motion) {
+  keep_rest(footprint, motion);
   // A cell that it covers only in part may hold a foot. Beside its track the LiDAR saw the ground when it came.
   const double beside_m = std::abs(motion.velocity.linear_mps) > kDrivesMps ? kCellM : -kHalfDiagonalM;
   const Footprint covered{footprint.front_m - kHalfDiagonalM, footprint.rear_m - kHalfDiagonalM,
@@ -50,6 +58,33 @@ void GroundMemory::stand(const Footprint& footprint, const Motion& motion) {
       }
     }
   }
+}
+
+void GroundMemory::keep_rest(const Footprint& footprint, const Motion& motion) {
+  const Pose& here = motion.odom_from_base;
+  const auto near = std::find_if(rests_.begin(), rests_.end(), [&](const Rest& rest) {
+    return distance_m(rest.odom_from_base.position(), here.position()) < kElsewhereM;
+  });
+  const bool rests =
+      std::abs(motion.velocity.linear_mps) < kRestsMps && std::abs(motion.velocity.angular_radps) < kRestsRadps;
+  if (near != rests_.end()) {
+    near->last_ns = motion.stamp_ns;
+  } else if (rests) {
+    const Footprint outline{footprint.front_m + kAroundRestM, footprint.rear_m + kAroundRestM,
+                            footprint.half_width_m + kAroundRestM};
+    rests_.push_back({outline, here, motion.stamp_ns});
+    rests_.erase(rests_.begin(), rests_.begin() + (rests_.size() > kRests ? 1 : 0));
+  }
+}
+
+std::int64_t GroundMemory::rested_ns(const Point& point) const {
+  std::int64_t newest_ns = 0;
+  for (const Rest& rest : rests_) {
+    if (rest.outline.distance_to(rest.odom_from_base.undo(point)) == 0.0) {
+      newest_ns = std::max(newest_ns, rest.last_ns);
+    }
+  }
+  return newest_ns;
 }
 
 void GroundMemory::observe(const Sweep& sweep, const LidarMount& mount, const Motion& motion) {
@@ -100,8 +135,9 @@ bool GroundMemory::has_stood(const Point& point) const {
 
 bool GroundMemory::was_free(const Point& point, std::int64_t now_ns, double max_age_s) const {
   const Cell* cell = find(cell_of(point.x_m), cell_of(point.y_m));
-  return cell != nullptr && cell->free_ns > cell->hit_ns &&
-         static_cast<double>(now_ns - cell->free_ns) * 1e-9 <= max_age_s;
+  const std::int64_t free_ns = std::max(cell != nullptr ? cell->free_ns : 0, rested_ns(point));
+  const std::int64_t hit_ns = cell != nullptr ? cell->hit_ns : 0;
+  return free_ns > hit_ns && static_cast<double>(now_ns - free_ns) * 1e-9 <= max_age_s;
 }
 
 std::vector<LostThing> GroundMemory::lost_things(std::int64_t now_ns, double max_age_s) const {

@@ -33,6 +33,34 @@ TEST(UnwatchedRear, ThingBehindThatWasNeverSeenIsNotTouchedInATurn) {
   }
 }
 
+TEST(UnwatchedRear, RobotSetsOffAheadThoughItsHeadingIsCorrected) {
+  for (const double turn_radps : {0.01, -0.03, 0.06}) {
+    TestRobot robot(false);
+    robot.settle();
+    double turn = turn_radps;
+    for (int tick = 0; tick < 200; ++tick) {
+      turn = tick % 10 == 0 ? -turn : turn;
+      ASSERT_NE(robot.step({0.4, turn}).zone, Zone::kBlocked) << tick;
+    }
+    EXPECT_NEAR(robot.velocity.linear_mps, 0.4, 0.01) << turn_radps;
+  }
+}
+
+TEST(UnwatchedRear, ThingBehindIsNotTouchedByManyShortTurns) {
+  for (const double gap_m : {0.015, 0.03, 0.05}) {
+    TestRobot robot(false);
+    robot.scene.walls = {{{-0.254 - gap_m, -3.0}, {-0.254 - gap_m, 3.0}}};
+    robot.settle();
+    for (int turn = 0; turn < 60; ++turn) {
+      robot.drive({0.0, 0.5}, 0.3);
+      robot.drive({0.0, 0.0}, 1.0);
+      robot.drive({0.03, 0.3}, 0.3);
+      robot.drive({0.0, 0.0}, 1.0);
+    }
+    EXPECT_GT(robot.clearance(), 0.0) << gap_m;
+  }
+}
+
 TEST(UnwatchedRear, GroundIsForgottenWhileAnEmergencyStopIsEngaged) {
   for (const bool is_emergency : {true, false}) {
     TestRobot robot(false);
