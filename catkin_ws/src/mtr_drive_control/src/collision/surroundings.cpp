@@ -30,6 +30,8 @@ constexpr double kMemoryReachM = 30.0;
 constexpr double kMayHaveWalkedS = 0.3;
 // A process that was stopped did not see what moved meanwhile; a tick that is late comes sooner.
 constexpr double kLookedAwayS = 0.5;
+// A robot that was carried loses its position sooner after its LiDARs contradict what is known.
+constexpr std::int64_t kCoveredNs = 1'000'000'000;
 // As localization's rules for odometry: silent for longer, or farther than a base drives, and it began again.
 constexpr double kOdometryGapS = 0.2;
 constexpr double kJumpM = 0.05;
@@ -93,9 +95,11 @@ void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
 
 bool Surroundings::may_have_been_carried(std::int64_t tick_ns, const Sensors& sensors) const {
   const bool looked_away = tick_ns < tick_ns_ || age_s(tick_ns, tick_ns_) > kLookedAwayS;
-  // A position is also lost when the LiDARs are covered.
-  const bool is_lost = had_position_ && !sensors.map &&
-                       std::all_of(lidars_.begin(), lidars_.end(), [](const Lidar& each) { return each.sees_surface; });
+  // A position is also lost because a LiDAR is covered, which was noticed before.
+  const bool is_lost =
+      had_position_ && !sensors.map && std::all_of(lidars_.begin(), lidars_.end(), [&](const Lidar& each) {
+        return each.sees_surface && !each.empty.has_lasted_since(tick_ns - kCoveredNs);
+      });
   return looked_away || is_lost;
 }
 

@@ -193,6 +193,21 @@ TEST(MissingEchoes, MapOfWhatHasLeftDoesNotStopTheRobotThatSeesBehindIt) {
   drive_without_a_stop(robot, {0.5, 0.0}, 8.0);
 }
 
+TEST(MissingEchoes, CoveredSectorIsRememberedWhenThePositionIsLostBecauseOfIt) {
+  for (const double half_deg : {20.0, 45.0, 180.0}) {
+    TestRobot robot;
+    robot.scene.walls = lot(5.0);
+    robot.map = LocalizedMap{nullptr, Pose()};
+    robot.drive({0.3, 0.0}, 1.0);
+    spoil(robot, false, 0.0, half_deg * kDegree, kInf);
+    robot.drive({0.3, 0.0}, 3.0);
+    robot.map.reset();
+    const Decision decision = robot.drive({0.5, 0.0}, 10.0, true);
+    EXPECT_EQ(decision.zone, Zone::kBlind) << half_deg;
+    EXPECT_GT(robot.clearance(), 3.0) << half_deg;
+  }
+}
+
 TEST(CutView, SweepsWithoutAPartOfTheViewAreCovered) {
   for (const bool is_first : {true, false}) {
     TestRobot robot;

@@ -176,6 +176,18 @@ TEST(NoFalseStop, WhatMovedWhileTheProcessWasStoppedIsForgotten) {
   }
 }
 
+TEST(NoFalseStop, RobotThatWasCarriedGoesOnWhenItHasLostItsPosition) {
+  TestRobot robot;
+  robot.scene.walls = lot(5.0);
+  robot.map = LocalizedMap{nullptr, Pose()};
+  robot.drive({0.3, 0.0}, 2.0);
+  robot.scene.walls = {{{-3.0, 1.2}, {-3.0, 9.0}}, {{-2.0, -3.0}, {6.0, -3.0}}};
+  robot.drive({0.0, 0.0}, 0.3);
+  robot.map.reset();
+  robot.drive({0.0, 0.0}, 0.2);
+  drive_without_a_stop(robot, {0.3, 0.0}, 3.0);
+}
+
 TEST(NoFalseStop, GroundThatTheLidarsMeetWhileTheRobotNodsIsNoSurface) {
   TestRobot robot;
   robot.settle();

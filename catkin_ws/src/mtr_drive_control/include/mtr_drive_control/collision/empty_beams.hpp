@@ -36,6 +36,9 @@ class EmptySector {
 
   const std::optional<Sector>& confirmed() const { return confirmed_; }
 
+  /// True when each sweep since this time has contradicted what is known.
+  bool has_lasted_since(std::int64_t time_ns) const { return since_ns_ && *since_ns_ <= time_ns; }
+
  private:
   std::optional<std::int64_t> since_ns_;
   std::optional<Sector> confirmed_;
