@@ -36,6 +36,15 @@ inline void spoil(TestRobot& robot, bool is_rear, double direction_rad, double h
   };
 }
 
+/// A wall 2.5 m ahead vanishes while the robot drives toward it; nothing shows why.
+inline void lose_wall_ahead(TestRobot& robot) {
+  robot.scene.walls = wall_at(2.5);
+  robot.settle();
+  robot.drive({0.2, 0.0}, 1.0);
+  robot.scene.walls.clear();
+  ASSERT_EQ(robot.drive({0.2, 0.0}, 5.0).zone, Zone::kBlind);
+}
+
 inline bool is_said(const Decision& decision, const std::string& what) {
   return decision.message.text.find(what) != std::string::npos;
 }

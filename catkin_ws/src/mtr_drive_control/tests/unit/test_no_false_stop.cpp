@@ -127,11 +127,7 @@ TEST(NoFalseStop, CarIsDrivenRoundWithoutAStop) {
 
 TEST(NoFalseStop, SomethingThatPassesInFrontShowsThatTheLidarWorks) {
   TestRobot robot;
-  robot.scene.walls = wall_at(2.5);
-  robot.settle();
-  robot.drive({0.2, 0.0}, 1.0);
-  robot.scene.walls.clear();
-  ASSERT_EQ(robot.drive({0.2, 0.0}, 5.0).zone, Zone::kBlind);
+  lose_wall_ahead(robot);
   for (double y = 4.0; y > -4.0; y -= 0.02) {
     robot.scene.discs = {{{1.3, y}, 0.1}};
     robot.step({0.0, 0.0});
@@ -153,11 +149,7 @@ TEST(NoFalseStop, ThingThatVanishedIsGivenUpAfterARest) {
 
 TEST(NoFalseStop, SurfaceThatVanishedIsGivenUpAfterARest) {
   TestRobot robot;
-  robot.scene.walls = wall_at(2.5);
-  robot.settle();
-  robot.drive({0.2, 0.0}, 1.0);
-  robot.scene.walls.clear();
-  ASSERT_EQ(robot.drive({0.2, 0.0}, 5.0).zone, Zone::kBlind);
+  lose_wall_ahead(robot);
   ASSERT_EQ(robot.drive({0.0, 0.0}, 14.0).zone, Zone::kBlind);
   robot.drive({0.0, 0.0}, 3.0);
   EXPECT_GT(robot.drive({0.2, 0.0}, 1.0).velocity.linear_mps, 0.1);
