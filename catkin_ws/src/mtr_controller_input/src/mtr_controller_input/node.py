@@ -21,7 +21,7 @@ from .parameters import Parameters
 
 OWNER = "controller_input"
 KEPT = 100
-# A node that was started again says for so many ticks that it does not drive: what its predecessor wanted ends.
+# A restarted node publishes the released state for this many ticks, which ends the claim of its predecessor.
 RELEASED_TICKS = 50
 # A driver speaks in no slot of the schedule: within a period it has said something at any phase.
 LOCKSTEP_LAG_NS = schedule.CONTROLLER_INPUT.period_ns

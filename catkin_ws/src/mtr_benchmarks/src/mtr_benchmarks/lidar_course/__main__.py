@@ -24,19 +24,19 @@ SHORT = tuple(Trial("front_lidar", kind, amount, obstacle, 0.8)
 
 CONTACTS = Requirement("contacts with wall or pole while a LiDAR fails", "(count)", must=0.0)
 CLEARANCE = Requirement("least distance from wall or pole", "m", goal=0.05, at_least=True)
-MOVING = Requirement("robots that did not stand at the end, but for narrow sectors", "(count)", must=0.0)
-SILENT = Requirement("failures of which the Operator does not read LiDAR and sector, but for narrow ones", "(count)",
+MOVING = Requirement("robots still moving at the end, without narrow sectors", "(count)", must=0.0)
+SILENT = Requirement("failures whose LiDAR or sector is not reported, without narrow sectors", "(count)",
                      must=0.0)
 
 
 def trials() -> List[Trial]:
-    """All of them, those of one obstacle in a row."""
+    """All trials, grouped by obstacle."""
     return [Trial("front_lidar", kind, amount, obstacle, begins_m)
             for obstacle in LEGS for kind, amount in FAULTS for begins_m in BEGINS_M]
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run all trials; the exit status says whether every row is what it must be."""
+    """Run all trials; the exit status is 0 when every requirement is met."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="only the trials that are part of `make test`")

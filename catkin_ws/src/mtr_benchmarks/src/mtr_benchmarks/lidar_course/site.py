@@ -13,9 +13,9 @@ from mtr_simulation.site.scenario import named_scenario
 
 POLE_RADIUS_M = 0.05
 WALL_LENGTH_M, WALL_THICKNESS_M = 2.0, 0.2
-# Half of each leg; what stands in its middle is so far from where the robot sets off.
+# The obstacle is in the middle of each leg, at this distance from its start.
 HALF_LEG_M = 3.5
-# Of the legs from the Car's axis: farther than the way round the Car, nearer than what stands in the lot.
+# Distance of the legs from the Car's x axis: outside the mapping path, inside the obstacles of the lot.
 ASIDE_M = 5.0
 FOOTPRINT = shapely.geometry.Polygon(shipped_geometry().footprint().corners)
 

@@ -15,9 +15,9 @@ BEGINS_M = (0.0, 0.8, 2.0)
 # Time after the beginning of the fault during which the robot tries to drive on, s.
 WATCHED_S = 12.0
 REST_S = 1.0
-# A narrower sector, to both sides, may lie within a wall whose other parts stop the robot.
+# The visible parts of a wall stop the robot when the sector, to both sides, is narrower.
 NARROW_DEG = 10.0
-# Of the messages of drive control.
+# Prefix of drive control's problem codes.
 OWN_CODES = "drive_control."
 
 
@@ -32,7 +32,7 @@ class Trial(NamedTuple):
 
     @property
     def is_narrow(self) -> bool:
-        """True for a sector of which the robot need not know."""
+        """True for a sector that need not be reported."""
         return 0.0 < self.amount < NARROW_DEG
 
     @property
@@ -43,11 +43,11 @@ class Trial(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """What one trial showed.
+    """Result of one trial.
 
     Attributes:
         clearance_m: least distance of the outline from the obstacle, 0 for a contact.
-        stood: the robot stood at the end.
+        stood: the robot was at rest at the end.
         messages: distinct texts of drive control that the Operator read.
     """
 
@@ -86,18 +86,18 @@ class Driver:
         if trial.begins_m:
             self._order(leg.end)
             robot.wait_until(lambda: self._driven_m(leg) > trial.begins_m, "the way before the fault")
-            begun_s = robot.begin(trial.lidar, trial.kind, WATCHED_S, trial.amount)
+            start_s = robot.begin(trial.lidar, trial.kind, WATCHED_S, trial.amount)
         else:
-            begun_s = robot.begin(trial.lidar, trial.kind, WATCHED_S, trial.amount)
+            start_s = robot.begin(trial.lidar, trial.kind, WATCHED_S, trial.amount)
             self._order(leg.end)
         least_m = math.inf
-        while robot.now_s < begun_s + WATCHED_S:
+        while robot.now_s < start_s + WATCHED_S:
             least_m = min(least_m, clearance_m(leg, self._place()))
             robot.release_hold()
             time.sleep(POLL_S)
         stood = robot.has_stood(REST_S)
         robot.wait_until(lambda: not math.isinf(robot.ended_s), "the end of the fault")
-        texts = [problem.text for each in robot.seen if each.time_s > begun_s
+        texts = [problem.text for each in robot.seen if each.time_s > start_s
                  for problems in each.status.problems() for problem in problems
                  if problem.code.startswith(OWN_CODES)]
         return Outcome(trial, least_m, stood, list(dict.fromkeys(texts)))

@@ -33,8 +33,8 @@ class ProcessExecutor(Executor):
     """
 
     def __init__(self, modules: List[str], tell: Callable[[str], None], patience_s: float = PATIENCE_S):
-        """modules: what the work needs, imported at once; tell: takes the sentence that the process does not answer;
-        patience_s: how long it may take for one piece, once it has imported its modules."""
+        """modules: names of the modules that the process imports at its start. tell: called with a sentence when the
+        process is replaced. patience_s: limit in s for one piece of work, without the start of the process."""
         self._modules, self._tell, self._patience_s = modules, tell, patience_s
         self._lock = threading.Lock()
         self._inline = InlineExecutor()

@@ -8,28 +8,28 @@ from mtr_core.se2 import Pose2
 
 # Drive control uses ground that was seen free for 20 s, its ground_memory_s.
 MEMORY_S = 15.0
-# After so much straight ahead the robot stands where its outline was seen or stood, and a little more is driven.
+# After NEEDED_M straight ahead all ground behind the robot was seen or occupied by it; AHEAD_M is driven.
 NEEDED_M, AHEAD_M = 0.4, 0.5
 ASIDE_M, TURNED_RAD = 0.05, 0.1
 STEP_M = 0.05
 
 
 class _Passed(NamedTuple):
-    """A pose of the robot and when it was there, s."""
+    """A pose of base_link in map and its time on the steady clock, s."""
 
     pose: Pose2
     time_s: float
 
 
 class GroundBehind:
-    """Follows the robot's way; poses in one frame, of which jumps count as motion."""
+    """Records the poses of base_link in map, m and rad, over the last MEMORY_S."""
 
     def __init__(self) -> None:
         self._way: Deque[_Passed] = deque()
         self._seen_s = -math.inf
 
     def observe(self, pose: Pose2, now_s: float) -> None:
-        """Take the pose of a tick."""
+        """Add the pose at a tick; now_s: steady clock, s."""
         while self._way and now_s - self._way[0].time_s > MEMORY_S:
             self._way.popleft()
         if any(_is_straight_ahead(passed.pose.inverse() @ pose) for passed in self._way):
