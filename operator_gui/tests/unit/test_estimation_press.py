@@ -180,6 +180,18 @@ def test_plan_of_the_axes_of_a_car_leaves_each_its_own_place():
     assert KeyPressParameters().search_plan.are_near and not HandleRequestParameters().search_plan.are_near
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_soft_borders_of_a_low_frequency_field_are_not_explained_by_fading(seed):
+    plan, rng = HandleRequestParameters().search_plan, np.random.default_rng(seed)
+    campaign = Campaign(plan.hypotheses())
+    for axis in range(8):
+        border_m = rng.uniform(1.4, 2.8)
+        measured(plan, lambda place_m, _, border_m=border_m: rng.random() < expit(
+            (border_m - place_m) * WIDTH_PER_SCALE / 0.5), campaign, axis)
+    steady, fading = np.exp(campaign.log_shape_prior(9)).sum(axis=(1, 2))
+    assert steady + fading == pytest.approx(1.0) and fading < 0.15
+
+
 def test_failures_inside_where_all_else_works_are_told_as_a_hole():
     plan, grid = PLAN, PLAN.hypotheses()
     campaign = Campaign(grid)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..interval import FloatArray
-from .hypotheses import Hypotheses, hypotheses_for
+from .hypotheses import UHF_FADING, Hypotheses, hypotheses_for
 from .lattice import NEAR, NEAREST, Lattice
 
 # Parts of the interval wanted into which d50 is divided.
@@ -56,6 +56,7 @@ class SearchPlan:
         checked_m: nearer than this the ground may have torn a hole into the range: each part of the way up to it gets a
             press. 0 where that cannot be.
         are_near: where half of the presses work on one radial is near that of the others.
+        fading: prior probability that the field fades in space.
     """
 
     minimum_m: float
@@ -66,10 +67,12 @@ class SearchPlan:
     times: RobotTimes = RobotTimes()
     checked_m: float = 0.0
     are_near: bool = True
+    fading: float = UHF_FADING
 
     def hypotheses(self) -> Hypotheses:
         """The grid that is fine enough for the interval wanted."""
-        return hypotheses_for(self.minimum_m, self.maximum_m, self.interval_m / _STEPS_PER_INTERVAL)
+        return hypotheses_for(self.minimum_m, self.maximum_m, self.interval_m / _STEPS_PER_INTERVAL,
+                              self.fading)
 
     @property
     def is_fine(self) -> bool:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from ...choice import choice
 from ...errors import InvalidParameter
+from ...estimation.press.hypotheses import LF_FADING
 from ...estimation.press.plan import RobotTimes, SearchPlan
 from ...geometry.heights import check_heights, heights_between
 from ...parameters import CENTIMETRES, parameter
@@ -96,8 +97,9 @@ class HandleRequestParameters(ScenarioParameters):
         """What is wanted of each axis; a request that works costs the press that locks the Car again.
 
         A zone does not follow the Car's outline: the simulated one ends 1.6 m beside the doors, 1.0 m off the corners.
+        Its border is the end of a low-frequency field, which does not fade.
         """
         times = RobotTimes(self.maximum_speed_mps, settle_s=self.settle_time_s, answer_s=_ANSWER_S + _LOCKED_S,
                            timeout_s=self.response_timeout_s)
         return SearchPlan(self.minimum_distance_m, self.farthest_m, self.interval_m, self.attempts_limit,
-                          self.half_wavelength_m, times, are_near=False)
+                          self.half_wavelength_m, times, are_near=False, fading=LF_FADING)
