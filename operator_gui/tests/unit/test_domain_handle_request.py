@@ -284,8 +284,6 @@ def test_result_is_read_back_from_its_document_and_a_miscounted_one_is_not(run_s
         result_from_document(HandleRequestResult, {**document, "inside": result.inside + 1})
 
 
-# Some 20 s of a slow processor.
-@pytest.mark.timeout(300)
 def test_inconclusive_axis_gets_more_requests_and_keeps_its_counts(run_scenario, world, output):
     progress = Progress(SCENARIO.name, ONE_AXIS.to_mapping())
     progress.calibration = load_calibration()

@@ -68,7 +68,6 @@ def bundled(tmp_path, monkeypatch):
     return make
 
 
-@pytest.mark.timeout(20)
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes here")
 @pytest.mark.parametrize("name", ["pipe.json", "pipe.journal"])
 def test_pipe_among_the_tests_is_named_and_not_waited_for(tests, name):

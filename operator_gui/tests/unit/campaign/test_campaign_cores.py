@@ -15,8 +15,6 @@ from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.progress_file import FILE_NAME, open_progress
 
-# A whole test takes 40 s of a slow processor, and some are shared with others.
-pytestmark = pytest.mark.timeout(300)
 # Two radials, before and behind the Car.
 SHORT = {"car": "honest_button", "seed": 3, "parameters.minimum_distance_m": 3.0, "parameters.maximum_distance_m": 9.0,
          "parameters.interval_m": 0.5, "parameters.attempts_limit": 8, "parameters.angle_between_radials_deg": 180.0}
