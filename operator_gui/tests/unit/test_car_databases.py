@@ -138,6 +138,15 @@ WRONG = {
         DATABASE.replace(SPEED, DOORS.replace("0|2", "2|2")),
     "line 13.* cannot be used: it is there more than once, in lines 12, 13":
         swapped(" SG_ COUNT : 8|8", " SG_ LOCK : 8|8"),
+    "line 12.* cannot be used: it begins before the first bit": swapped("0|2@1+", "-1|2@1+"),
+    "line 12.* cannot be used: it begins before the first bit of": swapped("0|2@1+", "-2|2@0+"),
+    "line 12.* cannot be used: its scale or offset is not a finite": swapped("0|2@1+ (1,0)", f"0|2@1+ ({400 * '1'},0)"),
+    "line 12.* cannot be used: its scale or offset is not a finite number":
+        swapped("0|2@1+ (1,0)", f"0|2@1+ (1,{400 * '1'})"),
+    "line 13.* cannot be used: its multiplexer PAGE cannot be used: it begins": swapped(
+        " SG_ LOCK :", ' SG_ PAGE M : -1|2@1+ (1,0) [0|1] "" Tester\n SG_ LOCK m1 :'),
+    "line 13.* cannot be used: its multiplexer PAGE cannot be used: it ends at bit 66": swapped(
+        " SG_ LOCK :", ' SG_ PAGE M : 64|2@1+ (1,0) [0|1] "" Tester\n SG_ LOCK m1 :'),
     "has no message DOORS": swapped("801 DOORS", "801 DOOR"),
     "has no signal LOCK": swapped("LOCK :", "LOCKS :"),
     "values for locked and unlocked that the signal LOCK of 1 bits cannot carry": swapped("0|2@1+", "0|1@1+"),
@@ -149,6 +158,13 @@ def test_what_the_profile_names_is_exact_or_refused_with_its_line(tmp_path, word
     with pytest.raises(ConnectionFailed, match=words) as raised:
         load_profile(written(tmp_path, database))
     assert "\n" not in str(raised.value) and len(str(raised.value)) < 600
+
+
+@pytest.mark.parametrize("limits", [f"[0|{400 * '1'}]", f"[-{400 * '1'}|255]", "[0|1e999]"])
+def test_counter_whose_limits_are_no_finite_numbers_uses_all_of_its_bits(tmp_path, limits):
+    profile = load_profile(written(tmp_path, swapped("(1,0) [0|255]", f"(1,0) {limits}"),
+                                   PROFILE + "alive_signal: COUNT\n"))
+    assert (profile.counts("COUNT").low, profile.counts("COUNT").high) == (0, 255)
 
 
 def test_database_without_a_usable_message_is_refused_by_the_line_of_the_one_that_is_named(tmp_path):

@@ -30,6 +30,7 @@ BO_ 291 LOCKS: 1 X
 BO_ 292 RANGING: 3 X
  SG_ UWB : 0|16@1+ (0.5,-20) [0|32000] "cm" X
  SG_ KIND : 16|2@1+ (1,0) [0|3] "apples" X
+ SG_ FLAT : 18|2@1+ (0,0) [0|3] "cm" X
 """
 PROFILE = """database: car.dbc
 message: LOCKS
@@ -239,6 +240,7 @@ def test_a_signal_of_the_cars_bus_is_read_in_its_unit(profile):
     ("7", "must be tcp:HOST:PORT"), ("{signal: UWB}", "must be tcp:HOST:PORT"),
     ("{message: NONE, signal: UWB}", "has no message NONE"), ("{message: RANGING, signal: NONE}", "has no signal NONE"),
     ("{message: RANGING, signal: KIND}", "has the unit apples"),
+    ("{message: RANGING, signal: FLAT}", "signal FLAT, whose scale in the database is 0"),
     ("{message: RANGING, signal: UWB, bus: b}", "names the bus b"),
     ("{message: RANGING, signal: UWB, no_distance: 3}", "allowed is a list of whole numbers"),
     ("simulated", "is for the command line")])

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 import pathlib
 from dataclasses import dataclass, field
 from typing import Any, Sequence
@@ -50,7 +51,8 @@ class CarDatabase:
             problem = self._problems.signals.get((message.name, each), "")
             if not problem and each not in known:
                 continue
-            problem = problem or _beyond(message, known[each]) or _without_page(message, each)
+            problem = problem or _misplaced(message, known[each]) or _without_number(known[each]) or _without_page(
+                message, each)
             if not problem:
                 return each
             place = f"{self.path}{_line(self._problems.signal_lines.get((message.name, each)))}"
@@ -84,16 +86,33 @@ def _line(number: int | None) -> str:
     return "" if number is None else f", line {number},"
 
 
-def _beyond(message: Any, signal: Any) -> str:
+def _misplaced(message: Any, signal: Any) -> str:
+    if signal.length < 1:
+        return "it has no bit"
     end = end_bit(signal)
+    if end < signal.length:
+        return "it begins before the first bit of the message"
     if end <= BITS_PER_BYTE * message.length:
         return ""
     return f"it ends at bit {end}, and the message has {BITS_PER_BYTE * message.length} bits"
 
 
+def _without_number(signal: Any) -> str:
+    return "" if is_finite(signal.scale) and is_finite(signal.offset) else "its scale or offset is not a finite number"
+
+
+def is_finite(number: Any) -> bool:
+    """Return whether a number of a database is finite as a float; whole numbers may have any number of digits."""
+    try:
+        return math.isfinite(number)
+    except OverflowError:
+        return False
+
+
 def _without_page(message: Any, name: str) -> str:
     try:
-        pages(message, name)
+        multiplexers = [multiplexer for multiplexer, _ in pages(message, name)]
     except KeyError as error:
         return f"its multiplexer {error.args[0]} is not in the message"
-    return ""
+    faults = ((each.name, _misplaced(message, each)) for each in multiplexers)
+    return next((f"its multiplexer {name} cannot be used: {fault}" for name, fault in faults if fault), "")

@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
+from ..database.car_database import is_finite
 from .entries import Entries, is_whole
 
 # A counter that begins again does so with one of these.
@@ -51,7 +52,7 @@ def count_range(entries: Entries, key: str, values: Any, signal: Any) -> CountRa
 def _of_database(signal: Any, most: int) -> CountRange:
     """All values, where the database names no others that may be."""
     limits = (signal.minimum, signal.maximum)
-    if None in limits or not signal.scale:
+    if None in limits or not signal.scale or not all(map(is_finite, limits)):
         return CountRange(0, most, signal.length)
     low, high = sorted((float(limit) - signal.offset) / signal.scale for limit in limits)
     if not (low in _FIRST_VALUES and high.is_integer() and low + 1 < high <= most):

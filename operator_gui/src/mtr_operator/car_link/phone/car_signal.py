@@ -50,6 +50,8 @@ def read_phone(entries: Entries) -> PhoneSignal | FeedAddress | None:
         raise entries.wrong("phone_distance needs the entry database.")
     message = entries.message(table["message"], bus)
     name = entries.signal(message, table["signal"], bus)
+    if not message.get_signal_by_name(name).scale:
+        raise entries.wrong(f"phone_distance names the signal {name}, whose scale in the database is 0.")
     unit = table.get("unit") or message.get_signal_by_name(name).unit or "m"
     if unit not in _UNITS:
         raise entries.wrong(f"phone_distance has the unit {unit}; allowed is {', '.join(_UNITS)}: name it (unit).")
