@@ -165,6 +165,12 @@ def test_wheels_stand_soon_after_the_zero(wheels_stop_s, is_met):
     assert {row.requirement: row.is_met for row in kills_main.report([found], 1).rows}[kills_main.STOOD] == is_met
 
 
+@pytest.mark.parametrize("until_s, is_judged", [(5.6, False), (5.68, False), (5.8, True)])
+def test_record_that_ends_with_the_test_before_the_robot_had_to_stand_is_not_judged(until_s, is_judged):
+    kill = kill_of("dispatcher", speeds(99.0, until_s), speeds(99.0, until_s), 5.0, None)
+    assert kill.is_judged == is_judged and kill.stopped_in_time != is_judged
+
+
 def test_robot_that_turns_has_not_stopped():
     robot = SimpleNamespace(_sent=[], _wheels=[])
     KilledRobot._take_sent(robot, DriveStatus(angular_radps=0.8))

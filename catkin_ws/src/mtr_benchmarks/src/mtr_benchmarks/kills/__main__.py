@@ -13,7 +13,7 @@ from typing import Counter, List, Optional
 from ..harness.own_process import end_in_order, in_own_process
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
-from .deaths import LIMITS_S, STANDS_S, Kill
+from .deaths import AFTER_ZERO_S, LIMITS_S, STANDS_S, Kill
 from .kept import MUST
 from .killed import PARAMETERS, Found, killed_test
 
@@ -21,8 +21,6 @@ from .killed import PARAMETERS, Found, killed_test
 KILLS_OF_TEST = 10
 STOPPED = Requirement("longest time from a node's last word, or the limit of its silence, to zero sent to the wheels",
                       "s", must=STANDS_S)
-# Its servos and tyres take their time after the zero, 0.18 s at most where it was measured (docs/faults.md).
-AFTER_ZERO_S = 0.2
 STOOD = Requirement("the same to standstill of the simulated wheels (0.02 m/s)", "s", goal=STANDS_S,
                     must=STANDS_S + AFTER_ZERO_S)
 # Of the kills that are wanted so many find a robot that drives, at least; more than half did where it was measured.
