@@ -6,7 +6,7 @@ import re
 import pytest
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-PAGES = sorted(path for pattern in ("*.md", "*/*.md", "catkin_ws/src/*/*.md", "firmware/*/*.md",
+PAGES = sorted(path for pattern in ("*.md", "*/*.md", "docs/*/*.md", "catkin_ws/src/*/*.md", "firmware/*/*.md",
                                     "operator_gui/src/mtr_operator/*/*.md") for path in TOP.glob(pattern)
                if ".venv" not in path.parts and "out" not in path.relative_to(TOP).parts)
 
