@@ -221,6 +221,37 @@ def test_state_machine_that_was_restarted_during_a_test_moves_nothing_by_itself(
     assert robot.decision.message.code == "state_machine.held_start"
 
 
+def test_what_happened_before_a_restart_is_no_cause_of_another_hold():
+    robot = Robot()
+    robot.seen = replace(robot.seen, drive=Drive(manual_drives=3, blockages=3), firmware_resets=3,
+                         emergency=Emergency(stops=3))
+    robot.step(desired=WANTS, car=LOCATED)
+    robot.step()
+    assert robot.decision.message.code == "state_machine.held_start"
+
+
+def test_obstacle_that_is_reported_for_a_former_goal_holds_nobody(robot):
+    former = robot.decision.goal.id._replace(attempt=robot.decision.goal.attempt - 1)
+    assert not robot.step(motion=GoalReport(former, Result.BLOCKED, OBSTACLE)).hold_id
+
+
+@pytest.mark.parametrize("order", [replace(IDLE, map_car_id=1), replace(IDLE, check_car_id=1)], ids=["map", "check"])
+def test_robot_that_is_ordered_to_map_or_to_check_is_held(order):
+    robot = Robot()
+    robot.step()
+    robot.step(desired=order)
+    emergency_stop_for_a_moment(robot)
+    assert robot.decision.hold_id
+
+
+def test_hold_in_the_same_microsecond_has_another_id(robot):
+    manual_for_a_moment(robot)
+    first = robot.decision.hold_id
+    robot.now_s -= 0.1
+    manual_for_a_moment(robot)
+    assert robot.decision.hold_id > first
+
+
 def test_state_machine_that_was_stopped_for_a_while_during_a_test_moves_nothing_by_itself(robot):
     robot.now_s += 0.35
     assert not robot.step().hold_id, "a tick that is late is no pause"
