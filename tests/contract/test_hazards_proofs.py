@@ -1,9 +1,12 @@
 """Proofs and parameters of the hazard file exist in the sources, with the values that the file states."""
 # SPDX-License-Identifier: Apache-2.0
+import pathlib
+
 import hazard_file as model
 import hazard_proofs as proofs
 import pytest
 import stopping_distances as stopping
+import yaml
 from code_defaults import defaults, folder
 
 MEASURES = model.measures(model.read())
@@ -36,6 +39,14 @@ def test_parameters_are_the_defaults_of_the_code(measure):
     found = defaults(measure.where)
     for name, value in measure.parameters.items():
         assert found[name] == {value}, f"{name}: {sorted(found[name], key=str)} in {measure.where}"
+
+
+def test_mutation_group_safety_runs_proofs_of_measures():
+    """`make mutants` changes the code of these measures, and their proofs have to notice it."""
+    table = yaml.safe_load((model.TOP / "tests/mutation/groups.yaml").read_text(encoding="utf-8"))["groups"]["safety"]
+    proved = {proof.partition(":")[2].partition("::")[0] for each in DONE for proof in each.proofs}
+    assert {pathlib.Path(path).stem for path in table["tests"]} <= proved
+    assert all((model.TOP / table["source"] / path).is_file() for path in table["modules"])
 
 
 def test_stopping_distances_follow_from_drive_controls_limits():
