@@ -11,7 +11,7 @@ class MotionLimits(ParameterSet):
     """Limits of planned motion; below drive control's own, so that what the controller adds is not clipped.
 
     Attributes:
-        max_linear_mps: speed on a straight line; drive control allows 0.74 with the key raised.
+        max_linear_mps: speed on a straight line; drive control allows 0.75 with the key raised.
         curve_lever_m: on a curve max_linear_mps bounds the speed plus this times the yaw rate, as in drive control.
         acceleration_mps2: of the linear speed, also when braking; drive control allows 1.0 and 1.5.
         jerk_mps3: of the linear speed, from constant speed; twice that from getting faster to braking at once. A mast
