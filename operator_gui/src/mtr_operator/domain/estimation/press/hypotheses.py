@@ -21,8 +21,8 @@ LAPSES, LAPSE_PRIOR = (0.0, 0.03), (0.7, 0.3)
 # noise in time.
 SHARED = (0.0, 0.85)
 # Prior probability of fading. Few UHF radios have no standing waves. A low-frequency field has none: its wavelength is
-# kilometres, and only steel nearby bends it.
-UHF_FADING, LF_FADING = 0.85, 0.15
+# kilometres. Steel nearby distorts it, and with a smaller probability the intervals of Handle request were too wide.
+UHF_FADING, LF_FADING = 0.85, 0.35
 # d50 may lie outside the range that is searched, by this share of it.
 MARGIN_SHARE = 0.25
 
