@@ -10,6 +10,7 @@ import sys
 
 from mtr_operator.cli.exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INTERRUPTED, EXIT_PASS
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.terminal import show, show_error
 
 _WORKSPACE = ("mtr_simulation", "mtr_core", "mtr_bringup")
 _SHOWN = 5
@@ -21,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         return int(options.run(options))
     except OperatorError as error:
-        print(error, file=sys.stderr)
+        show_error(error)
     except KeyboardInterrupt:
         print("Interrupted; what is done is kept, and the same command goes on.", file=sys.stderr)
         return EXIT_INTERRUPTED
@@ -97,7 +98,7 @@ def run_plan(options: argparse.Namespace) -> int:
         print(f"{len(course.runs)} runs, {course.known} of them done before, {len(course.failed)} failed; in "
               f"{finished.folder}, and in the store {finished.store} as campaign {finished.plan.name}.")
     for done in course.failed[:_SHOWN]:
-        print(f"{done.digest}: {done.reason}", file=sys.stderr)
+        show_error(f"{done.digest}: {done.reason}")
     return EXIT_FAIL if course.failed else EXIT_PASS
 
 
@@ -105,5 +106,5 @@ def run_study(options: argparse.Namespace) -> int:
     """Run a study, and say where its picture is."""
     from .studies.registry import study_of
     for line in study_of(options.name)(options):
-        print(line)
+        show(line)
     return EXIT_PASS

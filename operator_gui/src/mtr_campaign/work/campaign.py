@@ -14,6 +14,7 @@ from tqdm import tqdm
 from mtr_operator.domain.errors import InUse
 from mtr_operator.storage.inside import inside
 from mtr_operator.storage.lock import Lock
+from mtr_operator.terminal import show_error
 from mtr_results.store.database import shown_address
 
 from ..errors import CampaignError
@@ -59,7 +60,7 @@ def run_campaign(plan: Plan, options: argparse.Namespace) -> Finished:
         course = Course(told)
         Conductor(plan, folder, crew).run(course, max(options.workers, 1))
     for sentence in keeping.sentences[:3]:
-        print(sentence, file=sys.stderr)
+        show_error(sentence)
     return Finished(plan, course, folder.path, shown_address(store))
 
 

@@ -11,6 +11,7 @@ from mtr_operator.domain.actions.preparation import check_car, prepare_to_check
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.robot_status import CheckState
+from mtr_operator.terminal import show
 
 from .display import Display
 from .enter import Enter
@@ -39,4 +40,4 @@ def check(options: argparse.Namespace) -> None:
         raise RobotFailed("The robot's software is too old to check where the Car stands.")
     if found.state is CheckState.FAILED:
         raise RobotFailed(found.message)
-    print(found.message)
+    show(found.message)

@@ -16,6 +16,7 @@ from mtr_operator.report.parameter_names import parameter_name
 from mtr_operator.station.connection import RobotChoice
 from mtr_operator.station.settings import Settings
 from mtr_operator.storage.parameter_template import write_template
+from mtr_operator.terminal import show_error
 
 from .arguments import argument_parser
 from .checking import check
@@ -38,10 +39,10 @@ def run_command(arguments: list[str] | None = None) -> int:
     try:
         return _COMMANDS.get(options.command, open_window)(options) or EXIT_PASS
     except OperatorError as error:
-        print(error, file=sys.stderr)
+        show_error(error)
         return EXIT_ERROR
     except Cancelled as reason:
-        print(reason, file=sys.stderr)
+        show_error(reason)
         return EXIT_INTERRUPTED
 
 

@@ -9,6 +9,7 @@ import tqdm
 
 from mtr_operator.domain.actions.observer import RunObserver
 from mtr_operator.domain.eventlog.robot_events import is_alike
+from mtr_operator.domain.results.document import shown_text
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import Mode, RobotStatus
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
@@ -94,7 +95,8 @@ class Display(RunObserver):
             self.say(f"no answer from the robot for {silent_s:.0f} s, still trying")
 
     def say(self, text: str) -> None:
-        """Show a line."""
+        """Show one or several lines, with the control characters of received texts replaced."""
+        text = "\n".join(map(shown_text, text.split("\n")))
         if self._bar is not None:
             self._bar.write(text, file=self._stream)
         else:

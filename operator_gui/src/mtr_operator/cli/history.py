@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import json
 import pathlib
-import sys
 from typing import Sequence
 
 from mtr_operator.history.comparison import compare
@@ -16,6 +15,7 @@ from mtr_operator.history.line_pairs import Side, open_side
 from mtr_operator.history.search import matching, problems_of
 from mtr_operator.station.settings_file import SettingsStore, default_path
 from mtr_operator.storage.progress_file import FILE_NAME
+from mtr_operator.terminal import show, show_error
 
 _HEADINGS = ("started", "scenario", "lines", "verdict", "car", "key", "file")
 _GAP = "  "
@@ -27,12 +27,12 @@ def list_history(options: argparse.Namespace) -> None:
     entries = Index(folders, cache_path(folders)).refresh()
     found = matching(entries, " ".join(options.words), car=options.car, key=options.key, verdict=options.verdict)
     for problem in problems_of(entries):
-        print(problem, file=sys.stderr)
+        show_error(_printable(problem))
     if options.json:
         print(_printable(json.dumps([_document(entry) for entry in found], indent=1, ensure_ascii=False)))
     else:
         for line in _table(found):
-            print(_printable(line))
+            show(_printable(line))
 
 
 def _printable(text: str) -> str:
@@ -47,7 +47,7 @@ def compare_tests(options: argparse.Namespace) -> None:
         print(json.dumps(comparison_document(comparison), indent=1, ensure_ascii=False))
     else:
         for line in comparison_lines(comparison):
-            print(line)
+            show(line)
 
 
 def _side(path: pathlib.Path) -> Side:

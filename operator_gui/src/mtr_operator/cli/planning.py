@@ -16,6 +16,7 @@ from mtr_operator.domain.verdict.suitability import check_before_start
 from mtr_operator.station.estimate import USUAL_CAR, USUAL_FACTS, Plan, TimeLeft, plan_of
 from mtr_operator.storage.given_files import load_limits
 from mtr_operator.storage.parameter_file import load_parameters
+from mtr_operator.terminal import show
 
 # From here on seconds say nothing.
 _MINUTES_FROM_S = 90.0
@@ -29,7 +30,7 @@ def plan(options: argparse.Namespace) -> None:
         check_before_start(load_limits(options.limits), scenario, parameters)
     planned = plan_of(scenario, parameters, USUAL_CAR, False, _facts_of(options.car_profile))
     for line in plan_lines(scenario, planned):
-        print(line)
+        show(line)
 
 
 def plan_lines(scenario: AnyScenario, planned: Plan) -> Iterator[str]:

@@ -11,6 +11,7 @@ from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import RobotLink
+from mtr_operator.domain.results.document import shown_text
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWARE, SUBSTITUTE, now, session_record
 from mtr_operator.domain.runner import Runner
@@ -32,6 +33,7 @@ from mtr_operator.storage.parameter_file import load_parameters
 from mtr_operator.storage.recorded.kept_car import digest_text, profile_content
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
+from mtr_operator.terminal import show
 
 from .display import Display
 from .enter import Enter
@@ -114,7 +116,7 @@ class CommandLineRun:
         cautions = calibration_of(self._progress).cautions(self._parameters, today)
         for notice in (self._progress.notice, *cautions, *outdated):
             if notice:
-                display.say(notice)
+                display.say(shown_text(notice))
         enter = Enter()
         with contextlib.closing(self._car) as car, contextlib.closing(self._robot) as robot, self._phone_closing():
             for link in (car, robot, self._phone):
@@ -140,7 +142,7 @@ class CommandLineRun:
                            journal=journal).run()
             finally:
                 for problem in filter(None, self._recording.end()):
-                    display.say(problem)
+                    display.say(shown_text(problem))
                 _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
 
     def _phone_closing(self) -> contextlib.AbstractContextManager[object]:
@@ -157,7 +159,7 @@ class CommandLineRun:
             if store.has_changed:
                 store.save()
         except OperatorError as error:
-            display.say(str(error))
+            display.say(shown_text(str(error)))
         else:
             progress = self._progress
             half = f" and a part of {self._scenario.line_word} {progress.line_at_hand}" if progress.points else ""
@@ -166,18 +168,18 @@ class CommandLineRun:
     def _say_results(self, assessment: Assessment) -> None:
         results = self._progress.results
         for line in results_table(self._scenario, results, self._parameters):
-            print(line)
+            show(line)
         judgement = assessment.judgement
         summaries = side_summaries(self._scenario, self._parameters, self._progress, judgement)
         for line in side_table(summaries, judgement is not None):
-            print(line)
+            show(line)
         for name, text in self._scenario.summary(results):
-            print(f"{name}: {text}")
+            show(f"{name}: {text}")
         for line in verdict_lines(self._scenario, results, assessment.judgement):
-            print(line)
+            show(line)
         invalid = sum(1 for result in results if result.invalid_count)
         tail = f", {invalid} of them invalid" if invalid else ""
-        print(f"{len(results)} lines measured{tail}; results are in {self._options.out}.")
+        show(f"{len(results)} lines measured{tail}; results are in {self._options.out}.")
 
 
 def _means(options: argparse.Namespace) -> Means:

@@ -2,17 +2,27 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import datetime
 import hashlib
 import json
 import pathlib
+import re
 from dataclasses import dataclass
-from typing import Any, BinaryIO, Callable, Mapping
+from typing import Any, BinaryIO, Callable, Mapping, TypeVar
+
+from mtr_operator.domain.results.document import shown_text
+
+Kind = TypeVar("Kind")
 
 FORMAT, VERSION = "mtr evidence bundle", 1
 MANIFEST, SIGNATURE = "manifest.json", "manifest.sig"
 # Some 100,000 files; what is longer is no manifest, and nobody keeps it in memory.
 MAX_MANIFEST_BYTES = 16 * 1024 * 1024
 _BLOCK = 1024 * 1024
+# Keys and digests: 32 bytes.
+_DIGEST = re.compile(r"[0-9a-f]{64}\Z")
+# Sizes and numbers of bundles stay below.
+_MOST = 2 ** 63
 
 
 class BadManifest(Exception):
@@ -53,12 +63,29 @@ def manifest_from(content: bytes) -> Manifest:
         document: Any = json.loads(content)
         if (document["format"], document["version"]) != (FORMAT, VERSION):
             raise BadManifest
-        files = {str(name): FileEntry(int(entry["size"]), str(entry["sha256"]))
+        files = {_checked(name, str): FileEntry(_count(entry["size"]), _checked(entry["sha256"], str))
                  for name, entry in document["files"].items()}
-        return Manifest(str(document["created"]), str(document["station"]), str(document["key"]),
-                        int(document["number"]), str(document["before"]), files)
+        created, key, before = (_checked(document[name], str) for name in ("created", "key", "before"))
+        datetime.datetime.fromisoformat(created)
+        if not (_DIGEST.match(key) and _DIGEST.match(before or key)):
+            raise BadManifest
+        # The station is a text of whoever signed, and is printed.
+        return Manifest(created, shown_text(_checked(document["station"], str)), key, _count(document["number"]),
+                        before, files)
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
         raise BadManifest from None
+
+
+def _checked(value: Any, kind: type[Kind]) -> Kind:
+    if type(value) is not kind:
+        raise BadManifest
+    return value
+
+
+def _count(value: Any) -> int:
+    if not 0 <= _checked(value, int) < _MOST:
+        raise BadManifest
+    return int(value)
 
 
 def sha256_of(content: bytes) -> str:

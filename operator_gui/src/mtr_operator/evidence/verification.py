@@ -79,10 +79,17 @@ def content_problems(path: pathlib.Path, done: Callable[[int], None]) -> Sequenc
 
 def is_newer(path: pathlib.Path) -> bool:
     """True for a bundle of a later version of this format, whose manifest cannot be read here."""
-    with contextlib.suppress(OSError, ValueError, LookupError, TypeError, zipfile.BadZipFile, zlib.error,
-                             RecursionError, NotImplementedError, RuntimeError, EOFError):
+    try:
         with zipfile.ZipFile(path) as container:
-            document = json.loads(_start_of(container, MANIFEST))
+            return _is_later(_start_of(container, MANIFEST))
+    except (OSError, LookupError, zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, EOFError):
+        return False
+
+
+def _is_later(content: bytes) -> bool:
+    """True for a manifest of a later version of this format."""
+    with contextlib.suppress(ValueError, LookupError, TypeError, RecursionError):
+        document = json.loads(content)
         return bool(document["format"] == FORMAT and document["version"] > VERSION)
     return False
 
@@ -109,13 +116,16 @@ def chain_problems(found: Sequence[Verification]) -> list[str]:
 
 def _verified(names: Sequence[str], read: Callable[[str], bytes],
               entry: Callable[[str], FileEntry], done: Callable[[int], None] = lambda _: None) -> Verification:
+    content = b""
     try:
         content, signature = read(MANIFEST), json.loads(read(SIGNATURE))
         manifest = manifest_from(content)
     except (KeyError, FileNotFoundError):
         return Verification(problems=(f"There is no {MANIFEST} or {SIGNATURE} in it: it is no bundle.",))
     except (BadManifest, ValueError, zipfile.BadZipFile, zlib.error, RecursionError, OSError):
-        return Verification(problems=(f"{MANIFEST} or {SIGNATURE} is changed: it cannot be read any more.",))
+        return Verification(problems=(
+            "It was written by a later version of the application." if _is_later(content) else
+            f"{MANIFEST} or {SIGNATURE} is changed: it cannot be read any more.",))
     problems = [] if _is_signed(manifest, content, signature) else \
         [f"{MANIFEST} or {SIGNATURE} is changed: the signature is not that of the station's key over it."]
     for name, wanted in manifest.files.items():

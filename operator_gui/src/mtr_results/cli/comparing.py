@@ -12,6 +12,7 @@ from mtr_operator.history.circumstances import differing_names
 from mtr_operator.history.same_lines import Tests
 from mtr_operator.history.spread import distance_spread
 from mtr_operator.report.table import line_name
+from mtr_operator.terminal import show
 
 from ..statistics.capability import Capability, capability
 from ..statistics.comparison import compare_sets
@@ -34,21 +35,21 @@ def compare(options: argparse.Namespace) -> int:
         print_json(comparison_document(found))
         return EXIT_PASS
     for number, side in ((1, first), (2, second)):
-        print(f"Side {number}: {side.text}, {len(side.rows)} tests from {side.rows[0]['started']}")
+        show(f"Side {number}: {side.text}, {len(side.rows)} tests from {side.rows[0]['started']}")
     for each in found.differing:
-        print(f"  {each.name}: {each.first or 'nothing'} / {each.second or 'nothing'}")
+        show(f"  {each.name}: {each.first or 'nothing'} / {each.second or 'nothing'}")
     print_table(_HEADINGS, [row_texts(row) for row in found.rows])
     for reason in found.reasons:
-        print(f"not known: {reason}")
+        show(f"not known: {reason}")
     for name, mine, its in found.holes:
-        print(f"holes on {name}: {mine or 'none'} / {its or 'none'}")
-    print("verdicts: " + " / ".join(", ".join(f"{count} {word}" for word, count in each.items())
-                                    for each in found.verdicts))
+        show(f"holes on {name}: {mine or 'none'} / {its or 'none'}")
+    show("verdicts: " + " / ".join(", ".join(f"{count} {word}" for word, count in each.items())
+                                   for each in found.verdicts))
     for number, names in ((1, found.only_first), (2, found.only_second)):
         if names:
-            print(f"Only on side {number}: {', '.join(names)}")
-    print(MEANING)
-    print(found.summary)
+            show(f"Only on side {number}: {', '.join(names)}")
+    show(MEANING)
+    show(found.summary)
     return EXIT_PASS
 
 
@@ -67,15 +68,15 @@ def spread(options: argparse.Namespace) -> int:
         return EXIT_PASS
     _say_differing(tests)
     for name, each in found:
-        print(f"{name} {each.word}: {each.spread.count} tests, {each.without} without a value")
+        show(f"{name} {each.word}: {each.spread.count} tests, {each.without} without a value")
         if each.mean.reason:
-            print(f"  {each.mean.reason}")
+            show(f"  {each.mean.reason}")
         if each.spread.reason:
-            print(f"  {each.spread.reason}")
+            show(f"  {each.spread.reason}")
             continue
         for row in (*_spread_texts(each.spread), *_capability_texts(capability(each.spread, options.at_least,
                                                                                options.at_most))):
-            print(f"  {row}")
+            show(f"  {row}")
     return EXIT_PASS
 
 
@@ -104,11 +105,11 @@ def show_trend(options: argparse.Namespace) -> int:
         document.append({"line": line.number, "name": name, "what": word, **trend_document(found)})
         if not options.json:
             limits = found.reason or f"mean {found.centre:.3f} m, limits {found.low:.3f} to {found.high:.3f} m"
-            print(f"{name} {word}: {limits}")
+            show(f"{name} {word}: {limits}")
             if found.unlike:
-                print(f"  {found.unlike}")
+                show(f"  {found.unlike}")
             for index in found.beyond:
-                print(f"  beyond: test {chosen.rows[index]['id']} of {chosen.rows[index]['started']}")
+                show(f"  beyond: test {chosen.rows[index]['id']} of {chosen.rows[index]['started']}")
     if options.json:
         print_json({"tests": [row["id"] for row in chosen.rows], "differs": differing_names(tests.sides),
                     "distances": document})
@@ -119,7 +120,7 @@ def _say_differing(tests: Tests) -> None:
     """What else may move the distances of a set."""
     names = differing_names(tests.sides)
     if names:
-        print(f"The tests differ in: {', '.join(names)}.")
+        show(f"The tests differ in: {', '.join(names)}.")
 
 
 def _read(options: argparse.Namespace) -> tuple[Tests, TestSet]:

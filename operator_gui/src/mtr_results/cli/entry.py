@@ -6,6 +6,7 @@ import sys
 
 from mtr_operator.cli.exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
 from mtr_operator.domain.errors import OperatorError
+from mtr_operator.terminal import show_error
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -15,7 +16,7 @@ def main(arguments: list[str] | None = None) -> int:
         options = parser().parse_args(arguments)
         return int(options.run(options))
     except OperatorError as error:
-        print(error, file=sys.stderr)
+        show_error(error)
         return EXIT_ERROR
     except KeyboardInterrupt:
         print("Interrupted.", file=sys.stderr)

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from typing import Iterator
 
 from mtr_operator.cli.exit_codes import EXIT_ERROR, EXIT_PASS
+from mtr_operator.terminal import show, show_error
 
 from ..errors import StoreError
 from ..intake.source import tests_in
@@ -25,9 +25,9 @@ def import_tests(options: argparse.Namespace) -> int:
     for intake in _taken(door, options):
         found.append(intake)
         if not options.json:
-            print(f"{intake.outcome}: {intake.path}")
+            show(f"{intake.outcome}: {intake.path}")
             if intake.sentence:
-                print(intake.sentence, file=sys.stderr)
+                show_error(intake.sentence)
     if options.json:
         print_json([intake.to_document() for intake in found])
     return EXIT_ERROR if any(intake.outcome == REFUSED for intake in found) else EXIT_PASS
@@ -52,7 +52,7 @@ def list_waiting(options: argparse.Namespace) -> int:
     if options.json:
         print_json(rows)
     for row in () if options.json else rows:
-        print(f"{row['path']}: waits for {row['store'] or 'a store that nobody knows'}")
+        show(f"{row['path']}: waits for {row['store'] or 'a store that nobody knows'}")
     return EXIT_PASS
 
 
@@ -63,5 +63,5 @@ def upgrade(options: argparse.Namespace) -> int:
     if options.json:
         print_json({"store": database.where})
     else:
-        print(f"The store {database.where} has the version of this program.")
+        show(f"The store {database.where} has the version of this program.")
     return EXIT_PASS

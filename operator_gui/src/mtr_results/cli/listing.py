@@ -7,6 +7,7 @@ from typing import Any
 
 from mtr_operator.cli.exit_codes import EXIT_PASS
 from mtr_operator.report.table import line_name
+from mtr_operator.terminal import show
 
 from ..store import reading
 from .meant import place_of, search_of
@@ -31,7 +32,7 @@ def list_tests(options: argparse.Namespace) -> int:
                              f"{row['done']}/{row['total']}", row["verdict"], row["car"], row["car_software"],
                              row["key"], row["campaign"]) for row in found])
     if total > len(found):
-        print(f"{total - len(found)} more fit; --limit 0 lists all.")
+        show(f"{total - len(found)} more fit; --limit 0 lists all.")
     return EXIT_PASS
 
 
@@ -44,10 +45,10 @@ def show_test(options: argparse.Namespace) -> int:
     if options.json:
         print_json({**test, **parts})
         return EXIT_PASS
-    print(f"Test {number}: {side.scenario.title}")
+    show(f"Test {number}: {side.scenario.title}")
     for name in _FACTS:
         if test[name]:
-            print(f"  {name.replace('_', ' ')}: {' '.join(str(test[name]).split())}")
+            show(f"  {name.replace('_', ' ')}: {' '.join(str(test[name]).split())}")
     names = {result.number: line_name(side.scenario, result) for result in side.progress.results}
     counting = [row for row in parts["measurements"] if row["is_current"]]
     print_table(("line", "what", "became", "m", "to m", "95 % from m", "to m", "expanded m"),
@@ -56,13 +57,13 @@ def show_test(options: argparse.Namespace) -> int:
     if options.trials:
         print_table(_TRIED, [tuple(row[name] for name in _TRIED) for row in parts["trials"]])
     else:
-        print(f"{len(parts['trials'])} points of all attempts; --trials lists them.")
+        show(f"{len(parts['trials'])} points of all attempts; --trials lists them.")
     for file in parts["files"]:
-        print(f"file {file['name']} ({file['size']} bytes, SHA-256 {file['sha256'][:12]}...)")
+        show(f"file {file['name']} ({file['size']} bytes, SHA-256 {file['sha256'][:12]}...)")
     return EXIT_PASS
 
 
 def _print_verdicts(verdicts: list[dict[str, Any]], names: dict[int, str]) -> None:
     for row in verdicts:
         where = names.get(row["line"], f"line {row['line']}") if row["line"] else "Verdict of the test"
-        print(f"{where}: {row['verdict']}" + (f" ({cell(row['requirement'])}) {row['reason']}" if row["line"] else ""))
+        show(f"{where}: {row['verdict']}" + (f" ({cell(row['requirement'])}) {row['reason']}" if row["line"] else ""))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any, Sequence
 
+from mtr_operator.terminal import show
+
 _GAP = "  "
 
 
@@ -22,7 +24,7 @@ def print_table(headings: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
     for text in texts:
         cells = (word.rjust(width) if right else word.ljust(width)
                  for word, width, right in zip(text, widths, numeric))
-        print(_GAP.join(cells).rstrip())
+        show(_GAP.join(cells).rstrip())
 
 
 def cell(value: Any) -> str:

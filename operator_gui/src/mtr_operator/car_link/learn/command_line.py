@@ -10,6 +10,7 @@ from typing import Callable, Iterator, Sequence, TextIO
 
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.ports import LockState
+from mtr_operator.terminal import show, show_error
 
 from ..adapter import AdapterSettings
 from .database_names import DatabaseNames
@@ -42,7 +43,7 @@ def learn_by(listen: Listen, options: argparse.Namespace, stdin: TextIO | None =
         _listen(learning, stdin or sys.stdin, wait)
     findings = learning.findings()
     for line in _table(findings, names):
-        print(line)
+        show(line)
     for doubt in (*doubts(findings), unnamed(findings, names)):
         if doubt:
             _say(doubt)
@@ -74,7 +75,7 @@ def _listen(learning: Learning, stdin: TextIO, wait: Callable[[float], None]) ->
 
 
 def _say(sentence: str) -> None:
-    print(sentence, file=sys.stderr, flush=True)
+    show_error(sentence)
 
 
 def _table(findings: Findings, names: DatabaseNames | None) -> Iterator[str]:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import math
 import pathlib
-import sys
 from dataclasses import dataclass
 from typing import Sequence
 
@@ -16,6 +15,7 @@ from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.terminal import show_error
 
 from ..exit_codes import EXIT_CHANGED, EXIT_ERROR, EXIT_PASS
 
@@ -53,11 +53,11 @@ def try_profiles(options: argparse.Namespace) -> int:
         try:
             tried = try_profile(profile, options.databases, options.seed, options.car_seed)
         except OperatorError as error:
-            print(f"{profile}: {error}", file=sys.stderr)
+            show_error(f"{profile}: {error}")
             code = EXIT_ERROR
             continue
         for result in tried.invalid:
-            print(f"{profile}: {result.place} is invalid: {result.reason}", file=sys.stderr)
+            show_error(f"{profile}: {result.place} is invalid: {result.reason}")
         print(f"{profile}: {tried.heard} of {tried.sent} changes understood, {_MS_PER_S * tried.worst_s:.1f} ms off at "
               f"most, cycle {_MS_PER_S * tried.cycle_s:g} ms; {len(tried.results) - len(tried.invalid)} of "
               f"{len(tried.results)} axes measured")

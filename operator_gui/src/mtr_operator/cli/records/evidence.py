@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import pathlib
-import sys
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.results.progress import Progress
@@ -14,6 +13,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.report.assessed import assess
 from mtr_operator.storage.progress_file import FILE_NAME, open_progress
+from mtr_operator.terminal import show, show_error
 
 from ..exit_codes import EXIT_CHANGED, EXIT_PASS
 
@@ -56,14 +56,14 @@ def verify_bundles(options: argparse.Namespace) -> int:
     found = [verify_bundle(path) for path in options.bundles]
     for path, each in zip(options.bundles, found):
         for problem in each.problems:
-            print(f"{path}: {problem}", file=sys.stderr)
+            show_error(f"{path}: {problem}")
         manifest = each.manifest
         if manifest is not None and each.is_intact:
-            print(f"{path}: intact, {len(manifest.files)} files; bundle {manifest.number} of {manifest.station}, "
-                  f"signed {manifest.created} {_whose(manifest.key, options.key)}")
+            show(f"{path}: intact, {len(manifest.files)} files; bundle {manifest.number} of {manifest.station}, "
+                 f"signed {manifest.created} {_whose(manifest.key, options.key)}")
     problems = chain_problems(found)
     for problem in problems:
-        print(problem, file=sys.stderr)
+        show_error(problem)
     strange = [each for each in found if options.key and each.manifest is not None and each.manifest.key != options.key]
     return EXIT_PASS if all(each.is_intact for each in found) and not problems and not strange else EXIT_CHANGED
 
