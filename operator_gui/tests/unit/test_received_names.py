@@ -248,3 +248,9 @@ def test_link_that_lies_in_wait_under_the_name_of_a_file_is_not_written_through(
 def test_calibration_record_of_any_robot_lies_in_its_folder(tmp_path, robot):
     path = record_path(tmp_path, robot)
     assert path.parent == tmp_path and not name_problem(path.name) and os.path.basename(path).endswith(".yaml")
+
+
+@pytest.mark.parametrize("name", ["/etc/passwd", "a//b", "a/", "/"])
+def test_path_with_an_empty_part_is_quoted_whole(tmp_path, name):
+    with pytest.raises(UnsafeName, match="'" + name + "' is refused. It contains a path separator"):
+        below(tmp_path, name)

@@ -11,7 +11,7 @@ import zlib
 from dataclasses import dataclass, field
 from typing import Any, BinaryIO, Callable, Sequence
 
-from mtr_operator.domain.identity.file_name import name_problem, shown
+from mtr_operator.domain.identity.file_name import SEPARATED, name_problem, shown
 
 from .container import copy_container, first_difference, packing_problem
 from .manifest import (
@@ -148,7 +148,8 @@ def _verified(names: Sequence[str], read: Callable[[str], bytes],
 
 def _name_problem(name: str) -> str:
     """Reason why a file must not be unpacked under its name; empty when it may."""
-    return next(filter(None, map(name_problem, name.split("/"))), "")
+    parts = name.split("/")
+    return SEPARATED if "" in parts and name else next(filter(None, map(name_problem, parts)), "")
 
 
 def _is_signed(manifest: Manifest, content: bytes, signature: Any) -> bool:

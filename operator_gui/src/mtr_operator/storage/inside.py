@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 
 from mtr_operator.domain.errors import UnsafeName
-from mtr_operator.domain.identity.file_name import name_problem, shown
+from mtr_operator.domain.identity.file_name import SEPARATED, name_problem, shown
 
 
 def inside(folder: pathlib.Path, name: object) -> pathlib.Path:
@@ -25,6 +25,8 @@ def inside(folder: pathlib.Path, name: object) -> pathlib.Path:
 def below(folder: pathlib.Path, name: object) -> pathlib.Path:
     """As inside(), for a name that may have folders of its own, separated by "/"."""
     parts: list[object] = [*name.split("/")] if isinstance(name, str) else [name]
+    if "" in parts:
+        raise UnsafeName(f"The file name {shown(name)} is refused. {SEPARATED}.")
     for part in parts:
         folder = inside(folder, part)
     return folder

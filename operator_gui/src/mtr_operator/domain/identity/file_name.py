@@ -14,8 +14,10 @@ _SEPARATORS = frozenset("/\\:")
 # Windows opens a device for these, with any suffix.
 _DEVICE = re.compile(r"(con|prn|aux|nul|conin\$|conout\$|(com|lpt)[0-9\u00b9\u00b2\u00b3])\s*(\.|$)", re.IGNORECASE)
 
+# Also of a name with folders whose first or last part is empty.
+SEPARATED = "It contains a path separator or a colon"
 _RULES: tuple[tuple[Callable[[str], object], str], ...] = (
-    (lambda name: _SEPARATORS & set(name), "It contains a path separator or a colon"),
+    (lambda name: _SEPARATORS & set(name), SEPARATED),
     # Control characters, bidirectional marks, zero-width characters and lone surrogates are not printable.
     (lambda name: not name.isprintable(), "It contains an invisible character"),
     (lambda name: name.startswith("."), "It begins with a dot"),
