@@ -2,12 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 import json
 import random
+from types import SimpleNamespace
 
 import pytest
 
 from mtr_benchmarks.can_bus.__main__ import report
 from mtr_benchmarks.can_bus.learning import is_found
 from mtr_benchmarks.can_bus.listening import Listened, on_terminal, on_virtual_bus
+from mtr_benchmarks.can_bus.load import run
 from mtr_benchmarks.can_bus.replaying import Replayed, replayed_autolock
 from mtr_benchmarks.can_bus.traffic import recorded_traffic
 from mtr_benchmarks.harness.report import finish
@@ -26,6 +28,14 @@ def test_every_frame_of_the_virtual_bus_is_heard_and_in_the_log(tmp_path, is_fd)
 def test_every_frame_of_the_terminal_is_heard_and_in_the_log(tmp_path):
     found = on_terminal(tmp_path, 0.5)
     assert found.sent_frames > 100 and found.lost == 0 and found.latencies_s
+
+
+def test_sender_that_was_held_up_sends_all_frames(monkeypatch):
+    clock = iter([0.0, *[5.0] * 1000])
+    monkeypatch.setattr("mtr_benchmarks.can_bus.load.time", SimpleNamespace(
+        monotonic=lambda: next(clock), thread_time=lambda: 0.0, sleep=lambda _: None))
+    sent = run(lambda *_: None, False, 0.1)
+    assert sent.frames > 100 and sent.load < 1.0
 
 
 def test_replay_agrees_with_the_test(tmp_path):

@@ -41,14 +41,15 @@ class Sent:
 
 
 def run(send: Callable[[int, bytes], None], is_fd: bool, seconds: float) -> Sent:
-    """Send for so long; send: identifier and data of a frame."""
+    """Send all frames of so long, also after this process was held up; send: identifier and data of a frame."""
     period_s = _FD_BITS / BITRATE_BPS + _FD_DATA_BITS / DATA_BITRATE_BPS if is_fd else _CLASSIC_BITS / BITRATE_BPS
     message, background = DemoLockMessage(), bytes(64 if is_fd else 8)
     message.source = _PASSIVE_ENTRY
     begin_s, processor_s = time.monotonic(), time.thread_time()
     frames, locks = 0, 0
     changes_s: List[float] = []
-    while (now_s := time.monotonic() - begin_s) < seconds:
+    while frames * period_s < seconds:
+        now_s = min(time.monotonic() - begin_s, seconds)
         while frames * period_s < now_s:
             frames += 1
             if locks * _CYCLE_S > now_s:
