@@ -7,11 +7,11 @@ import pathlib
 from typing import Any, Iterable, Iterator
 
 import can
-from can.io.blf import FILE_HEADER_SIZE, BLFParseError, BLFReader
 
 from mtr_operator.domain.errors import ConnectionFailed
 
-from .text.lines import LoggedFrame, Names
+from .blf_log import BlfLog
+from .text.lines import Damaged, LoggedFrame, Names
 from .text.text_log import TextLog
 
 # Kinds that are no text, by how their files begin.
@@ -24,29 +24,13 @@ _GAP_S, _DISORDER_S = 1.0, 0.1
 _FEW = 2
 # Of a log with many gaps the first ones suffice.
 _MAX_NOTES = 3
-# Each object of a BLF begins with this word, its header's length and version, and its own length; before it may be so
-# many bytes of padding.
-_OBJECT, _LENGTH_AT, _HEADER, _PADDED = b"LOBJ", 8, 16, 8
+_CANNOT = "The CAN log {} cannot be read: {}."
+_DAMAGED = "it is damaged or of another format"
+_NO_FRAME = {"is cut off": "it is cut off before its first frame"}
 # Of different messages of a log, so that any log takes little memory.
 _MAX_MESSAGES = 4096
 # Of a CAN FD frame, ISO 11898-1.
 _MAX_DATA_BYTES = 64
-
-
-class _Blf(BLFReader):
-    """The library's reader never comes to the end of an object that says that it is as long as nothing."""
-
-    def _parse_container(self, data: bytes) -> Iterator[can.Message]:
-        whole, place = self._tail + data, 0
-        while place + _HEADER <= len(whole):
-            place = whole.find(_OBJECT, place, place + _PADDED)
-            if not 0 <= place <= len(whole) - _HEADER:
-                break
-            length = int.from_bytes(whole[place + _LENGTH_AT:place + _LENGTH_AT + 4], "little")
-            if length < _HEADER:
-                raise BLFParseError
-            place += length
-        yield from super()._parse_container(data)
 
 
 def _check(frame: LoggedFrame) -> None:
@@ -74,7 +58,6 @@ class ReadLog:
         self._times = _Times()
         self._path = path
         try:
-            self._size = path.stat().st_size
             self._reader = _reader(path, names or {})
         except OSError as error:
             raise ConnectionFailed(f"The CAN log {path} cannot be read: {error.strerror or error}.") from None
@@ -83,9 +66,11 @@ class ReadLog:
                 from None
         except ConnectionFailed:
             raise
+        except Damaged as error:
+            raise ConnectionFailed(_CANNOT.format(path, error)) from None
         # The library's readers raise whatever a damaged file leads them to.
         except Exception:
-            raise ConnectionFailed(f"The CAN log {path} cannot be read: it is damaged or of another format.") from None
+            raise ConnectionFailed(_CANNOT.format(path, _DAMAGED)) from None
 
     @property
     def notice(self) -> str:
@@ -112,15 +97,14 @@ class ReadLog:
                 yield frame
         except GeneratorExit:
             raise
+        except Damaged as error:
+            self._end("is damaged", str(error))
         except Exception:
             self._end("is damaged")
-        damage = self._reader.damage if isinstance(self._reader, TextLog) else ""
-        if damage and not self.ending:
-            self._end("is damaged", f" ({damage})")
-        if not self.count:
-            raise ConnectionFailed(f"The CAN log {self._path} holds no frame.")
         if not self.ending and self._is_cut_off():
             self._end("is cut off")
+        if not self.count:
+            raise ConnectionFailed(f"The CAN log {self._path} holds no frame.")
 
     def _look_at_time(self, time_s: float, before_s: float | None) -> None:
         step_s = 0.0 if before_s is None else time_s - before_s
@@ -136,13 +120,13 @@ class ReadLog:
         self._notes.append(sentence)
 
     def _is_cut_off(self) -> bool:
-        # A BLF says at its beginning how long it is; one whose program was killed says nothing.
-        reader = self._reader
-        return isinstance(reader, BLFReader) and (self._size < reader.file_size
-                                                  or reader.file_size == FILE_HEADER_SIZE < self._size)
+        return isinstance(self._reader, BlfLog) and self._reader.is_cut_off
 
     def _end(self, what: str, why: str = "") -> None:
-        self.ending = f"The CAN log {self._path} {what} after {self.count} frames{why}; those are used."
+        if not self.count:
+            raise ConnectionFailed(_CANNOT.format(self._path, why or _NO_FRAME.get(what, _DAMAGED))) from None
+        reason = f" ({why})" if why else ""
+        self.ending = f"The CAN log {self._path} {what} after {self.count} frames{reason}; those are used."
         self._note(self.ending)
 
 
@@ -183,7 +167,7 @@ def _reader(path: pathlib.Path, names: Names) -> Any:
     suffix = path.suffix.lower()
     kind = next((kind for kind, magic in _MAGIC.items() if begin.startswith(magic)), "")
     if kind == BLF_SUFFIX:
-        return _Blf(str(path))
+        return BlfLog(path)
     if kind == ".db":
         return can.SqliteReader(str(path))
     if kind == ".mf4":

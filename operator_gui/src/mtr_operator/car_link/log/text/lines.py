@@ -43,10 +43,10 @@ class WrongShape(ValueError):
 
 
 class Damaged(Exception):
-    """A frame that no bus has carried; the log ends before it."""
+    """A log ends before a frame that no bus has carried, or before a part that is corrupt; the text is the reason."""
 
-    def __init__(self) -> None:
-        super().__init__("holds what no bus has carried")
+    def __init__(self, reason: str = "holds what no bus has carried"):
+        super().__init__(reason)
 
 
 class Ambiguous(Exception):

@@ -49,18 +49,18 @@ def kinds() -> str:
 
 
 class TextLog:
-    """Iterator over its frames. ConnectionFailed, or OSError, when it is none.
+    """Iterator over its frames. ConnectionFailed, or OSError, when it is none; Damaged where it ends early.
 
     names: see Asc.
 
     Attributes:
         kind: of the log. left_out: lines that are not understood; first: what is wrong with the first of them.
-        without_data: remote and error frames. damage: why it ended early; empty when it did not.
+        without_data: remote and error frames.
     """
 
     def __init__(self, path: pathlib.Path, names: Names):
         self.left_out = self.without_data = 0
-        self.first = self.damage = ""
+        self.first = ""
         self._path, self._names = path, names
         with _opened(path) as file:
             lines = enumerate(itertools.islice(_lines(file), _HEAD), 1)
@@ -85,8 +85,7 @@ class TextLog:
                     self._leave_out(number, line, str(error))
                     continue
                 except (Damaged, Ambiguous) as error:
-                    self.damage = _quoted_line(number, line, str(error))
-                    return
+                    raise Damaged(_quoted_line(number, line, str(error))) from None
                 if isinstance(read, Line):
                     self.without_data += read is Line.NO_DATA
                     continue
