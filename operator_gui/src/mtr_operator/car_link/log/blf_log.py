@@ -5,7 +5,7 @@ from __future__ import annotations
 import pathlib
 import struct
 import zlib
-from typing import Iterator
+from typing import Generator, Iterator
 
 import can
 from can.io.blf import (
@@ -57,7 +57,7 @@ class BlfLog(BLFReader):
         return (self._ends_early or self._is_incomplete or self._size < self.file_size
                 or self.file_size == FILE_HEADER_SIZE < self._size)
 
-    def __iter__(self) -> Iterator[can.Message]:
+    def __iter__(self) -> Generator[can.Message, None, None]:
         place = self.file.tell()
         while head := self.file.read(_HEADER):
             if len(head) < _HEADER:

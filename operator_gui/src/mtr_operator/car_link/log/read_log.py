@@ -11,7 +11,7 @@ import can
 from mtr_operator.domain.errors import ConnectionFailed
 
 from .blf_log import BlfLog
-from .text.lines import Damaged, LoggedFrame, Names
+from .text.lines import Damaged, LoggedFrame, Names, checked
 from .text.text_log import TextLog
 
 # Kinds that are no text, by how their files begin.
@@ -29,15 +29,6 @@ _DAMAGED = "it is damaged or of another format"
 _NO_FRAME = {"is cut off": "it is cut off before its first frame"}
 # Of different messages of a log, so that any log takes little memory.
 _MAX_MESSAGES = 4096
-# Of a CAN FD frame, ISO 11898-1.
-_MAX_DATA_BYTES = 64
-
-
-def _check(frame: LoggedFrame) -> None:
-    """ValueError for what no bus has carried; the readers believe any number."""
-    limit = 1 << (29 if frame.is_extended else 11)
-    if not (math.isfinite(frame.time_s) and 0 <= frame.can_id < limit and len(frame.data) <= _MAX_DATA_BYTES):
-        raise ValueError(f"{frame.can_id:x}")
 
 
 class ReadLog:
@@ -89,7 +80,6 @@ class ReadLog:
         last_s: float | None = None
         try:
             for frame in _frames(self._reader):
-                _check(frame)
                 self.count += 1
                 self._look_at_time(frame.time_s, last_s)
                 self._times.frame(frame)
@@ -188,6 +178,13 @@ def _frames(reader: Iterable[Any]) -> Iterator[LoggedFrame]:
         if isinstance(each, LoggedFrame):
             yield each
         elif not (each.is_error_frame or each.is_remote_frame):
-            channel = each.channel if isinstance(each.channel, int) else 0
-            yield LoggedFrame(each.timestamp, each.arbitration_id, each.is_extended_id, bytes(each.data), each.is_fd,
-                              channel)
+            yield _checked(each)
+
+
+def _checked(message: can.Message) -> LoggedFrame:
+    channel = message.channel if isinstance(message.channel, int) else 0
+    try:
+        return checked(LoggedFrame(message.timestamp, message.arbitration_id, message.is_extended_id,
+                                   bytes(message.data), message.is_fd, channel))
+    except Damaged as error:
+        raise Damaged(f"the next frame {error}") from None

@@ -10,7 +10,11 @@ from typing import Mapping, NamedTuple, Sequence, Union
 # Bytes of a CAN FD frame by its data length code, ISO 11898-1.
 _FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
 _CLASSIC_BYTES = 8
-MAX_STANDARD = 0x7FF
+MAX_STANDARD, _MAX_EXTENDED = 0x7FF, 0x1FFF_FFFF
+# Vector's logs count buses in 16 bits, and no other kind has more.
+_MAX_CHANNEL = 0xFFFF
+# End of the year 9999 in UNIX time: no clock of a log shows more, whatever its origin.
+_LATEST_S = 253_402_300_799.0
 
 # Identifier and whether it is an extended one, by the name of a message.
 Names = Mapping[str, "tuple[int, bool]"]
@@ -100,8 +104,18 @@ class Channels:
 
 def frame(time_s: float, can_id: int, is_extended: bool, data: bytes, *, is_fd: bool = False,
           channel: int = 0) -> LoggedFrame:
-    """A frame; one of more than eight bytes is CAN FD."""
-    return LoggedFrame(time_s, can_id, is_extended, data, is_fd or len(data) > _CLASSIC_BYTES, channel)
+    """Return a frame; one of more than eight bytes is CAN FD. Damaged: see checked."""
+    return checked(LoggedFrame(time_s, can_id, is_extended, data, is_fd or len(data) > _CLASSIC_BYTES, channel))
+
+
+def checked(read: LoggedFrame) -> LoggedFrame:
+    """Return the frame; Damaged for what no bus has carried, because the readers accept any number."""
+    if not abs(read.time_s) <= _LATEST_S:
+        raise Damaged(f"has the time {read.time_s:.3g} s, which no clock shows")
+    limit = _MAX_EXTENDED if read.is_extended else MAX_STANDARD
+    if not (0 <= read.can_id <= limit and len(read.data) <= _FD_LENGTHS[-1] and read.channel <= _MAX_CHANNEL):
+        raise Damaged
+    return read
 
 
 def seconds(text: str) -> float:

@@ -38,7 +38,7 @@ class Busmaster(LineReader):
         hours, minutes, secs, parts, _, _, channel, id_text, kind, length, rest = match.groups()
         if parts is None:
             raise ValueError("has no time in hours, minutes and seconds")
-        self._at(3600.0 * int(hours) + 60.0 * int(minutes) + int(secs) + int(parts) / _PER_S)
+        self._at(3600.0 * float(hours) + 60.0 * int(minutes) + int(secs) + int(parts) / _PER_S)
         if kind.lower().endswith("r"):
             return Line.NO_DATA
         try:

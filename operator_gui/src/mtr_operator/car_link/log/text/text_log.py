@@ -20,6 +20,7 @@ from .trc import CanHackerTrace, PcanTrace
 # Lines from which the kind of a log is detected, and characters of the longest line.
 _HEAD, _LONGEST = 2000, 4096
 _QUOTED = 80
+_NOT_PRINTABLE = "\N{REPLACEMENT CHARACTER}"
 _GZIP = b"\x1f\x8b"
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _BY_SUFFIX = {".asc": "ASC", ".trc": "PCAN trace", ".csv": "table of SavvyCAN or python-can", ".log": "candump"}
@@ -67,7 +68,8 @@ class TextLog:
             self._head = [(number, text.strip()) for number, (text, _) in lines if text.strip()]
         best = _best(self._head, names, path.suffix.lower())
         if best.ambiguity:
-            raise ConnectionFailed(f"The CAN log {path} names the buses {best.ambiguity}, and only names with "
+            buses = _printable(best.ambiguity[:_QUOTED])
+            raise ConnectionFailed(f"The CAN log {path} names the buses {buses}, and only names with "
                                    "different numbers, such as can0 and can1, say which is which.")
         if not best.score[0]:
             raise ConnectionFailed(_refusal(path, self._head, best.first))
@@ -107,7 +109,12 @@ class TextLog:
 
 
 def _quoted_line(number: int, line: str, reason: str) -> str:
-    return f'line {number} {reason}: "{line[:_QUOTED]}"'
+    return _printable(f'line {number} {reason}: "{line[:_QUOTED]}"')
+
+
+def _printable(text: str) -> str:
+    """Replace control characters, which would move the cursor of a terminal or end a string."""
+    return "".join(each if each.isprintable() else " " if each.isspace() else _NOT_PRINTABLE for each in text)
 
 
 def _best(head: Sequence[Numbered], names: Names, suffix: str) -> _Trial:
