@@ -1,5 +1,7 @@
 """Values in logs that cannot be: each is refused with its line, and no sentence repeats hundreds of digits."""
 # SPDX-License-Identifier: Apache-2.0
+import base64
+
 import can
 import pytest
 
@@ -86,6 +88,27 @@ def test_blf_with_an_absurd_time_ends_there(tmp_path):
     path.write_bytes(whole[:last + 16] + b"\1\0\0\0" + whole[last + 20:last + 24] + b"\xff" * 8 + whole[last + 32:])
     count, sentences = outcome(path)
     assert count == 2 and "(the next frame has the time 1.84e+14 s, which no clock shows)" in sentences
+
+
+@pytest.mark.parametrize("size", range(1, 9))
+def test_hexadecimal_data_in_a_table_of_base64_is_refused_with_its_line(tmp_path, size):
+    path, good, bad = tmp_path / "bus.csv", bytes(range(size)), bytes(range(1, size + 1))
+    rows = [base64.b64encode(good).decode(), bad.hex(), base64.b64encode(good).decode()]
+    path.write_text(HEAD + "".join(f"{at}.0,0x321,0,0,0,{size},{data}\n" for at, data in enumerate(rows)))
+    read = ReadLog(path)
+    assert [frame.data for frame in read] == [good, good]
+    assert "has 1 line that is not understood and left out; line 3 has " in read.notice
+    path.write_text(HEAD + f"1.0,0x321,0,0,0,{size},{bad.hex()}\n" * 3)
+    count, sentence = outcome(path)
+    assert count == 0 and "line 2 has " in sentence and "base64" in sentence
+
+
+@pytest.mark.parametrize(("length", "data"), [(8, "AAA="), (0, "AAA="), (1, "AAA="), (3, "AAA="), (64, "AAA=")])
+def test_length_that_contradicts_the_data_is_refused(tmp_path, length, data):
+    path = tmp_path / "bus.csv"
+    path.write_text(f"{HEAD}1.0,0x321,0,0,0,{length},{data}\n")
+    count, sentence = outcome(path)
+    assert count == 0 and f"line 2 has 2 bytes of data as base64, and says {length}" in sentence
 
 
 def test_sentence_of_a_line_has_no_control_characters(tmp_path):

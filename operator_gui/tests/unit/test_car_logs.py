@@ -126,7 +126,7 @@ def test_file_that_is_no_log_is_named(tmp_path, name, content, words):
 
 @pytest.mark.parametrize(("name", "bad"), [
     ("bus.log", "(1.2) can0 320#" + "AA" * 65), ("bus.log", "(nan) can0 320#00"),
-    ("bus.csv", "1.2,0xFFFFFFFF,0,0,0,1,AAA=")])
+    ("bus.csv", "1.2,0xFFFFFFFF,0,0,0,2,AAA=")])
 def test_log_ends_before_a_frame_that_no_bus_has_carried(tmp_path, name, bad):
     good = {"bus.log": "(1.0) can0 320#0000", "bus.csv": "1.0,0x320,0,0,0,2,AAA="}[name]
     head = "timestamp,arbitration_id,extended,remote,error,dlc,data\n" if name == "bus.csv" else ""

@@ -10,7 +10,6 @@ from typing import Mapping, Sequence
 
 from .lines import (
     MAX_STANDARD,
-    Damaged,
     Line,
     LineReader,
     Read,
@@ -118,18 +117,26 @@ class Table(LineReader):
 
     def _data(self, values: Mapping[str, str]) -> bytes:
         text, length = values.get(_DATA, ""), values.get(_LENGTH, "")
-        if self._is_base64:
-            try:
-                return base64.b64decode(text, validate=True)
-            except (binascii.Error, ValueError):
-                raise Damaged from None
-        words = text.replace(self._delimiter, " ").split()
         if length and not re.fullmatch(r"\d{1,2}", length):
             raise ValueError(f"has the length {length}")
+        if self._is_base64:
+            return _base64(text, length)
+        words = text.replace(self._delimiter, " ").split()
         if not length:
             return hex_bytes("".join(words))
         count = int(length)
         return hex_bytes(words[0]) if len(words) == 1 and len(words[0]) == 2 * count else some_bytes(words, count)
+
+
+def _base64(text: str, length: str) -> bytes:
+    """Return the data of python-can, whose length has to agree: most hexadecimal texts are base64, too."""
+    try:
+        data = base64.b64decode(text, validate=True)
+    except (binascii.Error, ValueError):
+        raise ValueError("has data that is not base64, which python-can's header announces") from None
+    if length and len(data) != int(length):
+        raise ValueError(f"has {len(data)} bytes of data as base64, and says {length}")
+    return data
 
 
 def _is_header_again(line: str) -> bool:
