@@ -11,6 +11,7 @@ import can
 from mtr_operator.domain.errors import ConnectionFailed
 
 from .blf_log import BlfLog
+from .database_log import DatabaseLog
 from .text.lines import Damaged, LoggedFrame, Names, checked
 from .text.text_log import TextLog
 
@@ -159,7 +160,7 @@ def _reader(path: pathlib.Path, names: Names) -> Any:
     if kind == BLF_SUFFIX:
         return BlfLog(path)
     if kind == ".db":
-        return can.SqliteReader(str(path))
+        return DatabaseLog(path)
     if kind == ".mf4":
         return can.MF4Reader(str(path))
     if suffix in _MAGIC:

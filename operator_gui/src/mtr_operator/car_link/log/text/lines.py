@@ -9,7 +9,7 @@ from typing import Mapping, NamedTuple, Sequence, Union
 
 # Bytes of a CAN FD frame by its data length code, ISO 11898-1.
 _FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
-_CLASSIC_BYTES = 8
+CLASSIC_BYTES = 8
 MAX_STANDARD, _MAX_EXTENDED = 0x7FF, 0x1FFF_FFFF
 # Vector's logs count buses in 16 bits, and no other kind has more.
 _MAX_CHANNEL = 0xFFFF
@@ -105,7 +105,7 @@ class Channels:
 def frame(time_s: float, can_id: int, is_extended: bool, data: bytes, *, is_fd: bool = False,
           channel: int = 0) -> LoggedFrame:
     """Return a frame; one of more than eight bytes is CAN FD. Damaged: see checked."""
-    return checked(LoggedFrame(time_s, can_id, is_extended, data, is_fd or len(data) > _CLASSIC_BYTES, channel))
+    return checked(LoggedFrame(time_s, can_id, is_extended, data, is_fd or len(data) > CLASSIC_BYTES, channel))
 
 
 def checked(read: LoggedFrame) -> LoggedFrame:
