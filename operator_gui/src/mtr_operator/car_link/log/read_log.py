@@ -12,7 +12,9 @@ from mtr_operator.domain.errors import ConnectionFailed
 
 from .blf_log import BlfLog
 from .database_log import DatabaseLog
+from .mf4_log import check_blocks
 from .text.lines import Damaged, LoggedFrame, Names, checked
+from .text.opened import packed_kind
 from .text.text_log import TextLog
 
 # Kinds that are no text, by how their files begin.
@@ -162,9 +164,13 @@ def _reader(path: pathlib.Path, names: Names) -> Any:
     if kind == ".db":
         return DatabaseLog(path)
     if kind == ".mf4":
+        check_blocks(path)
         return can.MF4Reader(str(path))
     if suffix in _MAGIC:
         raise ValueError(suffix)
+    packed = packed_kind(path, _MAGIC)
+    if packed:
+        raise Damaged(f"it is a log of the kind {packed[1:]} that was packed with gzip; unpack it first")
     try:
         return TextLog(path, names)
     except ConnectionFailed as error:

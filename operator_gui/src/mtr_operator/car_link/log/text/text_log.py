@@ -2,8 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import codecs
-import gzip
 import itertools
 import pathlib
 from typing import IO, Iterator, NamedTuple, Sequence, Tuple
@@ -13,16 +11,15 @@ from mtr_operator.domain.errors import ConnectionFailed
 from .asc import Asc
 from .candump import CandumpConsole, CandumpLog
 from .lines import Ambiguous, Damaged, Line, LineReader, LoggedFrame, Names, WrongShape
+from .opened import opened, whole_lines
 from .others import Busmaster, Crtd, TimeIdData
 from .tables import Table
 from .trc import CanHackerTrace, PcanTrace
 
-# Lines from which the kind of a log is detected, and characters of the longest line.
-_HEAD, _LONGEST = 2000, 4096
+# Lines from which the kind of a log is detected.
+_HEAD = 2000
 _QUOTED = 80
 _NOT_PRINTABLE = "\N{REPLACEMENT CHARACTER}"
-_GZIP = b"\x1f\x8b"
-_MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 _BY_SUFFIX = {".asc": "ASC", ".trc": "PCAN trace", ".csv": "table of SavvyCAN or python-can", ".log": "candump"}
 
 
@@ -63,9 +60,8 @@ class TextLog:
         self.left_out = self.without_data = 0
         self.first = ""
         self._path, self._names = path, names
-        with _opened(path) as file:
-            lines = enumerate(itertools.islice(_lines(file), _HEAD), 1)
-            self._head = [(number, text.strip()) for number, (text, _) in lines if text.strip()]
+        with opened(path) as file:
+            self._head = list(_head(file))
         best = _best(self._head, names, path.suffix.lower())
         if best.ambiguity:
             buses = _printable(best.ambiguity[:_QUOTED])
@@ -78,8 +74,8 @@ class TextLog:
 
     def __iter__(self) -> Iterator[LoggedFrame]:
         reader, lengths = self._reader(), dict[tuple[int, bool, int], int]()
-        with _opened(self._path) as file:
-            for number, (text, is_whole) in enumerate(_lines(file), 1):
+        with opened(self._path) as file:
+            for number, (text, is_whole) in enumerate(whole_lines(file), 1):
                 line = text.strip()
                 try:
                     read = reader.read(line) if line else Line.NOTHING
@@ -147,27 +143,14 @@ def _refusal(path: pathlib.Path, head: Sequence[Numbered], first: str) -> str:
     return f"The CAN log {path} holds no frame: {line}; read are {kinds()}, BLF, MF4 and python-can's databases."
 
 
-def _opened(path: pathlib.Path) -> IO[str]:
-    with path.open("rb") as file:
-        is_packed = file.read(len(_GZIP)) == _GZIP
-    if not is_packed:
-        with path.open("rb") as file:
-            encoding = _encoding(file.read(4))
-        return path.open(encoding=encoding, errors="replace")
-    with gzip.open(path) as packed:
-        encoding = _encoding(packed.read(4))
-    return gzip.open(path, "rt", encoding=encoding, errors="replace")
-
-
-def _encoding(begin: bytes) -> str:
-    marked = next((name for mark, name in _MARKS.items() if begin.startswith(mark)), "")
-    if marked:
-        return marked
-    # A letter of UTF-16 without its mark has a zero next to it.
-    return "utf-16-le" if begin[1:2] == b"\0" else "utf-16-be" if begin[:1] == b"\0" and len(begin) > 1 else "utf-8"
-
-
-def _lines(file: IO[str]) -> Iterator[tuple[str, bool]]:
-    """Lines, and whether each has its end."""
-    while line := file.readline(_LONGEST):
-        yield line, line.endswith("\n")
+def _head(file: IO[str]) -> Iterator[Numbered]:
+    """The first lines that are not empty; of a damaged log those before the damage, but at least one."""
+    count = 0
+    try:
+        for number, (text, _) in enumerate(itertools.islice(whole_lines(file), _HEAD), 1):
+            if text.strip():
+                count += 1
+                yield number, text.strip()
+    except Damaged:
+        if not count:
+            raise
