@@ -170,6 +170,14 @@ def test_each_damage_of_a_blf_has_its_own_reason(tmp_path, parts, words):
     assert frames == [] and words in sentence and "cannot be read: " in sentence and sentence.endswith(".")
 
 
+def test_restore_points_between_containers_are_no_damage(tmp_path):
+    whole = written(tmp_path / "sound.blf")
+    begins = [*containers(whole), len(whole)]
+    points = struct.pack("<4sHHLL", b"LOBJ", 16, 1, 30, 115) + bytes(14 + 30 % 4)
+    parts = [whole[begin:end] for begin, end in zip(begins, begins[1:])]
+    assert outcome(log_of(tmp_path / "points.blf", parts[0], points, *parts[1:], points)) == (FRAMES, "")
+
+
 def test_sound_blf_without_a_frame_holds_none(tmp_path):
     path = tmp_path / "bus.blf"
     with can.BLFWriter(str(path)):

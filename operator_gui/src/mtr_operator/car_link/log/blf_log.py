@@ -31,6 +31,8 @@ _MAX_HEADER_BYTES = 4096
 # Each object begins with this word, the length and version of its header, its own length, and its kind.
 _OBJECT, _LENGTH_AT, _HEADER = b"LOBJ", 8, OBJ_HEADER_BASE_STRUCT.size
 _LENGTH_AND_KIND = struct.Struct("<LL")
+# Restore points of Vector's programs stand between containers, and hold no frame.
+_RESTORE_POINTS = 115
 # Up to so many bytes of padding and signature are between two objects.
 _PADDED = 8
 # Classic frames with their whole header; a shorter object would contain bytes of the next one.
@@ -79,6 +81,9 @@ class BlfLog(BLFReader):
             raise Damaged(f"no object begins at byte {place}")
         if place + length > self._size == self.file_size:
             raise Damaged(f"the object at byte {place} states {length} bytes, more than the file has")
+        if kind == _RESTORE_POINTS:
+            self.file.seek(length - _HEADER + length % 4, 1)
+            return
         if kind != LOG_CONTAINER:
             raise Damaged(f"the object at byte {place} is of kind {kind}, and only containers (10) can be there")
         if length > MAX_CONTAINER_BYTES:
