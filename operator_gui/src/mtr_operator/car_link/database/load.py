@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import logging
 import pathlib
 from typing import Any
 
@@ -24,6 +25,11 @@ _DBC = ".dbc"
 _READABLE = (OSError, UnicodeError, cantools.database.errors.Error)
 _DAMAGED = "it is damaged"
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
+
+# The library logs names of messages as a stranger wrote them, of any length. Every program that reads such a database
+# imports this module, and contradictions that matter to a profile are refused with a sentence.
+logging.getLogger("cantools").addHandler(logging.NullHandler())
+logging.getLogger("cantools").propagate = False
 
 
 def load_database(path: pathlib.Path) -> CarDatabase:
