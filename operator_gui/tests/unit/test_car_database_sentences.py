@@ -6,6 +6,7 @@ import sys
 import pytest
 
 from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.errors import ConnectionFailed
 
 PROFILE = "database: {}\nmessage: DOORS\nsignal: LOCK\nstates: {{1: locked, 2: unlocked}}\ncycle_time_s: 0.1\n"
 KCD = ('<NetworkDefinition xmlns="http://kayak.2codeornot2code.org/1.0"><Document name="x"/><Bus name="b">{}</Bus>'
@@ -24,6 +25,7 @@ ID=321h
 Len=8
 Sig=LOCK 0
 """
+ARXML = '<AUTOSAR xmlns="http://autosar.org/schema/r4.0">{}</AUTOSAR>'
 HOSTILE = "A&#10;all is well&#x9b;31m" + 50_000 * "y"
 
 
@@ -33,6 +35,15 @@ def written(folder, text, suffix):
     path = folder / "car.yaml"
     path.write_text(PROFILE.format(f"car{suffix}"))
     return str(path)
+
+
+def refusal(folder, text, suffix):
+    """The sentence with which a profile with this database is refused."""
+    with pytest.raises(ConnectionFailed) as raised:
+        load_profile(written(folder, text, suffix))
+    sentence = str(raised.value)
+    assert sentence.isprintable() and len(sentence) < 600 + len(str(folder))
+    return sentence
 
 
 NAMES_TWICE = {
@@ -48,3 +59,22 @@ def test_library_prints_nothing_of_a_stranger(tmp_path, suffix, root):
     found = subprocess.run([sys.executable, "-c", code, written(tmp_path, NAMES_TWICE[suffix], suffix)],
                            capture_output=True, text=True, check=False)
     assert (found.returncode, found.stdout, found.stderr) == (0, "", "")
+
+
+@pytest.mark.parametrize(("suffix", "text", "words"), [
+    (".sym", SYM.replace("Sig=LOCK unsigned", "Sig=LOCKS unsigned"), 'SYM: "the signal LOCK has no definition".'),
+    (".sym", SYM.replace("Sig=LOCK unsigned", "Sig=LOCKS unsigned").replace("Sig=LOCK 0", 'Sig="L\tK\x01" 0'),
+     'SYM: "the signal L K? has no definition".'),
+    (".sym", SYM.replace("Len=8", "Len=8\nMux=A 8,8 1h") + "\n[DOORS]\nLen=8\nSig=LOCK 0\n",
+     'SYM: "a message is multiplexed, and a part of it has no line Mux".'),
+    (".sym", SYM.replace("Len=8", "Len=-8"), "cannot be used: its length is negative."),
+    (".kcd", KCD.format(KCD_DOORS.replace('length="8"', 'length="-8"')), "cannot be used: its length is negative."),
+    (".kcd", KCD.format(KCD_DOORS.replace('"0x321"', '"-5"')), "cannot be used: its identifier is negative."),
+    (".kcd", KCD.format(KCD_DOORS.replace("/></M", "><LabelSet><Label name='a'/></LabelSet></Signal></M")),
+     'KCD: "value is missing".'),
+    (".arxml", ARXML.format(3000 * "<AR-PACKAGES><AR-PACKAGE>" + 3000 * "</AR-PACKAGE></AR-PACKAGES>"),
+     'ARXML: "it is nested too deeply".')],
+    ids=["no definition", "no definition of a hostile name", "no Mux", "SYM length", "KCD length", "KCD identifier",
+         "missing attribute", "nested"])
+def test_fault_is_stated_in_words(tmp_path, suffix, text, words):
+    assert words in refusal(tmp_path, text, suffix)

@@ -33,15 +33,15 @@ class CarDatabase:
 
     def message(self, name: str) -> Any:
         """Return a message by its name; ConnectionFailed states the fault of one that cannot be used."""
+        found = ([message for message in self.messages if message.name == each] for each in _spellings(name))
+        known = next(filter(None, found), [])
         problem = next((self._problems.messages[each] for each in _spellings(name)
-                        if each in self._problems.messages), "")
+                        if each in self._problems.messages), "") or (known and _negative(known[-1]))
         if problem:
             place = f"{self.path}{_line(self._problems.message_lines.get(name))}"
             raise ConnectionFailed(f"Message {name} of CAN database {place} cannot be used: {problem}.")
-        for each in _spellings(name):
-            found = [message for message in self.messages if message.name == each]
-            if found:
-                return found[-1]
+        if known:
+            return known[-1]
         raise ConnectionFailed(f"CAN database {self.path} has no message {name}{self._unread()}.")
 
     def signal(self, message: Any, name: str) -> str:
@@ -84,6 +84,12 @@ def _spellings(name: str) -> tuple[str, ...]:
 
 def _line(number: int | None) -> str:
     return "" if number is None else f", line {number},"
+
+
+def _negative(message: Any) -> str:
+    if message.frame_id < 0:
+        return "its identifier is negative"
+    return "its length is negative" if message.length < 0 else ""
 
 
 def _misplaced(message: Any, signal: Any) -> str:

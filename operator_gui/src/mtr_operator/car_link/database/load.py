@@ -24,6 +24,9 @@ _DBC = ".dbc"
 # Exceptions whose texts a person understands, and what is said of all others.
 _READABLE = (OSError, UnicodeError, cantools.database.errors.Error)
 _DAMAGED = "it is damaged"
+# Kinds of databases, as the library names the reason of each.
+_KINDS = ("ARXML", "DBC", "KCD", "SYM", "CDD")
+_WITHOUT_MUX = "a message is multiplexed, and a part of it has no line Mux"
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
 # The library logs names of messages as a stranger wrote them, of any length. Every program that reads such a database
@@ -61,8 +64,29 @@ def decoded_text(data: bytes) -> str:
 
 
 def one_line(error: Exception) -> str:
-    """Return the text of a library's exception on one line, shortened and without a full stop."""
-    return " ".join((getattr(error, "strerror", None) or str(error)).split()).rstrip(".")[:_MAX_SAID]
+    """Return the text of a library's exception on one line, printable, shortened and without a full stop."""
+    text = " ".join((getattr(error, "strerror", None) or _reason(error)).split()).rstrip(".")[:_MAX_SAID]
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
+
+
+def _reason(error: Exception) -> str:
+    """Text of an exception; of each kind that the library tried, when it could read none of them."""
+    if not isinstance(error, cantools.database.UnsupportedDatabaseFormatError):
+        return str(error)
+    causes = ((kind, getattr(error, f"e_{kind.lower()}", None)) for kind in _KINDS)
+    return ", ".join(f'{kind}: "{_stated(kind, cause)}"' for kind, cause in causes if cause is not None)
+
+
+def _stated(kind: str, cause: Exception) -> str:
+    """What is wrong with the file, where the text of the exception states only an internal detail."""
+    if isinstance(cause, RecursionError):
+        return "it is nested too deeply"
+    if type(cause) is not KeyError:
+        return str(cause)
+    name = str(cause.args[0]) if cause.args else ""
+    if kind != "SYM":
+        return f"{name} is missing"
+    return _WITHOUT_MUX if name == "Mux" else f"the signal {name} has no definition"
 
 
 def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
