@@ -10,6 +10,10 @@ from typing import Any, Sequence
 from mtr_operator.domain.errors import ConnectionFailed
 
 from .codec import BITS_PER_BYTE, end_bit, pages
+from .repeated import REPEATED, contradicting
+
+# Characters of a name in a sentence.
+_MAX_NAME = 100
 
 
 @dataclass
@@ -51,8 +55,8 @@ class CarDatabase:
             problem = self._problems.signals.get((message.name, each), "")
             if not problem and each not in known:
                 continue
-            problem = problem or _misplaced(message, known[each]) or _without_number(known[each]) or _without_page(
-                message, each)
+            problem = problem or _misplaced(message, known[each]) or _without_number(known[each]) or (
+                self._without_page(message, each) or self._as_another_message(message, each))
             if not problem:
                 return each
             place = f"{self.path}{_line(self._problems.signal_lines.get((message.name, each)))}"
@@ -66,8 +70,28 @@ class CarDatabase:
         if self._refusal:
             return f"; not all of it could be read: {self._refusal}"
         for name, problem in self._problems.messages.items():
-            return f"; message {name}{_line(self._problems.message_lines.get(name))} could not be read: {problem}"
+            # A repeated message was read, and is not the one that is missing.
+            if not problem.startswith(REPEATED):
+                return f"; message {self._placed(name)} could not be read: {problem}"
         return ""
+
+    def _placed(self, name: str) -> str:
+        """A message with its line."""
+        return f"{printable(name)[:_MAX_NAME]}{_line(self._problems.message_lines.get(name))}"
+
+    def _without_page(self, message: Any, name: str) -> str:
+        try:
+            multiplexers = [multiplexer for multiplexer, _ in pages(message, name)]
+        except KeyError as error:
+            return f"its multiplexer {error.args[0]} is not in the message"
+        faults = ((each.name, self._problems.signals.get((message.name, each.name)) or _misplaced(message, each))
+                  for each in multiplexers)
+        return next((f"its multiplexer {name} cannot be used: {fault}" for name, fault in faults if fault), "")
+
+    def _as_another_message(self, message: Any, name: str) -> str:
+        other = contradicting(message, name, self.messages)
+        return "" if other is None else (f"message {self._placed(other.name)} has the same identifier "
+                                         f"{message.frame_id:#x} and contradicts it")
 
     def is_usable(self, message: Any, name: str) -> bool:
         """True for a signal of a message that a profile can name."""
@@ -75,6 +99,11 @@ class CarDatabase:
             return self.message(message.name) is message and self.signal(message, name) == name
         except ConnectionFailed:
             return False
+
+
+def printable(text: str) -> str:
+    """Return a text of a stranger without control characters and the like."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
 def _spellings(name: str) -> tuple[str, ...]:
@@ -113,12 +142,3 @@ def is_finite(number: Any) -> bool:
         return math.isfinite(number)
     except OverflowError:
         return False
-
-
-def _without_page(message: Any, name: str) -> str:
-    try:
-        multiplexers = [multiplexer for multiplexer, _ in pages(message, name)]
-    except KeyError as error:
-        return f"its multiplexer {error.args[0]} is not in the message"
-    faults = ((each.name, _misplaced(message, each)) for each in multiplexers)
-    return next((f"its multiplexer {name} cannot be used: {fault}" for name, fault in faults if fault), "")

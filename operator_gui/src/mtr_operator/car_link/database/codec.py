@@ -67,6 +67,24 @@ def end_bit(signal: Any) -> int:
     return int(_first_bit(signal) + signal.length)
 
 
+def reading(signal: Any) -> tuple[Any, ...]:
+    """Facts on which the values of a signal depend; definitions of one signal that differ in them contradict."""
+    pages_of = None if signal.multiplexer_ids is None else tuple(sorted(signal.multiplexer_ids))
+    return (signal.start, signal.length, signal.byte_order, bool(signal.is_signed), bool(signal.conversion.is_float),
+            signal.scale, signal.offset, signal.minimum, signal.maximum, signal.multiplexer_signal, pages_of)
+
+
+def occupied(signal: Any) -> int:
+    """Bits of a signal as a number, with bit 0 of the first byte lowest; 0 when it begins before the frame."""
+    if signal.length < 1 or _first_bit(signal) < 0:
+        return 0
+    bits, end = (1 << signal.length) - 1, end_bit(signal)
+    if not _is_big_endian(signal):
+        return int(bits << signal.start)
+    size = -(-end // BITS_PER_BYTE)
+    return int.from_bytes((bits << BITS_PER_BYTE * size - end).to_bytes(size, "big"), "little")
+
+
 def as_decoded(signal: Any, raw: int) -> int | None:
     """A raw value as a profile lists it, as it is decoded: 1 of a signed bit is -1. None when the signal has no such
     value."""

@@ -10,6 +10,7 @@ from cantools.database.conversion import BaseConversion
 
 from .car_database import Problems
 from .dbc_lines import DbcMessage, DbcSignal, quoted
+from .repeated import REPEATED
 
 _EXTENDED, _STANDARD_BITS, _EXTENDED_BITS = 0x8000_0000, 11, 29
 # Values of a multiplexer that one signal can have; more are a mistake.
@@ -97,7 +98,7 @@ def problems(lines: Sequence[DbcMessage], messages: Sequence[Any]) -> Problems:
                      {(message.name, signal.name): signal.line for message in lines for signal in message.signals})
     for name, same in _several(lines):
         if any(_facts(each) != _facts(same[0]) for each in same):
-            found.messages[name] = "it is there more than once, in lines " + _joined(same)
+            found.messages[name] = f"{REPEATED}, in lines {_joined(same)}"
     usable = {message.name: {signal.name: signal for signal in message.signals} for message in messages}
     for message in lines:
         if message.problem:
@@ -105,7 +106,7 @@ def problems(lines: Sequence[DbcMessage], messages: Sequence[Any]) -> Problems:
         known = usable.get(message.name, {})
         for name, same in _several(message.signals):
             if any(_facts(each) != _facts(same[0]) for each in same):
-                found.signals[message.name, name] = "it is there more than once, in lines " + _joined(same)
+                found.signals[message.name, name] = f"{REPEATED}, in lines {_joined(same)}"
         for line in message.signals:
             problem = line.problem
             if line.name in known:
@@ -132,4 +133,7 @@ def _facts(line: Any) -> Any:
     """Facts in which two lines of one name have to agree."""
     if isinstance(line, DbcMessage):
         return line.number, line.length, sorted(map(_facts, line.signals), key=str)
-    return (line.name, line.page, line.start, line.length, line.is_big_endian, line.is_signed, line.is_float)
+    # Distances of phones depend on scale and offset, values of counters on the limits.
+    numbers = (line.scale, line.offset, *line.limits)
+    return (line.name, line.page, line.start, line.length, line.is_big_endian, line.is_signed, line.is_float,
+            *(text if (number := _number(text)) is None else number for text in numbers))

@@ -12,15 +12,17 @@ import cantools
 from mtr_operator.domain.errors import ConnectionFailed
 
 from ..further.sizes import MAX_SIZE, too_large
-from .car_database import CarDatabase, Problems
+from .car_database import CarDatabase, Problems, printable
 from .dbc_lines import dbc_messages
 from .dbc_messages import built, problems
+from .repeated import contradictions, join_pages
+from .sym_text import sym_problems
 
 # Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
 _MAX_DATABASE_BYTES = 16 * 1024 * 1024
 # Of a library's sentence, characters.
 _MAX_SAID = 300
-_DBC = ".dbc"
+_DBC, _SYM = ".dbc", ".sym"
 # Exceptions whose texts a person understands, and what is said of all others.
 _READABLE = (OSError, UnicodeError, cantools.database.errors.Error)
 _DAMAGED = "it is damaged"
@@ -65,8 +67,7 @@ def decoded_text(data: bytes) -> str:
 
 def one_line(error: Exception) -> str:
     """Return the text of a library's exception on one line, printable, shortened and without a full stop."""
-    text = " ".join((getattr(error, "strerror", None) or _reason(error)).split()).rstrip(".")[:_MAX_SAID]
-    return "".join(letter if letter.isprintable() else "?" for letter in text)
+    return printable(" ".join((getattr(error, "strerror", None) or _reason(error)).split()).rstrip(".")[:_MAX_SAID])
 
 
 def _reason(error: Exception) -> str:
@@ -84,14 +85,21 @@ def _stated(kind: str, cause: Exception) -> str:
     if type(cause) is not KeyError:
         return str(cause)
     name = str(cause.args[0]) if cause.args else ""
-    if kind != "SYM":
-        return f"{name} is missing"
+    if kind != "SYM" or not name:
+        return name if " " in name else f"{name or 'a part'} is missing"
     return _WITHOUT_MUX if name == "Mux" else f"the signal {name} has no definition"
 
 
 def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
     if path.suffix.lower() != _DBC:
-        return CarDatabase(path, _messages(cantools.database.load_file(str(path), strict=False)), Problems())
+        messages = _messages(cantools.database.load_file(str(path), strict=False))
+        join_pages(messages)
+        repeated_messages, repeated_signals = contradictions(messages)
+        found = Problems(messages=repeated_messages, signals=repeated_signals)
+        if path.suffix.lower() == _SYM:
+            # The library reads such a file in this encoding, and the names have to be the same.
+            sym_problems(path.read_text(encoding="cp1252", errors="replace"), messages, found)
+        return CarDatabase(path, messages, found)
     lines, refusal = dbc_messages(text), ""
     try:
         messages = _messages(cantools.database.load_file(str(path), strict=False))
