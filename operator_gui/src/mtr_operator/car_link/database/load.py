@@ -72,10 +72,9 @@ def one_line(error: Exception) -> str:
 
 def _reason(error: Exception) -> str:
     """Text of an exception; of each kind that the library tried, when it could read none of them."""
-    if not isinstance(error, cantools.database.UnsupportedDatabaseFormatError):
-        return str(error)
-    causes = ((kind, getattr(error, f"e_{kind.lower()}", None)) for kind in _KINDS)
-    return ", ".join(f'{kind}: "{_stated(kind, cause)}"' for kind, cause in causes if cause is not None)
+    causes = [(kind, getattr(error, f"e_{kind.lower()}", None)) for kind in _KINDS]
+    stated = [f'{kind}: "{_stated(kind, cause)}"' for kind, cause in causes if cause is not None]
+    return ", ".join(stated) or str(error)
 
 
 def _stated(kind: str, cause: Exception) -> str:
