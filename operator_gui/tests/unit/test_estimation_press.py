@@ -208,6 +208,19 @@ def test_failures_inside_where_all_else_works_are_told_as_a_hole():
     assert estimate(plan, search).holes_m == (4.05,)
 
 
+@pytest.mark.parametrize("rows", [
+    ((5.45, 4, 4), (5.8, 4, 4), (6.15, 1, 4), (6.5, 5, 6), (6.85, 1, 6), (7.2, 0, 6)),
+    ((5.45, 6, 6), (5.8, 6, 6), (6.15, 2, 5), (6.5, 6, 6), (6.85, 3, 6), (7.2, 0, 6))])
+def test_failures_within_the_interval_of_the_boundary_are_not_a_hole(rows):
+    """Rows: distance, presses that worked, presses."""
+    grid = PLAN.hypotheses()
+    search = RadialSearch(PLAN, grid, Campaign(grid), 1, 10.0)
+    for distance_m, worked, count in rows:
+        for number in range(count):
+            search.add(Press(distance_m, number < worked))
+    assert estimate(PLAN, search).holes_m == ()
+
+
 def test_robot_that_stops_a_little_beside_the_place_presses_there_again_nevertheless():
     """The key stands some millimetres off, each time another way."""
     grid = PLAN.hypotheses()

@@ -119,7 +119,10 @@ def _curve(posterior: RadialPosterior, distance_m: float) -> float:
 
 
 def _holes(search: RadialSearch) -> tuple[float, ...]:
-    """Places that fail more often than what is known without them allows."""
+    """Places that fail more often than what is known without them allows.
+
+    A place within the interval that d50 has without it is none: failures there may be the boundary itself.
+    """
     presses, found = search.presses, []
     farthest_m = max((press.distance_m for press in presses if press.worked), default=0.0)
     inside = [press for press in presses if press.distance_m < farthest_m]
@@ -128,11 +131,17 @@ def _holes(search: RadialSearch) -> tuple[float, ...]:
         here = [press.worked for press in beside]
         distance_m = statistics.fmean(press.distance_m for press in beside)
         failures = here.count(False)
-        if failures >= 2:
-            works = min(_curve(search.posterior_without(distance_m), distance_m), SURE_TO_WORK)
-            if float(bdtrc(failures - 1, len(here), 1.0 - works)) < _RARE:
-                found.append(distance_m)
+        if failures >= 2 and _is_rare(search.posterior_without(distance_m), distance_m, failures, len(here)):
+            found.append(distance_m)
     return tuple(found)
+
+
+def _is_rare(posterior: RadialPosterior, distance_m: float, failures: int, count: int) -> bool:
+    """True for a place nearer than the boundary where so many failures are rare over all curves that are possible."""
+    grid = posterior.hypotheses
+    works = (1.0 - posterior.lapse) * falling(distance_m, grid.d50_m, grid.width_m[:, None])
+    tail = bdtrc(failures - 1, count, 1.0 - np.minimum(works, SURE_TO_WORK))
+    return distance_m < posterior.d50().low_m and float(np.sum(posterior.by_width * tail)) < _RARE
 
 
 def _quality(posterior: RadialPosterior, presses: Sequence[Press]) -> float:
