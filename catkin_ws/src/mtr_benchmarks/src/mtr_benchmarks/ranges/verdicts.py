@@ -188,7 +188,8 @@ def _empty_axis(number: int, _: float) -> HandleRequestResult:
     return HandleRequestResult(number, "left", 1.0, LineStatus.INVALID, 0, 0, 0, place_sigma_m=_SIGMA_M)
 
 
-# A handle's zone ends at 1.6 to 2.8 m.
+# A handle's zone ends at 1.6 to 2.8 m; its fading is finer by the same scale, and the parameters state so.
+_HANDLE_SCALE = 0.2
+_HANDLE = HandleRequestParameters(border_requests=0, half_wavelength_m=_HANDLE_SCALE * HALF_WAVELENGTH_M)
 SEARCHES = {"key_press": Search(KEY_PRESS, PARAMETERS, _empty_radial, PRESS),
-            "handle_request": Search(HANDLE_REQUEST, HandleRequestParameters(border_requests=0), _empty_axis,
-                                     HANDLE_WORD, 0.2)}
+            "handle_request": Search(HANDLE_REQUEST, _HANDLE, _empty_axis, HANDLE_WORD, _HANDLE_SCALE)}
