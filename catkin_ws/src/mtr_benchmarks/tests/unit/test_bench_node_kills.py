@@ -165,10 +165,18 @@ def test_wheels_stand_soon_after_the_zero(wheels_stop_s, is_met):
     assert {row.requirement: row.is_met for row in kills_main.report([found], 1).rows}[kills_main.STOOD] == is_met
 
 
-@pytest.mark.parametrize("until_s, is_judged", [(5.6, False), (5.68, False), (5.8, True)])
-def test_record_that_ends_with_the_test_before_the_robot_had_to_stand_is_not_judged(until_s, is_judged):
+@pytest.mark.parametrize("until_s, is_judged, shows_standstill", [
+    (5.5, False, False), (5.6, True, False), (5.72, True, False), (5.8, True, True)])
+def test_record_that_ends_with_the_test_proves_what_it_shows(until_s, is_judged, shows_standstill):
     kill = kill_of("dispatcher", speeds(99.0, until_s), speeds(99.0, until_s), 5.0, None)
-    assert kill.is_judged == is_judged and kill.stopped_in_time != is_judged
+    assert (kill.is_judged, kill.stopped_in_time, kill.shows_standstill) == (is_judged, not is_judged, shows_standstill)
+
+
+def test_standstill_is_not_judged_by_a_record_that_ends_before_it():
+    ended = kill_of("dispatcher", speeds(5.44, 5.64), speeds(99.0, 5.64), 5.0, None)
+    whole = kill_of("dispatcher", speeds(5.4), speeds(5.5), 5.0, 8.0)
+    rows = {row.requirement: row for row in kills_main.report([Found("autolock", [ended, whole])], 2).rows}
+    assert rows[kills_main.STOOD].is_met and rows[kills_main.STOPPED].value == pytest.approx(0.44)
 
 
 def test_robot_that_turns_has_not_stopped():

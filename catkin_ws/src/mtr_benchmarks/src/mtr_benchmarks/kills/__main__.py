@@ -67,8 +67,9 @@ def report(tests: List[Found], wanted: int) -> BenchmarkReport:
     rows = [Row(Requirement(name, "(count)", must=0.0), float(found[name]), is_whole,
                 remark=f"{len(kills)} kills, {len(tests)} tests") for name in MUST]
     is_judged = is_whole and len(judged) >= MIN_JUDGED_SHARE * wanted
-    rows += [Row(requirement, _longest(judged, name), is_judged, remark=f"{len(judged)} kills of a robot that drove")
-             for requirement, name in ((STOPPED, "stopped_s"), (STOOD, "stood_s"))]
+    shown = [kill for kill in judged if kill.shows_standstill]
+    rows += [Row(requirement, _longest(found_s, name), is_judged, remark=f"{len(found_s)} kills of a robot that drove")
+             for requirement, name, found_s in ((STOPPED, "stopped_s", judged), (STOOD, "stood_s", shown))]
     of_node = collections.Counter(kill.node for kill in kills)
     figures = {"kills": {node: of_node[node] for node in LIMITS_S},
                "tests": [{"scenario": test.scenario, "kills": [kill._asdict() for kill in test.kills],

@@ -10,7 +10,7 @@ from ..faults.judge import STANDS_MPS, standstill_s
 # between board and robot is the node of the peripherals.
 LIMITS_S = {"dispatcher": 0.0, "state_machine": 0.0, "motion_planner": 0.0, "peripherals": 0.5}
 STANDS_S = 0.5
-# The servos and tyres need this time after the zero velocity, 0.18 s at most where it was measured (docs/faults.md).
+# The servos and tyres need up to 0.18 s after the zero velocity (measured, docs/faults.md).
 AFTER_ZERO_S = 0.2
 # Of stamps as floats; two are 20 ms apart.
 ROUNDING_S = 1e-6
@@ -46,11 +46,15 @@ class Kill(NamedTuple):
     def is_judged(self) -> bool:
         """True when the robot had to stop: it drove, and the node was away for longer than it may drive on.
 
-        A record that ends before the robot had to stand proves neither.
+        A record that ends before that time proves nothing.
         """
-        had_to_stop = (self.observed_s > self.limit_s + AFTER_ZERO_S if self.back_s is None
-                       else self.back_s > self.limit_s + ROUNDING_S)
-        return self.speed_mps > STANDS_MPS and had_to_stop
+        away_s = self.observed_s if self.back_s is None else self.back_s
+        return self.speed_mps > STANDS_MPS and away_s > self.limit_s + ROUNDING_S
+
+    @property
+    def shows_standstill(self) -> bool:
+        """False if the record ended with the test before the wheels had to be at rest."""
+        return self.back_s is not None or self.observed_s > self.limit_s + AFTER_ZERO_S
 
     @property
     def stopped_in_time(self) -> bool:
