@@ -78,7 +78,7 @@ def _reason(error: Exception) -> str:
 
 
 def _stated(kind: str, cause: Exception) -> str:
-    """What is wrong with the file, where the text of the exception states only an internal detail."""
+    """Return the fault of the file, also if the text of the exception states only an internal detail."""
     if isinstance(cause, RecursionError):
         return "it is nested too deeply"
     if type(cause) is not KeyError:

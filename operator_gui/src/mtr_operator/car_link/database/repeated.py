@@ -72,7 +72,7 @@ def _difference(messages: Sequence[Any]) -> str:
 
 
 def _frame(message: Any) -> tuple[Any, ...]:
-    """Facts by which frames of messages are told apart; KCD and ARXML describe several buses in one file."""
+    """Return the facts that distinguish frames of messages; KCD and ARXML describe several buses in one file."""
     return message.frame_id, message.is_extended_frame, message.bus_name
 
 

@@ -31,18 +31,18 @@ _MAX_HEADER_BYTES = 4096
 # Each object begins with this word, the length and version of its header, its own length, and its kind.
 _OBJECT, _LENGTH_AT, _HEADER = b"LOBJ", 8, OBJ_HEADER_BASE_STRUCT.size
 _LENGTH_AND_KIND = struct.Struct("<LL")
-# Restore points of Vector's programs stand between containers, and hold no frame.
+# Vector's programs write restore points between the containers; they contain no frames.
 _RESTORE_POINTS = 115
-# Up to so many bytes of padding and signature are between two objects.
+# The most bytes of padding and signature between two objects.
 _PADDED = 8
 # Classic frames with their whole header; a shorter object would contain bytes of the next one.
 _MIN_BYTES = {CAN_MESSAGE: 48, CAN_MESSAGE2: 48}
 
 
 class BlfLog(BLFReader):
-    """Iterator over its messages; Damaged, whose text is the reason, at the first damage.
+    """Iterator over its messages; raises Damaged with the reason at the first damage.
 
-    A container whose check sum is wrong is not used at all: nothing tells where in it the damage begins.
+    A container with a wrong check sum is not used at all, because the place of the damage in it is unknown.
     """
 
     def __init__(self, path: pathlib.Path):
@@ -51,7 +51,7 @@ class BlfLog(BLFReader):
         self._size = path.stat().st_size
         self._ends_early = False
         self._rest = bytearray()
-        self._wanted = self._begun_at = 0
+        self._wanted = self._object_at = 0
 
     @property
     def is_cut_off(self) -> bool:
@@ -69,7 +69,7 @@ class BlfLog(BLFReader):
             place = self.file.tell()
         self.stop()
         if self._is_incomplete and self._size == self.file_size:
-            raise Damaged(f"an object that begins in the container at byte {self._begun_at} is incomplete")
+            raise Damaged(f"an object that begins in the container at byte {self._object_at} is incomplete")
 
     @property
     def _is_incomplete(self) -> bool:
@@ -112,7 +112,7 @@ class BlfLog(BLFReader):
         end, fault = self._whole_objects()
         whole = bytes(self._rest[:end])
         del self._rest[:end]
-        self._begun_at = place if end else self._begun_at or place
+        self._object_at = place if end else self._object_at or place
         try:
             yield from self._parse_data(whole)
         except (struct.error, BLFParseError):

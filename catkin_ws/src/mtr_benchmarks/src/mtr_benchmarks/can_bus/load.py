@@ -41,7 +41,7 @@ class Sent:
 
 
 def run(send: Callable[[int, bytes], None], is_fd: bool, seconds: float) -> Sent:
-    """Send all frames of so long, also after this process was held up; send: identifier and data of a frame."""
+    """Send the frames of this time, even if the process is delayed; send: takes identifier and data of a frame."""
     period_s = _FD_BITS / BITRATE_BPS + _FD_DATA_BITS / DATA_BITRATE_BPS if is_fd else _CLASSIC_BITS / BITRATE_BPS
     message, background = DemoLockMessage(), bytes(64 if is_fd else 8)
     message.source = _PASSIVE_ENTRY

@@ -29,7 +29,7 @@ def opened(path: pathlib.Path) -> IO[str]:
 
 
 def packed_kind(path: pathlib.Path, magic: Mapping[str, bytes]) -> str:
-    """Return the suffix of a kind that is no text and is packed with gzip; magic: how the files of each kind begin."""
+    """Return the suffix of a binary kind that is packed with gzip; magic: how the files of each kind begin."""
     with path.open("rb") as file:
         if file.read(len(_GZIP)) != _GZIP:
             return ""
