@@ -3,7 +3,7 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 from ..events import sentences as events
-from . import can, cars, figures, handle, identity, keeping, learn, limits, pairing, passes
+from . import can, cars, figures, handle, identity, keeping, learn, limits, logs, pairing, passes
 from .keys import phone, relay
 
 SENTENCES = (
@@ -124,7 +124,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "It is larger than {} MiB."),
     *keeping.SENTENCES,
     *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
-    *can.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
+    *can.SENTENCES, *logs.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
     *cars.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),

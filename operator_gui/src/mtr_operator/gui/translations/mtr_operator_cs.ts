@@ -3180,57 +3180,57 @@
         <translation>Jak se auto po každém odemčení znovu zamkne. button: robot stiskne na klíči tlačítko zamčení. itself: robot odjede a počká, pro klíč, jehož tlačítko stisknout nemůže.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Nearest places at which the distance is read.</source>
         <translation>Nejbližší místa, na kterých se vzdálenost čte.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Farthest places at which the distance is read.</source>
         <translation>Nejvzdálenější místa, na kterých se vzdálenost čte.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Standstill before the distance is read.</source>
         <translation>Stání před čtením vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>How long the distance is read at each place.</source>
         <translation>Jak dlouho se vzdálenost na každém místě čte.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Minimum number of reported distances at a place, and of changes among them; at least 4 changes are needed in any case.</source>
         <translation>Nejmenší počet hlášených vzdáleností na místě a jejich změn; v každém případě jsou třeba aspoň 4 změny.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Longest time for which the newest reported distance may stand; a place where it is older is invalid.</source>
         <translation>Nejdelší doba, po kterou smí platit nejnovější hlášená vzdálenost; místo, kde je starší, je neplatné.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Step of the reported distances.</source>
         <translation>Krok hlášených vzdáleností.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>What the reported distance is compared with. outline: the shortest way from the phone to the Car&apos;s outline, over ground. anchor: the straight way to a point of the Car, with the difference in height.</source>
         <translation>S čím se hlášená vzdálenost porovnává. outline: nejkratší cesta od telefonu k obrysu auta, po zemi. anchor: přímá cesta k bodu auta, s rozdílem výšek.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>The anchor, ahead of the Car&apos;s centre.</source>
         <translation>Kotva, před středem auta.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>The anchor, to the left of the Car&apos;s centre.</source>
         <translation>Kotva, vlevo od středu auta.</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="73"/>
+        <location filename="../texts/keys/phone.py" line="75"/>
         <source>Height of the anchor above ground.</source>
         <translation>Výška kotvy nad zemí.</translation>
     </message>
@@ -7335,51 +7335,236 @@
         <source>The last estimate, with all lines, has wider 95 % intervals: {}.</source>
         <translation>Poslední odhad ze všech přímek má širší 95% intervaly: {}.</translation>
     </message>
+    <message>
+        <location filename="../texts/keys/phone.py" line="5"/>
+        <source>Car profile {}: phone_distance names the signal {}, whose scale in the database is 0.</source>
+        <translation>Profil auta {}: phone_distance uvádí signál {}, jehož měřítko je v databázi 0.</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>The CAN log {} is damaged after {} frames; those are used.</source>
+        <translation>Záznam CAN {} je po {} rámcích poškozený; použijí se tyto rámce.</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>The CAN log {} is damaged after {} frames ({}); those are used.</source>
+        <translation>Záznam CAN {} je po {} rámcích poškozený ({}); použijí se tyto rámce.</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>The CAN log {} is cut off after {} frames; those are used.</source>
+        <translation>Záznam CAN {} po {} rámcích předčasně končí; použijí se tyto rámce.</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>it is damaged or of another format</source>
+        <translation>je poškozený nebo v jiném formátu</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>it is cut off before its first frame</source>
+        <translation>končí před prvním rámcem</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the next frame {}</source>
+        <translation>další rámec {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>has the time {} s, which no clock shows</source>
+        <translation>má čas {} s, který žádné hodiny neukazují</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>it is a log of the kind {} that was packed with gzip; unpack it first</source>
+        <translation>je to záznam formátu {} zabalený programem gzip; nejprve ho rozbalte</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>its packed data is cut off</source>
+        <translation>jeho zabalená data předčasně končí</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>its packed data is cut off or corrupt at its beginning</source>
+        <translation>jeho zabalená data hned na začátku předčasně končí nebo jsou poškozená</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>its packed data is corrupt there or before</source>
+        <translation>jeho zabalená data jsou v tomto místě nebo před ním poškozená</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>its header is cut off</source>
+        <translation>jeho hlavička předčasně končí</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>its header states a length of {} bytes, and has {}</source>
+        <translation>jeho hlavička udává délku {} bajtů, a má {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>no object begins at byte {}</source>
+        <translation>na bajtu {} nezačíná žádný objekt</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the object at byte {} states {} bytes, more than the file has</source>
+        <translation>objekt na bajtu {} udává {} bajtů, více než má soubor</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the object at byte {} is of kind {}, and only containers (10) can be there</source>
+        <translation>objekt na bajtu {} je druhu {}, a být tam mohou jen kontejnery (10)</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>an object that begins in the container at byte {} is incomplete</source>
+        <translation>objekt, který začíná v kontejneru na bajtu {}, je neúplný</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>in the container at byte {}, {}</source>
+        <translation>v kontejneru na bajtu {}: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>an object is shorter than its kind</source>
+        <translation>objekt je kratší, než jeho druh vyžaduje</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>no object begins behind the last one</source>
+        <translation>za posledním objektem nezačíná žádný další</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>an object states a length of {} bytes</source>
+        <translation>objekt udává délku {} bajtů</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the container at byte {} is shorter than its header</source>
+        <translation>kontejner na bajtu {} je kratší než jeho hlavička</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the container at byte {} has the unknown compression method {}</source>
+        <translation>kontejner na bajtu {} má neznámý způsob komprese {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the container at byte {} states {} bytes, {}</source>
+        <translation>kontejner na bajtu {} udává {} bajtů, {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the container at byte {} states {} inflated bytes, {}</source>
+        <translation>kontejner na bajtu {} udává {} rozbalených bajtů, {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>and at most {} MiB are read</source>
+        <translation>a čte se nejvýše {} MiB</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the container at byte {} inflates to more than the {} bytes that it states</source>
+        <translation>kontejner na bajtu {} se rozbalí na více než {} bajtů, které udává</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the compressed data of the container at byte {} is corrupt</source>
+        <translation>komprimovaná data kontejneru na bajtu {} jsou poškozená</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the compressed data of the container at byte {} is incomplete</source>
+        <translation>komprimovaná data kontejneru na bajtu {} jsou neúplná</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>the compressed block at byte {} inflates to more than {} MiB</source>
+        <translation>komprimovaný blok na bajtu {} se rozbalí na více než {} MiB</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>SQLite reports: {}</source>
+        <translation>SQLite hlásí: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>it has no table {}, as python-can writes it</source>
+        <translation>nemá tabulku {}, jakou zapisuje python-can</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>its table {} computes values that it does not store</source>
+        <translation>jeho tabulka {} počítá hodnoty, které neobsahuje</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>row {} has values of other types than a frame</source>
+        <translation>řádek {} má hodnoty jiných typů než rámec</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>row {} has {} bytes of data, and says {}</source>
+        <translation>řádek {} má {} bajtů dat, a udává {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>row {} {}</source>
+        <translation>řádek {} {}</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="95"/>
+        <location filename="../screens/settings.py" line="97"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="204"/>
+        <location filename="../screens/settings.py" line="206"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="208"/>
+        <location filename="../screens/settings.py" line="210"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="213"/>
+        <location filename="../screens/settings.py" line="215"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="214"/>
+        <location filename="../screens/settings.py" line="216"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="76"/>
+        <location filename="../screens/settings.py" line="78"/>
         <source>Hold to start</source>
         <translation>Podržením spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="173"/>
+        <location filename="../screens/settings.py" line="175"/>
         <source>Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. Move it, or measure from nearer.</source>
         <translation>V cestě stojí překážka ({lines}): šedé čtverce, nejbližší {distance} m od auta. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="203"/>
+        <location filename="../screens/settings.py" line="205"/>
         <source>No preview of the lines while the parameters are not right.</source>
         <translation>Dokud nejsou parametry v pořádku, není náhled přímek.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="181"/>
+        <location filename="../screens/settings.py" line="183"/>
         <source>Not all seen by the robot yet: {lines}.</source>
         <translation>Robot ještě celé neviděl: {lines}.</translation>
     </message>
@@ -8278,62 +8463,62 @@
         <translation>poznámky a fotografie doplněny</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>position</source>
         <translation>poloha</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>phone</source>
         <translation>telefon</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>Error</source>
         <translation>Chyba</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>No answer</source>
         <translation>Bez odpovědi</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>bias</source>
         <translation>systematická chyba</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>spread of errors</source>
         <translation>rozptyl chyb</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>95 % of errors within</source>
         <translation>95 % chyb do</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>places without answer</source>
         <translation>místa bez odpovědi</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>phone&apos;s distance from</source>
         <translation>vzdálenost telefonu z</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>distances of the phone that were not used</source>
         <translation>vzdálenosti telefonu, které nebyly použity</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>port</source>
         <translation>port</translation>
     </message>
     <message>
-        <location filename="../texts/keys/phone.py" line="58"/>
+        <location filename="../texts/keys/phone.py" line="60"/>
         <source>baud rate</source>
         <translation>rychlost linky</translation>
     </message>

@@ -43,6 +43,8 @@ SENTENCES = (
                                   "table of {}."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: phone_distance names the bus {}, which is not in buses."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: phone_distance needs the entry database."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: phone_distance names the signal {}, whose scale in the database "
+                                  "is 0."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: phone_distance has the unit {}; allowed is {}: name it (unit)."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: phone_distance has no_distance: {}; allowed is a list of whole "
                                   "numbers."),
