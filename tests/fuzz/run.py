@@ -17,8 +17,8 @@ from harness import MUST, Trial, bound_memory
 
 # Cases of `make fuzz`; what needs sockets, curves or a database's parser takes longer.
 BORDERS = {"progress_files": 10_000, "statuses": 100_000, "zeromq": 10_000, "pairing": 2_000, "slcan": 20_000,
-           "rosserial": 10_000, "yaml_files": 10_000, "databases": 1_000, "bus_logs": 10_000, "bundles": 2_000,
-           "bags": 5_000}
+           "rosserial": 10_000, "yaml_files": 10_000, "databases": 1_000, "other_databases": 1_000,
+           "bus_logs": 10_000, "packed_logs": 5_000, "bundles": 2_000, "bags": 5_000}
 CRASHES = "crashes"
 
 

@@ -1,13 +1,16 @@
 """Logs that are packed, by gzip or in blocks of MF4: bounded memory, and the true reason for what cannot be read."""
 # SPDX-License-Identifier: Apache-2.0
+import gc
 import gzip
 import struct
 import tracemalloc
 import zlib
+from unittest import mock
 
 import can
 import pytest
 
+from mtr_operator.car_link.log import mf4_frames, mf4_log
 from mtr_operator.car_link.log.mf4_log import MAX_BLOCK_BYTES
 from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.domain.errors import ConnectionFailed
@@ -44,15 +47,100 @@ def test_block_of_an_mf4_that_inflates_to_more_than_it_may_is_refused_in_little_
     assert peak < 2 * MAX_BLOCK_BYTES + 8 * MIB
 
 
+@pytest.fixture
+def mf4_reader(tmp_path, monkeypatch):
+    """Function that replaces the program that reads an MF4 by one that writes two frames and then runs the code."""
+    (tmp_path / "packages").mkdir()
+    (tmp_path / "packages" / "asammdf.py").touch()
+    monkeypatch.syspath_prepend(tmp_path / "packages")
+
+    def replace(code):
+        records = [mf4_frames.RECORD.pack(number, 0x100 + number, False, False, 0, 1, b"1") for number in (1, 2)]
+        program = tmp_path / "reader.py"
+        program.write_text("import os, signal, sys\n"
+                           f"sys.stdout.buffer.write({b''.join(records)!r})\nsys.stdout.flush()\n{code}\n")
+        monkeypatch.setattr(mf4_log, "READER", program)
+    return replace
+
+
+def mf4(folder, block=b""):
+    path = folder / "bus.mf4"
+    path.write_bytes(b"MDF     4.10    " + bytes(48) + block)
+    return path
+
+
+BOTH = [(0x101, b"1"), (0x102, b"1")]
+
+
 @pytest.mark.parametrize("block", [b"", b"##DZ", zipped_block(bytes(range(200)), 200), b"##DZ" + b"\xff" * 60,
                                    zipped_block(zlib.compress(bytes(4 * MIB)), 4 * MIB)],
                          ids=["none", "signature", "no data", "no header", "4 MiB"])
-def test_sound_block_of_an_mf4_is_left_to_its_package(tmp_path, monkeypatch, block):
-    path = tmp_path / "bus.mf4"
-    path.write_bytes(b"MDF     4.10    " + bytes(48) + block)
-    frame = can.Message(timestamp=1.0, arbitration_id=0x100, is_extended_id=False, data=b"1")
-    monkeypatch.setattr(can, "MF4Reader", lambda _: [frame])
-    assert outcome(path) == ([(0x100, b"1")], "")
+def test_sound_block_of_an_mf4_is_left_to_its_package(tmp_path, mf4_reader, block):
+    mf4_reader("")
+    assert outcome(mf4(tmp_path, block)) == (BOTH, "")
+
+
+@pytest.mark.parametrize(("code", "reason"), [
+    ("os.kill(os.getpid(), signal.SIGSEGV)", "asammdf crashes"), ("os.abort()", "asammdf crashes"),
+    (f"sys.exit({mf4_frames.FAILED})", "asammdf reports damage"),
+    (f"sys.stdout.buffer.write(b'half a record'); sys.exit({mf4_frames.FAILED})", "asammdf reports damage")])
+def test_mf4_with_which_its_package_crashes_is_used_up_to_there(tmp_path, mf4_reader, code, reason):
+    mf4_reader(code)
+    path = mf4(tmp_path)
+    assert outcome(path) == (BOTH, f"The CAN log {path} is damaged after 2 frames ({reason}); those are used.")
+
+
+def test_process_that_reads_an_mf4_ends_with_its_reader(tmp_path, mf4_reader, monkeypatch):
+    mf4_reader("signal.pause()")
+    started = []
+    start = mf4_log.subprocess.Popen
+    monkeypatch.setattr(mf4_log.subprocess, "Popen",
+                        lambda *words, **options: started.append(start(*words, **options)) or started[-1])
+    frames = iter(ReadLog(mf4(tmp_path)))
+    assert next(frames).can_id == 0x101 and started[0].poll() is None
+    frames.close()
+    gc.collect()
+    assert started[0].wait() < 0
+
+
+def test_mf4_without_its_package_is_named(tmp_path, monkeypatch):
+    monkeypatch.setattr(mf4_log.importlib.util, "find_spec", lambda _: None)
+    path = mf4(tmp_path)
+    assert outcome(path) == ([], f"The CAN log {path} needs the Python package asammdf, which is not installed.")
+
+
+@pytest.mark.parametrize("is_fd", [False, True])
+@pytest.mark.parametrize("length", [0, 8, 64, 65])
+def test_record_of_an_mf4_keeps_the_frame(is_fd, length):
+    data = bytes(range(length))
+    read = mf4_frames.message(mf4_frames.RECORD.pack(1.5, 0x18FEF100, True, is_fd, 3, length, data))
+    assert (read.timestamp, read.arbitration_id, read.is_extended_id, read.is_fd, read.channel, bytes(read.data)) == (
+        1.5, 0x18FEF100, True, is_fd, 3, data)
+
+
+class Reader:
+    """In place of python-can's: frames, and then the error of a damaged log."""
+
+    def __init__(self, _):
+        self.frames = [can.Message(timestamp=1.0, arbitration_id=1, channel=1, data=b"ab"),
+                       can.Message(timestamp=2.0, is_error_frame=True),
+                       can.Message(timestamp=3.0, arbitration_id=2, is_remote_frame=True),
+                       can.Message(timestamp=4.0, arbitration_id=3, channel="can0", data=b"")]
+
+    def __iter__(self):
+        yield from self.frames
+        raise IndexError
+
+
+def test_program_writes_data_frames_alone_and_reports_damage(tmp_path, monkeypatch, capsysbinary):
+    monkeypatch.setattr(can, "MF4Reader", Reader)
+    monkeypatch.setattr(mf4_frames, "_bound_memory", lambda _: None)
+    monkeypatch.setattr(mf4_frames, "faulthandler", mock.Mock())
+    assert mf4_frames.main(str(mf4(tmp_path))) == mf4_frames.FAILED
+    written = capsysbinary.readouterr().out
+    read = [mf4_frames.message(written[at:at + mf4_frames.RECORD.size])
+            for at in range(0, len(written), mf4_frames.RECORD.size)]
+    assert [(each.arbitration_id, each.channel, bytes(each.data)) for each in read] == [(1, 1, b"ab"), (3, 0, b"")]
 
 
 @pytest.mark.parametrize(("begin", "kind"), [(b"LOGG", "blf"), (b"MDF     4.10", "mf4"), (b"SQLite format 3\0", "db")])

@@ -21,7 +21,7 @@ FRAMES = 40
 
 def prepare(folder: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
     """The case of this border; folder: for its files."""
-    whole = {kind: _log(folder / f"whole.{kind}") for kind in KINDS}
+    whole = {kind: whole_log(folder / f"whole.{kind}") for kind in KINDS}
     warnings.simplefilter("ignore")
     # python-can looks through all that is installed for each log; what it finds does not change.
     can.io.player.read_entry_points = functools.lru_cache(None)(can.io.player.read_entry_points)
@@ -49,7 +49,8 @@ def spoilt(chance: random.Random, kind: str, whole: Dict[str, bytes]) -> bytes:
     return spoilt_bytes(chance, whole[kind], (whole[chance.choice(KINDS)],))
 
 
-def _log(path: pathlib.Path) -> bytes:
+def whole_log(path: pathlib.Path) -> bytes:
+    """Write a good log of the kind that the path ends with, and return its bytes."""
     with can.Logger(str(path)) as log:
         for number in range(FRAMES):
             log.on_message_received(can.Message(

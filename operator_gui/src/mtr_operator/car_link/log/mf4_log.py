@@ -1,20 +1,52 @@
-"""Compressed blocks of MF4 logs: checked before asammdf inflates them, which has no limit of its own."""
+"""MF4 logs: compressed blocks are checked, then asammdf reads the log in a process of its own, which it may crash."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import importlib.util
 import mmap
 import pathlib
 import struct
+import subprocess
+import sys
 import zlib
 from typing import Iterator
 
+import can
+
+from . import mf4_frames
 from .text.lines import Damaged
+
+READER = pathlib.Path(mf4_frames.__file__)
 
 # The standard limits a block to 4 MB.
 MAX_BLOCK_BYTES = 16 * 1024 ** 2
 _BLOCK = b"##DZ"
 # Signature, length, number of links, kind of the original block, compression, its parameter, original and own size.
 _HEADER = struct.Struct("<4s4xQQ2sBxLQQ")
+
+
+class Mf4Log:
+    """Iterator over its messages; raises Damaged where asammdf fails. NotImplementedError without that package."""
+
+    def __init__(self, path: pathlib.Path):
+        check_blocks(path)
+        if importlib.util.find_spec("asammdf") is None:
+            raise NotImplementedError
+        self._path = path
+
+    def __iter__(self) -> Iterator[can.Message]:
+        size = mf4_frames.RECORD.size
+        with subprocess.Popen([sys.executable, str(READER), str(self._path)], stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as reader:
+            try:
+                assert reader.stdout is not None
+                while len(record := reader.stdout.read(size)) == size:
+                    yield mf4_frames.message(record)
+                code = reader.wait()
+            finally:
+                reader.kill()
+        if code:
+            raise Damaged("asammdf reports damage" if code == mf4_frames.FAILED else "asammdf crashes")
 
 
 def check_blocks(path: pathlib.Path) -> None:

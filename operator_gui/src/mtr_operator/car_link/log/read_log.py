@@ -12,7 +12,7 @@ from mtr_operator.domain.errors import ConnectionFailed
 
 from .blf_log import BlfLog
 from .database_log import DatabaseLog
-from .mf4_log import check_blocks
+from .mf4_log import Mf4Log
 from .text.lines import Damaged, LoggedFrame, Names, checked
 from .text.opened import packed_kind
 from .text.text_log import TextLog
@@ -164,8 +164,7 @@ def _reader(path: pathlib.Path, names: Names) -> Any:
     if kind == ".db":
         return DatabaseLog(path)
     if kind == ".mf4":
-        check_blocks(path)
-        return can.MF4Reader(str(path))
+        return Mf4Log(path)
     if suffix in _MAGIC:
         raise ValueError(suffix)
     packed = packed_kind(path, _MAGIC)

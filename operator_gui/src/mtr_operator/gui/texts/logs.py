@@ -33,6 +33,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "the compressed data of the container at byte {} is corrupt"),
     QT_TRANSLATE_NOOP("Sentence", "the compressed data of the container at byte {} is incomplete"),
     QT_TRANSLATE_NOOP("Sentence", "the compressed block at byte {} inflates to more than {} MiB"),
+    QT_TRANSLATE_NOOP("Sentence", "asammdf reports damage"),
+    QT_TRANSLATE_NOOP("Sentence", "asammdf crashes"),
     QT_TRANSLATE_NOOP("Sentence", "SQLite reports: {}"),
     QT_TRANSLATE_NOOP("Sentence", "it has no table {}, as python-can writes it"),
     QT_TRANSLATE_NOOP("Sentence", "its table {} computes values that it does not store"),

@@ -7520,6 +7520,16 @@
         <source>row {} {}</source>
         <translation>řádek {} {}</translation>
     </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>asammdf reports damage</source>
+        <translation>asammdf hlásí poškození</translation>
+    </message>
+    <message>
+        <location filename="../texts/logs.py" line="5"/>
+        <source>asammdf crashes</source>
+        <translation>asammdf havaruje</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
