@@ -120,3 +120,16 @@ def test_profile_of_a_real_car_says_which_database_it_lacks(name, capsys, monkey
     monkeypatch.delenv("MTR_CAR_DATABASES", raising=False)
     assert main(["try", str(EXAMPLES / f"{name}.yaml")]) == 2
     assert f"{name.rpartition('_')[0]}_201" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(("signal", "texts", "doubtful"), [
+    ("Lock", '0 "Locked" 1 "Unlocked" 2 "Locked"', ""), ("Lock", '1 "Locked"', "1: unlocked"),
+    ("Lock", '2 "all doors unlocked"', "2: locked"), ("Lock", '2 "Entriegelt" 3 "double_unlock"', "2: locked"),
+    ("Lock", '2 "verriegelt"', ""), ("Lock", '2 "not locked" 1 "Blocked"', "2: locked"),
+    ("Lock", '2 "lock/unlock" 1 "Clock"', ""), ("Lock", '7 "Unlocked"', ""), ("Page", '1 "Locked"', "")])
+def test_state_that_the_database_describes_otherwise_is_printed(tmp_path, capsys, signal, texts, doubtful):
+    profile = written(tmp_path, PAGED_FD)
+    (tmp_path / "body.dbc").write_text(BODY + f"VAL_ 2566848513 {signal} {texts} ;\n")
+    assert main(["try", profile]) == 0
+    printed = capsys.readouterr().err
+    assert printed.count("check on the Car") == bool(doubtful) and f"states has {doubtful}" in printed + "states has "

@@ -27,13 +27,14 @@ _MS_PER_S = 1000.0
 @dataclass(frozen=True)
 class Tried:
     """An Autolock. sent: changes on the bus, heard: those that were understood. worst_s: largest difference of their
-    times."""
+    times. contradictions: states that the CAN database describes otherwise."""
 
     results: Sequence[LineResult]
     sent: int
     heard: int
     worst_s: float
     cycle_s: float
+    contradictions: Sequence[str] = ()
 
     @property
     def invalid(self) -> Sequence[LineResult]:
@@ -56,6 +57,8 @@ def try_profiles(options: argparse.Namespace) -> int:
             show_error(f"{profile}: {error}")
             code = EXIT_ERROR
             continue
+        for sentence in tried.contradictions:
+            show_error(f"{profile}: {sentence}")
         for result in tried.invalid:
             show_error(f"{profile}: {result.place} is invalid: {result.reason}")
         print(f"{profile}: {tried.heard} of {tried.sent} changes understood, {_MS_PER_S * tried.worst_s:.1f} ms off at "
@@ -68,6 +71,8 @@ def try_profiles(options: argparse.Namespace) -> int:
 def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int = 1, car_seed: int = 1) -> Tried:
     """An Autolock; OperatorError when the profile is wrong."""
     # What speaks on a bus is imported only when it is asked for.
+    from mtr_operator.car_link.further.state_texts import contradictions
+    from mtr_operator.car_link.profile import load_profile
     from mtr_operator.car_link.spoken_car import SpokenCar
     from mtr_operator.robot_link.fake import FakeRobotLink
     scenario = SCENARIOS[_SCENARIO]
@@ -85,7 +90,7 @@ def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int =
         spoken.close()
     heard = [event for event in loop.events if not event.doubt]
     return Tried(progress.results, len(spoken.told), len(loop.events), _worst_s(spoken.told, heard),
-                 spoken.cycle_s)
+                 spoken.cycle_s, tuple(contradictions(load_profile(profile, databases))))
 
 
 def _worst_s(sent: Sequence[CarEvent], heard: Sequence[CarEvent]) -> float:
