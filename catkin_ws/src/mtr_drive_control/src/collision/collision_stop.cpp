@@ -115,9 +115,14 @@ std::optional<Hindrance> CollisionStop::hindrance_of(const DesiredMotion& desire
   if (nearest != nullptr) {
     return hindrance_at(nearest->point);
   }
-  // Who backs by hand sees the way.
-  const bool is_seen_by_person = desired.by_hand && desired.velocity.linear_mps < 0.0;
-  return surroundings_.watches_rear() || is_seen_by_person ? std::nullopt : unseen_ground(desired, path);
+  const bool is_seen = surroundings_.watches_rear() || is_backed_by_person(desired);
+  return is_seen ? std::nullopt : unseen_ground(desired, path);
+}
+
+bool CollisionStop::is_backed_by_person(const DesiredMotion& desired) const {
+  // A person sees the way behind the robot. A turn with a little reverse motion is still a turn.
+  const double turned_mps = std::abs(desired.velocity.angular_radps) * footprint_.radius_m();
+  return desired.by_hand && -desired.velocity.linear_mps > turned_mps;
 }
 
 bool CollisionStop::may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const {

@@ -22,7 +22,8 @@ TEST(UnwatchedRear, ThingBehindThatWasNeverSeenIsNotTouchedInATurn) {
   for (const bool by_hand : {false, true}) {
     for (const double gap_m : {0.02, 0.05, 0.08}) {
       for (const Velocity& wanted :
-           {Velocity{0.0, 1.0}, Velocity{0.0, -0.6}, Velocity{0.1, 1.0}, Velocity{0.02, -0.8}}) {
+           {Velocity{0.0, 1.0}, Velocity{0.0, -0.6}, Velocity{0.1, 1.0}, Velocity{0.02, -0.8}, Velocity{-0.001, 1.0},
+            Velocity{-0.001, -1.0}, Velocity{-0.05, 0.6}, Velocity{-0.1, -0.8}}) {
         TestRobot robot(false);
         robot.scene.walls = {{{-0.254 - gap_m, -3.0}, {-0.254 - gap_m, 3.0}}};
         robot.settle();
