@@ -84,8 +84,8 @@ class CollisionStop {
 
  private:
   std::optional<Hindrance> hindrance_of(const DesiredMotion& desired, const Deceleration& deceleration) const;
-  /// False spares a closer test: it is too far away for any kind of obstacle.
   bool is_backed_by_person(const DesiredMotion& desired) const;
+  /// False spares a closer test: it is too far away for any kind of obstacle.
   bool may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
   bool is_in_reach(const Obstacle& obstacle, const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   bool gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const;
