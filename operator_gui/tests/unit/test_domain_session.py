@@ -146,6 +146,21 @@ def test_no_test_begins_on_a_robot_whose_disk_is_full(session, spoil, robot_link
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
 
 
+@pytest.mark.parametrize("percent", [0, 9])
+def test_no_test_begins_on_a_robot_whose_battery_is_nearly_empty(session, spoil, robot_link, percent):
+    spoil(lambda status: True, battery_percent=percent)
+    with pytest.raises(RobotFailed, match=rf"^The robot's battery is nearly empty \({percent} %\); charge it,"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
+
+
+@pytest.mark.parametrize("percent", [None, 10, 100])
+def test_test_begins_with_a_charge_that_suffices_or_is_unknown(session, spoil, percent):
+    spoil(lambda status: True, battery_percent=percent)
+    prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert session.desired.key_height_m == 1.0
+
+
 @pytest.mark.parametrize("spoiled", [
     told(FINE), told(PreflightReport()), told(replace(FULL, made_s=1e6)), told(FULL, every=10**6)],
     ids=["nothing is wrong", "none was made", "of another run", "a robot of before does not tell"])

@@ -7,15 +7,21 @@ from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import DISK_FULL_CODE, LINK_LOST_CODE, Mode, RobotStatus, WaypointResult
+from mtr_operator.domain.robot_status import (
+    DISK_FULL_CODE,
+    EMPTY_BATTERY_PERCENT,
+    LINK_LOST_CODE,
+    Mode,
+    RobotStatus,
+    WaypointResult,
+)
 
 from .events import RobotSnapshot
 from .motion import Motion, is_driving
 
 # Wall time without a Status after which the link counts as lost.
 SILENCE_LIMIT_S = 1.5
-# Below the first a test is not started, below the second it is warned of.
-EMPTY_BATTERY_PERCENT = 10
+# Charge below which the Operator is warned.
 LOW_BATTERY_PERCENT = 25
 WARNING, ERROR = 2, 3
 

@@ -6,7 +6,7 @@ from typing import Callable
 
 from ..errors import RobotFailed
 from ..geometry.ray import Ray
-from ..robot_status import DISK_FULL_CODE, CarCheck, Mode, RobotStatus
+from ..robot_status import DISK_FULL_CODE, EMPTY_BATTERY_PERCENT, CarCheck, Mode, RobotStatus
 from .car import Car
 from .control_loop import ControlLoop
 from .robot import Robot
@@ -31,6 +31,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _wait_for_control(loop)
     _refuse_after_bad_preflight(loop)
     _refuse_with_full_disk(loop.status)
+    _refuse_with_empty_battery(loop.status)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)
@@ -90,6 +91,12 @@ def _refuse_with_full_disk(status: RobotStatus) -> None:
     for notification in status.notifications:
         if notification.code == DISK_FULL_CODE:
             raise RobotFailed(notification.text)
+
+
+def _refuse_with_empty_battery(status: RobotStatus) -> None:
+    if status.battery_percent is not None and status.battery_percent < EMPTY_BATTERY_PERCENT:
+        raise RobotFailed(f"The robot's battery is nearly empty ({status.battery_percent} %); charge it, then begin "
+                          "the test.")
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:

@@ -9,7 +9,8 @@ from PyQt5.QtGui import QColor, QPainter, QPainterPath, QPaintEvent, QPen
 from PyQt5.QtWidgets import QSizePolicy, QToolButton, QWidget
 
 from mtr_operator.domain.ports import LockState
-from mtr_operator.station.readiness import EMPTY_BATTERY_PERCENT, LOW_BATTERY_PERCENT
+from mtr_operator.domain.robot_status import EMPTY_BATTERY_PERCENT
+from mtr_operator.station.readiness import LOW_BATTERY_PERCENT
 
 from ..theme.appearance import Appearance
 

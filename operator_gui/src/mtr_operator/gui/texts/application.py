@@ -52,6 +52,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The robot is controlled by another application; end that one, then start again."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins, because the robot's preflight found: {} Mend it, then run "
                                   "`rosrun mtr_bringup preflight` on the robot again."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's battery is nearly empty ({} %); charge it, then begin the test."),
     QT_TRANSLATE_NOOP("Sentence", "The Remote key did not reach the height of {} cm within {} s; it is at {} cm."),
     QT_TRANSLATE_NOOP("Sentence", "The robot refused the waypoint: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot did not reach the waypoint within {} s. {}"),

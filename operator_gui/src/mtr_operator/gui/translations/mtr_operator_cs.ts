@@ -128,17 +128,17 @@
 <context>
     <name>BatterySymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="46"/>
+        <location filename="../header/symbols.py" line="47"/>
         <source>Battery of the robot: unknown</source>
         <translation>Baterie robotu: neznámá</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="47"/>
+        <location filename="../header/symbols.py" line="48"/>
         <source>Battery of the robot: {percent} %</source>
         <translation>Baterie robotu: {percent} %</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="49"/>
+        <location filename="../header/symbols.py" line="50"/>
         <source>({age} s ago)</source>
         <translation>(před {age} s)</translation>
     </message>
@@ -655,217 +655,217 @@
         <translation>Robot nehlásí nic, co by mluvilo proti nim.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="155"/>
+        <location filename="../../station/checks/check_texts.py" line="156"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="156"/>
+        <location filename="../../station/checks/check_texts.py" line="157"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="157"/>
+        <location filename="../../station/checks/check_texts.py" line="158"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="158"/>
+        <location filename="../../station/checks/check_texts.py" line="159"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="159"/>
+        <location filename="../../station/checks/check_texts.py" line="160"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="160"/>
+        <location filename="../../station/checks/check_texts.py" line="161"/>
         <source>The robot does not say its charge.</source>
         <translation>Robot neříká, jak je nabitá.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="167"/>
+        <location filename="../../station/checks/check_texts.py" line="168"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="168"/>
+        <location filename="../../station/checks/check_texts.py" line="169"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="169"/>
+        <location filename="../../station/checks/check_texts.py" line="170"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="170"/>
+        <location filename="../../station/checks/check_texts.py" line="171"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="171"/>
+        <location filename="../../station/checks/check_texts.py" line="172"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="172"/>
+        <location filename="../../station/checks/check_texts.py" line="173"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="173"/>
+        <location filename="../../station/checks/check_texts.py" line="174"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="174"/>
+        <location filename="../../station/checks/check_texts.py" line="175"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="175"/>
+        <location filename="../../station/checks/check_texts.py" line="176"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="176"/>
+        <location filename="../../station/checks/check_texts.py" line="177"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="177"/>
+        <location filename="../../station/checks/check_texts.py" line="178"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="178"/>
+        <location filename="../../station/checks/check_texts.py" line="179"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="185"/>
+        <location filename="../../station/checks/check_texts.py" line="186"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="186"/>
+        <location filename="../../station/checks/check_texts.py" line="187"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="187"/>
+        <location filename="../../station/checks/check_texts.py" line="188"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="188"/>
+        <location filename="../../station/checks/check_texts.py" line="189"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="189"/>
+        <location filename="../../station/checks/check_texts.py" line="190"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="190"/>
+        <location filename="../../station/checks/check_texts.py" line="191"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="198"/>
+        <location filename="../../station/checks/check_texts.py" line="199"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="202"/>
+        <location filename="../../station/checks/check_texts.py" line="203"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="203"/>
+        <location filename="../../station/checks/check_texts.py" line="204"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="205"/>
+        <location filename="../../station/checks/check_texts.py" line="206"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="208"/>
+        <location filename="../../station/checks/check_texts.py" line="209"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="209"/>
+        <location filename="../../station/checks/check_texts.py" line="210"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="218"/>
+        <location filename="../../station/checks/check_texts.py" line="219"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="230"/>
+        <location filename="../../station/checks/check_texts.py" line="231"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="232"/>
+        <location filename="../../station/checks/check_texts.py" line="233"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="233"/>
+        <location filename="../../station/checks/check_texts.py" line="234"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="234"/>
+        <location filename="../../station/checks/check_texts.py" line="235"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="235"/>
+        <location filename="../../station/checks/check_texts.py" line="236"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="236"/>
+        <location filename="../../station/checks/check_texts.py" line="237"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="237"/>
+        <location filename="../../station/checks/check_texts.py" line="238"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="238"/>
+        <location filename="../../station/checks/check_texts.py" line="239"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="239"/>
+        <location filename="../../station/checks/check_texts.py" line="240"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="242"/>
+        <location filename="../../station/checks/check_texts.py" line="243"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="243"/>
+        <location filename="../../station/checks/check_texts.py" line="244"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="244"/>
+        <location filename="../../station/checks/check_texts.py" line="245"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -915,12 +915,12 @@
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="220"/>
+        <location filename="../../station/checks/check_texts.py" line="221"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="228"/>
+        <location filename="../../station/checks/check_texts.py" line="229"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
@@ -930,7 +930,7 @@
         <translation>Nešifrováno; neopouští tento počítač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="200"/>
+        <location filename="../../station/checks/check_texts.py" line="201"/>
         <source>Pair this laptop with the robot in the connection window, and have the robot encrypt its link.</source>
         <translation>Spárujte tento notebook s robotem v okně připojení a nechte robot šifrovat spojení.</translation>
     </message>
@@ -965,12 +965,12 @@
         <translation>Robot neříká, zda byla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="206"/>
+        <location filename="../../station/checks/check_texts.py" line="207"/>
         <source>Make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Proveďte ji na robotu znovu: rosrun mtr_bringup preflight</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="207"/>
+        <location filename="../../station/checks/check_texts.py" line="208"/>
         <source>Then make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Potom ji na robotu proveďte znovu: rosrun mtr_bringup preflight</translation>
     </message>
@@ -995,7 +995,7 @@
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="210"/>
+        <location filename="../../station/checks/check_texts.py" line="211"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
     </message>
@@ -1030,7 +1030,7 @@
         <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="222"/>
+        <location filename="../../station/checks/check_texts.py" line="223"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1070,40 +1070,40 @@
         <translation>Otevřené dveře, víko ani čelo korby nad LiDARy robot nevidí. Víko kufru se může samo otevřít, je-li klíč za autem.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="148"/>
-        <source>The robot keeps 25 cm for what stands out above or below the LiDARs, such as a spare wheel or a tow bar.</source>
-        <translation>Robot nechává 25 cm na to, co vyčnívá nad LiDARy nebo pod nimi, například rezervní kolo nebo tažné zařízení.</translation>
-    </message>
-    <message>
-        <location filename="../../station/checks/check_texts.py" line="211"/>
+        <location filename="../../station/checks/check_texts.py" line="212"/>
         <source>Walk around the Car: nobody within 2 m, wheel chocks removed.</source>
         <translation>Obejděte auto: do 2 m nikdo, klíny odstraněny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="212"/>
+        <location filename="../../station/checks/check_texts.py" line="213"/>
         <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
         <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="214"/>
+        <location filename="../../station/checks/check_texts.py" line="215"/>
         <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
         <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="216"/>
+        <location filename="../../station/checks/check_texts.py" line="217"/>
         <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
         <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="225"/>
+        <location filename="../../station/checks/check_texts.py" line="226"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robota (technický list nebo svinovací metr), restartujte s ním robota a zmapujte vozidlo znovu; nebo měřte z větší vzdálenosti.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="148"/>
+        <source>The robot does not see what stands out above or below the LiDARs, such as a tow bar. It keeps 10 to 25 cm from the Car&apos;s ends.</source>
+        <translation>Robot nevidí, co vyčnívá nad rovinou lidarů nebo pod ní, například tažné zařízení. Od konců auta udržuje 10 až 25 cm.</translation>
     </message>
 </context>
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="170"/>
+        <location filename="../header/symbols.py" line="171"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -2200,17 +2200,17 @@
 <context>
     <name>LinkSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="141"/>
+        <location filename="../header/symbols.py" line="142"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="143"/>
+        <location filename="../header/symbols.py" line="144"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="142"/>
+        <location filename="../header/symbols.py" line="143"/>
         <source>The link is not encrypted: whoever is in its network can move the robot.</source>
         <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
     </message>
@@ -2236,22 +2236,22 @@
 <context>
     <name>LocksSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="93"/>
+        <location filename="../header/symbols.py" line="94"/>
         <source>The Car is locked.</source>
         <translation>Auto je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="93"/>
+        <location filename="../header/symbols.py" line="94"/>
         <source>The Car is unlocked.</source>
         <translation>Auto je odemčené.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="94"/>
+        <location filename="../header/symbols.py" line="95"/>
         <source>Whether the Car is locked is not known.</source>
         <translation>Zda je auto zamčené, není známo.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="96"/>
+        <location filename="../header/symbols.py" line="97"/>
         <source>A click opens the live bus view.</source>
         <translation>Kliknutím se otevře živý pohled na sběrnici.</translation>
     </message>
@@ -7529,6 +7529,11 @@
         <location filename="../texts/logs.py" line="5"/>
         <source>asammdf crashes</source>
         <translation>asammdf havaruje</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="9"/>
+        <source>The robot&apos;s battery is nearly empty ({} %); charge it, then begin the test.</source>
+        <translation>Baterie robota je téměř vybitá ({} %); nabijte ji a pak zahajte test.</translation>
     </message>
 </context>
 <context>

@@ -145,8 +145,9 @@ def _of_unseen(translate: Translate) -> dict[Finding, str]:
         Finding.CABLES_UNSEEN: translate("Check", "The robot does not see cables, and drives around the whole Car."),
         Finding.OPENINGS_UNSEEN: translate("Check", "The robot does not see an open door, lid or tailgate above the "
                                                     "LiDARs. A hatch may open by itself for a key behind the Car."),
-        Finding.FITTINGS_UNSEEN: translate("Check", "The robot keeps 25 cm for what stands out above or below the "
-                                                    "LiDARs, such as a spare wheel or a tow bar."),
+        Finding.FITTINGS_UNSEEN: translate("Check", "The robot does not see what stands out above or below the LiDARs, "
+                                                    "such as a tow bar. It keeps 10 to 25 cm from "
+                                                    "the Car's ends."),
     }
 
 

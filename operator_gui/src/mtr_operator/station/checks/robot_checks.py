@@ -7,10 +7,17 @@ from typing import Iterator
 
 from mtr_operator.domain.actions.car_size import missing_measures, size_excess
 from mtr_operator.domain.clocks.clock_offset import MAX_OFFSET_S, offset_sentence
-from mtr_operator.domain.robot_status import CarDimensions, EmergencyStop, Mode, Notification, RobotStatus
+from mtr_operator.domain.robot_status import (
+    EMPTY_BATTERY_PERCENT,
+    CarDimensions,
+    EmergencyStop,
+    Mode,
+    Notification,
+    RobotStatus,
+)
 
 from ..estimate import Plan
-from ..readiness import EMPTY_BATTERY_PERCENT, ERROR, LOW_BATTERY_PERCENT, MODE_CODES, NOT_BLOCKING, WARNING
+from ..readiness import ERROR, LOW_BATTERY_PERCENT, MODE_CODES, NOT_BLOCKING, WARNING
 from .finding import Check, Finding, Item, State
 
 _BOARD_CODES = ("peripherals", "peripherals_silent")
