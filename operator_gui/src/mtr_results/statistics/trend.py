@@ -1,8 +1,9 @@
 """A distance over time with control limits: which test is unlike the others, by chart of individual values.
 
 The limits are 2.66 mean moving ranges from the mean (Shewhart; ISO 7870-2): three sigmas of what one test differs from
-the next. A test beyond them is worth a look; one in some 400 is there by chance. A distance with an open end has no
-value to chart, and is only beyond a limit where its known end is.
+the next. A test beyond them is worth a look: by chance one in 400 is there with limits from many tests, and one in
+42 with limits from 10. A distance with an open end has no value to chart, and is only beyond a limit where its known
+end is.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
