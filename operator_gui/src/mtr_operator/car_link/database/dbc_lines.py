@@ -1,30 +1,40 @@
-"""Messages of a DBC file line by line, so that one that is wrong costs no other."""
+"""Messages of a DBC file statement by statement, so that a faulty one costs no other."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import Iterator
+from typing import Sequence
 
-_MESSAGE = re.compile(r"BO_\s+(\d{1,10})\s+([^:\"]*?)\s*:\s*(\d{1,6})(?:\s|$)")
+from .dbc_statements import Statement, statements
+
+_MESSAGE = re.compile(r"BO_\s+(\d{1,10})\s+([^:\"\n]*?)\s*:\s*(\d{1,6})(?:\s|$)")
 _SIGNAL = re.compile(
-    r"SG_\s+([^:\"]*?)(?:\s+(M|m\d{1,10}M?|m))?\s*:\s*(\d{1,6})\s*\|\s*(\d{1,6})\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)\s*,"
-    r"\s*([^,()]*?)\s*\)\s*(?:\[[^\]]*?\|[^\]]*\])?\s*(?:\"([^\"]*)\")?")
-_RANGE = re.compile(r"\[\s*([^|\]]*?)\s*\|\s*([^\]]*?)\s*\]")
+    r"SG_\s+([^:\"\n]*?)(?:\s+(M|m\d{1,10}M?|m))?\s*:\s*(\d{1,6})\s*\|\s*(\d{1,6})\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)"
+    r"\s*,\s*([^,()]*?)\s*\)\s*(?:\[\s*([^\]|]*?)\s*\|\s*([^\]]*?)\s*\])?\s*(?:\"([^\"]*)\")?")
+# Characters of a statement that matter; lists of receivers may be longer.
+_LONGEST = 4096
+# Senders or receivers, which may be on lines of their own.
+_NODES = re.compile(r"(?:\s*,?\s*\w+(?:\s*,\s*\w+)*)?[\s,;]*")
 _NAMED = re.compile(r"(BO_|SG_)\s+(?:\d+\s+)?([^:\s\"]+)")
+_DECODING = ("SG_MUL_VAL_", "SIG_VALTYPE_")
+_OF_SIGNAL = re.compile(r"\w+\s+(\d{1,10})\s+([^\s:;,\"]+)")
+_WORD = re.compile(r"[^\s:;,\"]+")
 _PAGES = re.compile(r"SG_MUL_VAL_\s+(\d+)\s+(\S+)\s+(\S+)\s+([\d\s,-]+);")
-_FLOAT = re.compile(r"SIG_VALTYPE_\s+(\d+)\s+(\S+?)\s*:?\s*([0-3])\s*;")
+_FLOAT = re.compile(r"SIG_VALTYPE_\s+(\d+)\s+([^\s:;]+)(?:\s*:\s*|\s+)([0-3])\s*;")
 _CYCLE = re.compile(r"BA_\s+\"GenMsgCycleTime\"\s+BO_\s+(\d+)\s+(\d{1,9})(?!\d)")
 _LONG_NAME = re.compile(r"BA_\s+\"System(?:Message|Signal)LongSymbol\"\s+(?:BO_|SG_)\s+(\d+)(?:\s+(\S+))?\s+\"(\w+)\"")
 # Signals that no message has are collected under this name.
 _WITHOUT_MESSAGE = "VECTOR__INDEPENDENT_SIG_MSG"
 _QUOTED = 120
+# Digits of the largest identifier.
+_DIGITS = 10
 
 
 @dataclass
 class DbcSignal:
-    """A line SG_. page: such as M or m3, empty without one. texts: numbers as they are written. pages: values of the
-    multiplexer in a line of its own, with its name. problem: why it cannot be used."""
+    """A statement SG_. page: such as M or m3, empty without one. scale, offset, limits: as they are written. ranges:
+    values of the multiplexer in a statement of its own, with its name. problem: why it cannot be used."""
 
     name: str
     line: int
@@ -46,7 +56,7 @@ class DbcSignal:
 
 @dataclass
 class DbcMessage:
-    """A line BO_ with its signals. problem: why it cannot be used."""
+    """A statement BO_ with its signals. problem: why it cannot be used."""
 
     name: str
     line: int
@@ -61,24 +71,22 @@ class DbcMessage:
 def dbc_messages(text: str) -> list[DbcMessage]:
     """All messages in their order; comments, tables of values and other attributes are left out."""
     found: list[DbcMessage] = []
-    rest: list[tuple[int, str]] = []
+    rest: list[Statement] = []
     current: DbcMessage | None = None
-    for number, line in _statements(text):
-        if line.startswith(("BO_ ", "BO_\t")):
-            current = _message(number, line)
+    for statement in statements(text):
+        is_understood = True
+        if re.match(r"BO_\s", statement.bare):
+            current, is_understood = _message(statement)
             found.append(current)
-        elif not line.startswith(("SG_ ", "SG_\t")):
-            # Signals behind a line that is not understood belong to no message.
+        elif not re.match(r"SG_\s", statement.bare):
+            # Signals behind a statement that is not understood belong to no message.
             current = None
-            rest.append((number, line))
+            rest.append(statement)
         elif current is not None:
-            current.signals.append(_signal(number, line))
-    by_number: dict[str, list[DbcMessage]] = {}
-    for message in found:
-        by_number.setdefault(str(message.number), []).append(message)
-    # Long names last: the other lines name signals by their short names.
-    for number, line in sorted(rest, key=lambda each: each[1].startswith("BA_")):
-        _apply(number, line, by_number)
+            signal, is_understood = _signal(statement)
+            current.signals.append(signal)
+        current = current if is_understood else None
+    _apply(rest, found)
     return [message for message in found if message.name != _WITHOUT_MESSAGE]
 
 
@@ -87,39 +95,39 @@ def quoted(text: str) -> str:
     return f'"{text[:_QUOTED]}"'
 
 
-def _statements(text: str) -> Iterator[tuple[int, str]]:
-    """Number and text of each line that does not continue a string of a line before."""
-    is_balanced = text.replace('\\"', "").count('"') % 2 == 0
-    is_inside = False
-    for number, line in enumerate(text.splitlines(), 1):
-        stripped, was_inside = line.strip(), is_inside
-        if is_balanced and line.replace('\\"', "").count('"') % 2:
-            is_inside = not is_inside
-        if stripped and not was_inside and not stripped.startswith("//"):
-            yield number, stripped
-
-
-def _message(number: int, line: str) -> DbcMessage:
-    match = _MESSAGE.match(line)
+def _message(statement: Statement) -> tuple[DbcMessage, bool]:
+    """A message, and whether all of its statement is understood."""
+    match = _MESSAGE.match(statement.bare, 0, _LONGEST)
     if match is None:
-        return DbcMessage(_name(line), number, line, problem="the line is not complete")
+        text = statement.code.partition("\n")[0]
+        return DbcMessage(_name(text), statement.line, text, problem="the line is not complete"), text == statement.code
     identifier, name, length = match.groups()
-    return DbcMessage(_spelled(name), number, line, int(identifier), int(length))
+    text, is_understood = _read(statement, match)
+    return DbcMessage(_spelled(name), statement.line, text, int(identifier), int(length)), is_understood
 
 
-def _signal(number: int, line: str) -> DbcSignal:
-    match = _SIGNAL.match(line)
+def _signal(statement: Statement) -> tuple[DbcSignal, bool]:
+    """A signal, and whether all of its statement is understood."""
+    match = _SIGNAL.match(statement.code, 0, _LONGEST)
     if match is None:
-        return DbcSignal(_name(line), number, line, problem="the line is not complete")
-    name, page, start, length, order, sign, scale, offset, unit = match.groups("")
-    page = "M" if page == "m" else page
-    limits = _RANGE.search(line)
-    signal = DbcSignal(_spelled(name), number, line, page, int(start), int(length), order == "0", sign == "-",
-                       scale=scale, offset=offset, unit=unit,
-                       limits=("0", "0") if limits is None else (limits[1], limits[2]))
+        text = statement.code.partition("\n")[0]
+        return DbcSignal(_name(text), statement.line, text, problem="the line is not complete"), text == statement.code
+    name, page, start, length, order, sign, scale, offset, low, high, unit = match.groups("")
+    text, is_understood = _read(statement, match)
+    signal = DbcSignal(_spelled(name), statement.line, text, "M" if page == "m" else page, int(start), int(length),
+                       order == "0", sign == "-", scale=scale, offset=offset, unit=unit,
+                       limits=("0", "0") if match[9] is None else (low, high))
     if not signal.length:
         signal.problem = "it has no bit"
-    return signal
+    return signal, is_understood
+
+
+def _read(statement: Statement, match: re.Match[str]) -> tuple[str, bool]:
+    """The text of a statement on one line. False when what is behind its match may be another statement, of which the
+    keyword is misspelled."""
+    same, _, further = statement.code[match.end():].partition("\n")
+    is_understood = (not further and not statement.is_followed) or _NODES.fullmatch(f"{same}\n{further}") is not None
+    return " ".join(f"{match[0]}{same}".split()), is_understood
 
 
 def _name(line: str) -> str:
@@ -132,17 +140,39 @@ def _spelled(name: str) -> str:
     return f"_{name}" if name[:1].isdecimal() else name
 
 
-def _apply(number: int, line: str, messages: dict[str, list[DbcMessage]]) -> None:
-    """Apply a line with attributes to the messages and signals that it names."""
-    if line.startswith(("SG_MUL_VAL_", "SIG_VALTYPE_")):
-        words = line.split()
-        match = (_PAGES if line.startswith("SG_MUL_VAL_") else _FLOAT).match(line)
-        for message in messages.get(words[1] if len(words) > 1 else "", ()):
-            for signal in message.signals:
-                if len(words) > 2 and signal.name == _spelled(words[2].rstrip(":")):
-                    _extend(signal, match, f"line {number} describes it as {quoted(line)}")
-    elif line.startswith("BA_"):
-        _attribute(line, messages)
+def _apply(rest: Sequence[Statement], found: Sequence[DbcMessage]) -> None:
+    """Apply statements with attributes to the messages and signals that they name."""
+    by_name: dict[str, list[DbcSignal]] = {}
+    by_number: dict[int, list[DbcMessage]] = {}
+    for message in found:
+        by_number.setdefault(message.number, []).append(message)
+        for signal in message.signals:
+            by_name.setdefault(signal.name, []).append(signal)
+    for statement in rest:
+        if statement.bare.startswith(_DECODING):
+            _decode(statement, by_number, by_name)
+    # Long names last: the other statements name signals by their short names.
+    for statement in rest:
+        if statement.bare.startswith("BA_"):
+            _attribute(statement.code, by_number)
+
+
+def _decode(statement: Statement, messages: dict[int, list[DbcMessage]], by_name: dict[str, list[DbcSignal]]) -> None:
+    """Apply a statement to the signal of which it changes the values; without its message, it makes all of the name
+    unusable."""
+    text = "".join(statement.bare.partition(";")[:2])
+    wrong = f"line {statement.line} describes it as {quoted(' '.join(text.split()))}"
+    named = _OF_SIGNAL.match(text)
+    if named is None:
+        for word in _WORD.findall(text, 0, _LONGEST):
+            for signal in by_name.pop(_spelled(word), ()):
+                signal.problem = wrong
+        return
+    match = None if statement.is_doubtful else (_PAGES if text.startswith("SG_MUL_VAL_") else _FLOAT).match(text)
+    for message in messages.get(int(named[1]), ()):
+        for signal in message.signals:
+            if signal.name == _spelled(named[2]):
+                _extend(signal, match, wrong)
 
 
 def _extend(signal: DbcSignal, match: re.Match[str] | None, wrong: str) -> None:
@@ -151,23 +181,29 @@ def _extend(signal: DbcSignal, match: re.Match[str] | None, wrong: str) -> None:
     elif match.re is _FLOAT:
         signal.is_float = match[3] in "12"
     else:
-        signal.multiplexer = _spelled(match[3])
+        multiplexer = _spelled(match[3])
         ranges = [re.fullmatch(r"\s*(\d{1,10})\s*-\s*(\d{1,10})\s*", each) for each in match[4].split(",")]
-        if not all(ranges):
+        if not all(ranges) or signal.multiplexer not in ("", multiplexer):
             signal.problem = wrong
+        signal.multiplexer = multiplexer
         signal.ranges += tuple((int(each[1]), int(each[2])) for each in ranges if each)
 
 
-def _attribute(line: str, messages: dict[str, list[DbcMessage]]) -> None:
+def _attribute(line: str, messages: dict[int, list[DbcMessage]]) -> None:
     cycle, long_name = _CYCLE.match(line), _LONG_NAME.match(line)
     if cycle is not None:
-        for message in messages.get(cycle[1], ()):
+        for message in messages.get(_number(cycle[1]), ()):
             message.cycle_ms = int(cycle[2])
     elif long_name is not None:
         number, name, new = long_name.groups()
-        for message in messages.get(number, ()):
+        for message in messages.get(_number(number), ()):
             if name is None:
                 message.name = _spelled(new)
             for signal in message.signals:
                 if name is not None and signal.name == _spelled(name):
                     signal.name = _spelled(new)
+
+
+def _number(digits: str) -> int:
+    """An identifier; Python converts no number of thousands of digits."""
+    return int(digits[:_DIGITS])
