@@ -62,19 +62,20 @@ def test_library_prints_nothing_of_a_stranger(tmp_path, suffix, root):
 
 
 @pytest.mark.parametrize(("suffix", "text", "words"), [
-    (".sym", SYM.replace("Sig=LOCK unsigned", "Sig=LOCKS unsigned"), 'SYM: "the signal LOCK has no definition".'),
+    (".sym", SYM.replace("Sig=LOCK unsigned", "Sig=LOCKS unsigned"),
+     'line 9, cannot be used: the signal LOCK has no definition.'),
     (".sym", SYM.replace("Sig=LOCK unsigned", "Sig=LOCKS unsigned").replace("Sig=LOCK 0", 'Sig="L\tK\x01" 0'),
-     'SYM: "the signal L K? has no definition".'),
+     'cannot be used: the signal L K? has no definition.'),
     (".sym", SYM.replace("Len=8", "Len=8\nMux=A 8,8 1h") + "\n[DOORS]\nLen=8\nSig=LOCK 0\n",
-     'SYM: "a message is multiplexed, and a part of it has no line Mux".'),
+     'cannot be used: a message is multiplexed, and a part of it has no line Mux.'),
     (".sym", SYM.replace("Len=8", "Len=-8"), "cannot be used: its length is negative."),
     (".kcd", KCD.format(KCD_DOORS.replace('length="8"', 'length="-8"')), "cannot be used: its length is negative."),
     (".kcd", KCD.format(KCD_DOORS.replace('"0x321"', '"-5"')), "cannot be used: its identifier is negative."),
     (".kcd", KCD.format(KCD_DOORS.replace("/></M", "><LabelSet><Label name='a'/></LabelSet></Signal></M")),
-     'KCD: "value is missing".'),
+     'Message DOORS of CAN database {folder}/car.kcd cannot be used: value is missing.'),
     (".arxml", ARXML.format(3000 * "<AR-PACKAGES><AR-PACKAGE>" + 3000 * "</AR-PACKAGE></AR-PACKAGES>"),
      'ARXML: "it is nested too deeply".')],
     ids=["no definition", "no definition of a hostile name", "no Mux", "SYM length", "KCD length", "KCD identifier",
          "missing attribute", "nested"])
 def test_fault_is_stated_in_words(tmp_path, suffix, text, words):
-    assert words in refusal(tmp_path, text, suffix)
+    assert words.format(folder=tmp_path) in refusal(tmp_path, text, suffix)

@@ -12,7 +12,7 @@ from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.storage.plain_yaml import BadYaml, load_yaml
 
 from .database.codec import SignalReader
-from .database.load import one_line
+from .database.faults import one_line
 from .further.counting import CountRange
 from .further.declared import KEYS, VALUES_OF, Further, read_further
 from .further.entries import FIRST_BUS, MAX_TEXT, PROFILE_FOLDER, Entries, has_long_text, is_file

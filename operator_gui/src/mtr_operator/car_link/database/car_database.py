@@ -26,14 +26,26 @@ class Problems:
     signals: dict[tuple[str, str], str] = field(default_factory=dict)
 
 
-class CarDatabase:
-    """messages: cantools'. refusal: why the library refused the file as a whole; empty when it did not."""
+@dataclass(frozen=True)
+class Unread:
+    """A message that cannot be read. identifiers, bus: on which it may be; None of an unknown bus."""
 
-    def __init__(self, path: pathlib.Path, messages: Sequence[Any], problems: Problems, refusal: str = ""):
+    name: str
+    identifiers: range
+    bus: str | None = None
+
+
+class CarDatabase:
+    """messages: cantools'. refusal: why the library refused the file as a whole; empty when it did not. unread: those
+    with a fault, which may be on the identifier of another one."""
+
+    def __init__(self, path: pathlib.Path, messages: Sequence[Any], problems: Problems, refusal: str = "",
+                 unread: Sequence[Unread] = ()):
         self.path = path
         self.messages = messages
         self._problems = problems
         self._refusal = refusal
+        self._unread_messages = unread
 
     def message(self, name: str) -> Any:
         """Return a message by its name; ConnectionFailed states the fault of one that cannot be used."""
@@ -89,6 +101,10 @@ class CarDatabase:
         return next((f"its multiplexer {name} cannot be used: {fault}" for name, fault in faults if fault), "")
 
     def _as_another_message(self, message: Any, name: str) -> str:
+        for unread in self._unread_messages:
+            if message.frame_id in unread.identifiers and unread.bus in (None, message.bus_name):
+                return (f"message {self._placed(unread.name)} has the same identifier {message.frame_id:#x} and could "
+                        "not be read")
         other = contradicting(message, name, self.messages)
         return "" if other is None else (f"message {self._placed(other.name)} has the same identifier "
                                          f"{message.frame_id:#x} and contradicts it")

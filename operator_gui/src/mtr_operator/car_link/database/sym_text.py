@@ -14,14 +14,14 @@ _KEYS = ("FormatVersion|Title|UniqueVariables|FloatDecimalPlaces|BRS|Enum|Sig|ID
 _STRING = r'"(?:\\"|[^"])*"'
 _NEXT = rf"\b(?:{_KEYS})\s*=|[\[{{]"
 # A statement ends before the next one, not with its line; units contain anything but blanks.
-_PART = re.compile(rf"//[^\n]*|(?P<section>\{{[A-Z]+\}})|\[\s*(?P<message>{_STRING}|[^\]\s\[]+)\s*\]|"
+PART = re.compile(rf"//[^\n]*|(?P<section>\{{[A-Z]+\}})|\[\s*(?P<message>{_STRING}|[^\]\s\[]+)\s*\]|"
                    rf"\b(?P<key>{_KEYS})\s*=\s*"
                    rf"(?P<value>(?:[^A-Z\"/\[{{]+|/u:(?:{_STRING}|\S+)|//[^\n]*|{_STRING}|(?!{_NEXT})[^\"])*)|{_STRING}")
-_NAME = re.compile(rf"{_STRING}|[^\s=(\]-]+")
+NAME = re.compile(rf"{_STRING}|[^\s=(\]-]+")
 # No value depends on unit, table of values, long name, default, decimals, SPN, flags of the display and comment.
 _IDLE = re.compile(rf"/(?:u|e|ln|d|p|spn):(?:{_STRING}|\S+)|//[^\n]*|-[hbstv]\b")
 _PLACE = re.compile(r"(?<!\d)(\d{1,9})\s*,\s*(\d{1,9})")
-_SIGNALS = "{SIGNALS}"
+SIGNALS = "{SIGNALS}"
 # Statements of a message of which the library reads the first.
 _ONCE = ("ID", "Len", "Type", "Mux")
 
@@ -63,12 +63,12 @@ def sym_problems(text: str, messages: Sequence[Any], found: Problems) -> None:
 
 def _statements(text: str) -> Iterator[_Statement]:
     block, line, position = _Block(), 1, 0
-    for part in _PART.finditer(text):
+    for part in PART.finditer(text):
         line, position = line + text.count("\n", position, part.start()), part.start()
         if part["section"]:
             block = _Block(block.number, part["section"])
         elif part["message"] is not None:
-            block = _Block(block.number + 1, block.section, _unquoted(part["message"]), line)
+            block = _Block(block.number + 1, block.section, unquoted(part["message"]), line)
         elif part["key"]:
             yield _Statement(line, block, part["key"], part["value"])
 
@@ -90,9 +90,9 @@ def _definitions(statements: Sequence[_Statement]) -> dict[str, _Lines]:
     """Definitions of signals, by their names; the library reads the last one."""
     found: dict[str, _Lines] = collections.defaultdict(dict)
     for each in statements:
-        name = _NAME.match(each.value)
-        if each.key == "Sig" and each.block.section == _SIGNALS and name is not None:
-            found[_unquoted(name[0])].setdefault(_facts(each.value[name.end():]), each.line)
+        name = NAME.match(each.value)
+        if each.key == "Sig" and each.block.section == SIGNALS and name is not None:
+            found[unquoted(name[0])].setdefault(_facts(each.value[name.end():]), each.line)
     return found
 
 
@@ -106,7 +106,7 @@ def _place(value: str) -> str:
     return "" if place is None else f"{place[1]},{place[2]} {'-m' in bare.split()}"
 
 
-def _unquoted(name: str) -> str:
+def unquoted(name: str) -> str:
     return name[1:-1].replace('\\"', '"') if name[:1] == '"' else name
 
 

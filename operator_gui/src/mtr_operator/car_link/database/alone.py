@@ -1,0 +1,141 @@
+"""Messages of a KCD, SYM or ARXML database one by one, so that a faulty one costs no other."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import Any, Callable, Iterable
+from xml.etree import ElementTree
+
+import cantools
+from cantools.database.can.formats.arxml import SystemLoader
+
+from .car_database import Unread, printable
+from .faults import cause, in_words
+
+# Messages that are read one by one; whole cars have some hundred.
+MAX_MESSAGES = 4096
+_MAX_SAID = 300
+# A place in the part of the file that the library reads alone.
+_PLACE = re.compile(r" at line \d+, column \d+")
+_KCD = {"k": "http://kayak.2codeornot2code.org/1.0"}
+_BITS_PER_BYTE = 8
+
+
+@dataclass
+class Separated:
+    """Messages (cantools'), and those that cannot be read with the fault of each by its name."""
+
+    messages: list[Any] = field(default_factory=list)
+    faults: dict[str, str] = field(default_factory=dict)
+    unread: list[Unread] = field(default_factory=list)
+
+    def add(self, read: Callable[[], Iterable[Any]], kind: str, unread: Iterable[Unread]) -> None:
+        """Add what a reader returns, or the fault for which it raises an exception."""
+        try:
+            self.messages += read()
+        # The library refuses a message by whatever exception.
+        except Exception as error:
+            said = _PLACE.sub("", " ".join(in_words(kind, cause(error)).split()))
+            fault = printable(said.rstrip(".")[:_MAX_SAID])
+            for each in unread:
+                self.faults[each.name] = fault
+                self.unread.append(each)
+
+
+def kcd_messages(text: str) -> Separated | None:
+    """Messages of a KCD file; None when it is no such file, or has too many for this."""
+    root = ElementTree.fromstring(text)
+    pairs = [(bus, message) for bus in root.iterfind("k:Bus", _KCD) for message in bus.iterfind("k:Message", _KCD)]
+    if len(pairs) > MAX_MESSAGES:
+        return None
+    found = Separated()
+    for bus, message in pairs:
+        document = ElementTree.Element(root.tag)
+        part = ElementTree.SubElement(document, bus.tag, bus.attrib)
+        part.append(message)
+        unread = Unread(message.get("name", ""), _single(message.get("id", "")), bus.get("name"))
+        found.add(lambda document=document, message=message: _loaded_kcd(document, message), "KCD", [unread])
+    return found
+
+
+def _loaded_kcd(document: ElementTree.Element, message: ElementTree.Element) -> list[Any]:
+    """The only message of a document. ValueError states a missing attribute, which the library does not name."""
+    if message.get("id") is None:
+        raise ValueError("its identifier is missing")
+    for signal in (*message.iter(f"{{{_KCD['k']}}}Signal"), *message.iter(f"{{{_KCD['k']}}}Multiplex")):
+        if signal.get("offset") is None:
+            raise ValueError(f"its signal {signal.get('name')} has no offset")
+    return list(cantools.database.load_string(ElementTree.tostring(document, "unicode"), "kcd", strict=False).messages)
+
+
+def with_kcd_lengths(text: str) -> str:
+    """Return a KCD file in which each message without a length, or of the length "auto", has that of its farthest
+    signal; the library uses the signal that begins last."""
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError:
+        # The library says where.
+        return text
+    is_changed = False
+    for message in root.iterfind("k:Bus/k:Message", _KCD):
+        if message.get("length", "auto") != "auto":
+            continue
+        signals = [each for tag in ("Signal", "Multiplex") for each in message.iter(f"{{{_KCD['k']}}}{tag}")]
+        try:
+            end = max((int(each.get("offset", "")) + int(each.get("length", "1")) for each in signals), default=0)
+        except ValueError:
+            continue
+        message.set("length", str(-(-max(end, 0) // _BITS_PER_BYTE)))
+        is_changed = True
+    return ElementTree.tostring(root, "unicode") if is_changed else text
+
+
+def arxml_messages(text: str) -> Separated | None:
+    """Messages of an AUTOSAR system."""
+    loader = _SystemLoader(ElementTree.fromstring(text), False)
+    loader.separated.messages = list(loader.load().messages)
+    return loader.separated
+
+
+class _SystemLoader(SystemLoader):
+    """The library's reader, which skips messages that cannot be read. The file has references from each message to any
+    place, so that its messages cannot be cut out."""
+
+    def __init__(self, root: Any, is_strict: bool):
+        super().__init__(root, is_strict)
+        self.separated = Separated()
+
+    def _load_message(self, bus_name: Any, can_frame_triggering: Any) -> Any:
+        def read() -> list[Any]:
+            if _text(can_frame_triggering, "IDENTIFIER") is None:
+                raise ValueError("its identifier is missing")
+            return [super(_SystemLoader, self)._load_message(bus_name, can_frame_triggering)]
+
+        alone = Separated()
+        alone.add(read, "ARXML", [Unread(*_frame(can_frame_triggering), bus_name)])
+        self.separated.faults.update(alone.faults)
+        self.separated.unread += alone.unread
+        return next(iter(alone.messages), None)
+
+    def _load_package_messages(self, package_elem: Any) -> list[Any]:
+        return [each for each in super()._load_package_messages(package_elem) if each is not None]
+
+
+def _frame(triggering: ElementTree.Element) -> tuple[str, range]:
+    """Name of the frame of a triggering, and its identifier."""
+    reference = _text(triggering, "FRAME-REF") or _text(triggering, "SHORT-NAME") or ""
+    return reference.rpartition("/")[2].strip(), _single(_text(triggering, "IDENTIFIER") or "")
+
+
+def _text(element: ElementTree.Element, tag: str) -> str | None:
+    return next((each.text for each in element if each.tag.rpartition("}")[2] == tag), None)
+
+
+def _single(number: str) -> range:
+    """An identifier, as a range of one; an empty range of an unreadable one."""
+    try:
+        identifier = int(number, 0)
+    except ValueError:
+        return range(0)
+    return range(identifier, identifier + 1)

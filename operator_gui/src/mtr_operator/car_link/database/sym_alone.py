@@ -1,0 +1,91 @@
+"""Messages of a SYM database one by one: each with the signals and tables of values that it uses."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+import re
+from typing import Iterable, Iterator, Mapping, NamedTuple, Sequence
+
+import cantools
+
+from .alone import MAX_MESSAGES, Separated
+from .car_database import Unread
+from .sym_text import NAME, PART, SIGNALS, unquoted
+
+_HEAD = re.compile(r"\s*(?://[^\n]*\n\s*)?FormatVersion\s*=\s*6\.0\s*//")
+# The library ignores an incomplete statement at the end of a file, therefore a section without messages follows.
+_FILE = ('FormatVersion=6.0 // Do not edit this line!\nTitle="x"\n\n{{ENUMS}}\n{}\n{{SIGNALS}}\n{}\n{}\n{}'
+         "\n{{SENDRECEIVE}}\n")
+_ENUMS, _MESSAGES = "{ENUMS}", ("{SEND}", "{RECEIVE}", "{SENDRECEIVE}")
+_DEFINED = {SIGNALS: "Sig", _ENUMS: "Enum"}
+# Characters of all messages with their definitions; more than one may use a definition.
+_MAX_CHARACTERS = 32 * 1024 * 1024
+# Messages and identifiers in a text, also within a string that has no end.
+_BEGINS = re.compile(r"^[ \t]*\[[ \t]*\"?([^\]\"\n]+?)\"?[ \t]*\]", re.MULTILINE)
+_IDENTIFIERS = re.compile(r"\bID\s*=\s*([0-9A-Fa-f]{1,8})h(?:\s*-\s*([0-9A-Fa-f]{1,8})h)?")
+_WORD = re.compile(r"[^\s=(\]-]+")
+
+
+class _Piece(NamedTuple):
+    """A statement or the beginning of a message, with all text up to the next one. message: None outside of any."""
+
+    section: str
+    message: str | None
+    key: str
+    name: str
+    text: str
+
+
+def sym_messages(text: str) -> Separated | None:
+    """Messages of a SYM file; None when it is of another version, has too many for this, or has parts of messages
+    outside of any."""
+    pieces = list(_pieces(text)) if _HEAD.match(text) else []
+    definitions: dict[str, dict[str, str]] = {SIGNALS: {}, _ENUMS: {}}
+    messages: dict[tuple[str, str], list[_Piece]] = collections.defaultdict(list)
+    for piece in pieces:
+        if piece.message is not None:
+            messages[piece.section, piece.message].append(piece)
+        elif piece.section in _MESSAGES or _BEGINS.search(piece.text):
+            return None
+        elif piece.key == _DEFINED.get(piece.section):
+            known = definitions[piece.section]
+            known[piece.name] = known.get(piece.name, "") + piece.text
+    documents = [(name, *_document(section, own, definitions)) for (section, name), own in messages.items()]
+    if len(messages) > MAX_MESSAGES or sum(len(document) for _, document, _ in documents) > _MAX_CHARACTERS:
+        return None
+    found = Separated()
+    for name, document, body in documents:
+        found.add(lambda document=document: cantools.database.load_string(document, "sym", strict=False).messages,
+                  "SYM", _unread(name, body))
+    return found
+
+
+def _document(section: str, pieces: Sequence[_Piece], definitions: Mapping[str, Mapping[str, str]]) -> tuple[str, str]:
+    """A file of one message with all of its pages, and the text of the message in it."""
+    signals, enums = definitions[SIGNALS], definitions[_ENUMS]
+    body = "".join(piece.text for piece in pieces)
+    names = dict.fromkeys(piece.name for piece in pieces if piece.key == "Sig")
+    own = "".join(signals.get(name, "") for name in names)
+    words = dict.fromkeys(word.removeprefix("/e:") for word in _WORD.findall(own + body))
+    return _FILE.format("".join(enums.get(word, "") for word in words), own, section, body), body
+
+
+def _pieces(text: str) -> Iterator[_Piece]:
+    section, message = "", None
+    parts = [part for part in PART.finditer(text) if part["section"] or part["message"] is not None or part["key"]]
+    for part, end in zip(parts, [*(each.start() for each in parts[1:]), len(text)]):
+        if part["section"]:
+            section, message = part["section"], None
+        elif part["message"] is not None:
+            message = unquoted(part["message"])
+        name = NAME.match(part["value"] or "")
+        # The statement of a section is written with each of its messages.
+        yield _Piece("" if part["section"] else section, message, part["key"] or "", unquoted(name[0]) if name else "",
+                     text[part.start():end])
+
+
+def _unread(name: str, text: str) -> Iterable[Unread]:
+    """All messages that may be in the text of one that cannot be read; each on any of the identifiers."""
+    names = dict.fromkeys([name, *_BEGINS.findall(text)])
+    numbers = [range(int(low, 16), int(high or low, 16) + 1) for low, high in _IDENTIFIERS.findall(text)]
+    return [Unread(each, number) for each in names for number in numbers or [range(0)]][:MAX_MESSAGES]
