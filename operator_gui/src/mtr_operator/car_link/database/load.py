@@ -58,13 +58,18 @@ def load_database(path: pathlib.Path) -> CarDatabase:
 
 def decoded_text(data: bytes, suffix: str) -> str:
     """Text of a database: by the mark at its beginning, else UTF-8, else the encoding of Windows, as of every SYM."""
-    encoding = next((name for mark, name in _MARKS.items() if data.startswith(mark)), "")
-    if not encoding and suffix.lower() == _SYM:
-        return data.decode("cp1252", errors="replace")
+    encoding = next((name for mark, name in _MARKS.items() if data.startswith(mark)), "") or _unmarked(data[:2])
+    encoding = encoding or ("cp1252" if suffix.lower() == _SYM else "utf-8")
     try:
-        return data.decode(encoding or "utf-8")
+        text = data.decode(encoding)
     except UnicodeDecodeError:
-        return data.decode("cp1252", errors="replace")
+        text = data.decode("cp1252", errors="replace")
+    return text.replace("\r\n", "\n").replace("\r", "\n")
+
+
+def _unmarked(begin: bytes) -> str:
+    """UTF-16 without its mark, in which a zero is next to the first letter."""
+    return "utf-16-le" if begin[1:] == b"\0" else "utf-16-be" if begin[:1] == b"\0" else ""
 
 
 def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
@@ -72,7 +77,7 @@ def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
         return _parsed_other(path, text)
     lines, refusal = dbc_messages(text), ""
     try:
-        messages = _messages(cantools.database.load_file(str(path), strict=False))
+        messages = _messages(cantools.database.load_string(text, "dbc", strict=False))
     # The library refuses a file as a whole, by whatever exception; then the messages count that can be used.
     except Exception as error:
         # Of a file without one complete line BO_ the library's sentence says more.

@@ -50,9 +50,13 @@ def sym_messages(text: str) -> Separated | None:
         elif piece.key == _DEFINED.get(piece.section):
             known = definitions[piece.section]
             known[piece.name] = known.get(piece.name, "") + piece.text
-    documents = [(name, *_document(section, own, definitions)) for (section, name), own in messages.items()]
-    if len(messages) > MAX_MESSAGES or sum(len(document) for _, document, _ in documents) > _MAX_CHARACTERS:
-        return None
+    documents, left = [], _MAX_CHARACTERS
+    for (section, name), own in messages.items():
+        document, body = _document(section, own, definitions)
+        documents.append((name, document, body))
+        left -= len(document)
+        if left < 0 or len(documents) > MAX_MESSAGES:
+            return None
     found = Separated()
     for name, document, body in documents:
         found.add(lambda document=document: cantools.database.load_string(document, "sym", strict=False).messages,
