@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import functools
 import re
 from dataclasses import dataclass, field
 from typing import Any, Callable, Iterable
@@ -10,6 +11,7 @@ from xml.etree import ElementTree
 import cantools
 from cantools.database.can.formats.arxml import SystemLoader
 
+from ..further.sizes import size_words, too_large
 from .car_database import Unread, printable
 from .faults import cause, in_words
 
@@ -55,7 +57,7 @@ def kcd_messages(text: str) -> Separated | None:
         part = ElementTree.SubElement(document, bus.tag, bus.attrib)
         part.append(message)
         unread = Unread(message.get("name", ""), _single(message.get("id", "")), bus.get("name"))
-        found.add(lambda document=document, message=message: _loaded_kcd(document, message), "KCD", [unread])
+        found.add(functools.partial(_loaded_kcd, document, message), "KCD", [unread])
     return found
 
 
@@ -66,7 +68,15 @@ def _loaded_kcd(document: ElementTree.Element, message: ElementTree.Element) -> 
     for signal in (*message.iter(f"{{{_KCD['k']}}}Signal"), *message.iter(f"{{{_KCD['k']}}}Multiplex")):
         if signal.get("offset") is None:
             raise ValueError(f"its signal {signal.get('name')} has no offset")
-    return list(cantools.database.load_string(ElementTree.tostring(document, "unicode"), "kcd", strict=False).messages)
+    return loaded_alone(ElementTree.tostring(document, "unicode"), "kcd")
+
+
+def loaded_alone(text: str, kind: str) -> list[Any]:
+    """The messages of a part of a file. ValueError states a size that would use memory without limit."""
+    size = too_large(text, f".{kind}")
+    if size:
+        raise ValueError(size_words(size))
+    return list(cantools.database.load_string(text, kind, strict=False).messages)
 
 
 def with_kcd_lengths(text: str) -> str:

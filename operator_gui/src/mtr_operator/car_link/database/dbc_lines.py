@@ -6,11 +6,12 @@ import re
 from dataclasses import dataclass, field
 from typing import Sequence
 
+from ..further.sizes import is_too_large, size_words
 from .dbc_statements import Statement, statements
 
-_MESSAGE = re.compile(r"BO_\s+(\d{1,10})\s+([^:\"\n]*?)\s*:\s*(\d{1,6})(?:\s|$)")
+_MESSAGE = re.compile(r"BO_\s+(\d{1,10})\s+([^:\"\n]*?)\s*:\s*(\d+)(?:\s|$)")
 _SIGNAL = re.compile(
-    r"SG_\s+([^:\"\n]*?)(?:\s+(M|m\d{1,10}M?|m))?\s*:\s*(\d{1,6})\s*\|\s*(\d{1,6})\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)"
+    r"SG_\s+([^:\"\n]*?)(?:\s+(M|m\d{1,10}M?|m))?\s*:\s*(\d+)\s*\|\s*(\d+)\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)"
     r"\s*,\s*([^,()]*?)\s*\)\s*(?:\[\s*([^\]|]*?)\s*\|\s*([^\]]*?)\s*\])?\s*(?:\"([^\"]*)\")?")
 # Characters of a statement that matter; lists of receivers may be longer.
 _LONGEST = 4096
@@ -103,7 +104,9 @@ def _message(statement: Statement) -> tuple[DbcMessage, bool]:
         return DbcMessage(_name(text), statement.line, text, problem="the line is not complete"), text == statement.code
     identifier, name, length = match.groups()
     text, is_understood = _read(statement, match)
-    return DbcMessage(_spelled(name), statement.line, text, int(identifier), int(length)), is_understood
+    problem = _size_problem(length)
+    return DbcMessage(_spelled(name), statement.line, text, int(identifier), 0 if problem else int(length),
+                      problem=problem), is_understood
 
 
 def _signal(statement: Statement) -> tuple[DbcSignal, bool]:
@@ -114,12 +117,17 @@ def _signal(statement: Statement) -> tuple[DbcSignal, bool]:
         return DbcSignal(_name(text), statement.line, text, problem="the line is not complete"), text == statement.code
     name, page, start, length, order, sign, scale, offset, low, high, unit = match.groups("")
     text, is_understood = _read(statement, match)
-    signal = DbcSignal(_spelled(name), statement.line, text, "M" if page == "m" else page, int(start), int(length),
-                       order == "0", sign == "-", scale=scale, offset=offset, unit=unit,
-                       limits=("0", "0") if match[9] is None else (low, high))
-    if not signal.length:
-        signal.problem = "it has no bit"
+    signal = DbcSignal(_spelled(name), statement.line, text, "M" if page == "m" else page, is_big_endian=order == "0",
+                       is_signed=sign == "-", scale=scale, offset=offset, unit=unit,
+                       limits=("0", "0") if match[9] is None else (low, high), problem=_size_problem(start, length))
+    if not signal.problem:
+        signal.start, signal.length = int(start), int(length)
+        signal.problem = "" if signal.length else "it has no bit"
     return signal, is_understood
+
+
+def _size_problem(*numbers: str) -> str:
+    return next((size_words(number) for number in numbers if is_too_large(number)), "")
 
 
 def _read(statement: Statement, match: re.Match[str]) -> tuple[str, bool]:

@@ -35,15 +35,16 @@ class Statement(NamedTuple):
     is_doubtful: bool = False
 
 
-def bare_text(text: str) -> str:
-    """Return a text of the same length without comments and without what is in strings."""
-    return _masked(text, '"')
+def without_texts(text: str) -> str:
+    """Return a text without comments and strings; all of it, if a string has no end, because the library may see
+    others."""
+    return _masked(text, '"') if _is_balanced(text.replace('\\"', "''")) else text
 
 
 def statements(text: str) -> Iterator[Statement]:
     """Yield all statements in their order; text before the first keyword is one as well."""
     text = text.replace("\r\n", "\n").replace("\r", "\n").replace('\\"', "''")
-    code, bare = _masked(text, ""), bare_text(text)
+    code, bare = _masked(text, ""), _masked(text, '"')
     starts = _starts(bare)
     line, position = 1, 0
     for start, end in zip(starts, [*starts[1:], len(bare)]):

@@ -11,11 +11,12 @@ import cantools
 
 from mtr_operator.domain.errors import ConnectionFailed
 
-from ..further.sizes import MAX_SIZE, too_large
+from ..further.sizes import size_words, too_large
 from .alone import Separated, arxml_messages, kcd_messages, with_kcd_lengths
 from .car_database import CarDatabase, Problems
 from .dbc_lines import dbc_messages
 from .dbc_messages import built, problems
+from .dbc_statements import without_texts
 from .faults import one_line
 from .repeated import contradictions, join_pages
 from .sym_alone import sym_messages
@@ -44,11 +45,9 @@ def load_database(path: pathlib.Path) -> CarDatabase:
             raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
                                    "leave the messages that the profile does not name out of it.")
         text = decoded_text(path.read_bytes(), path.suffix)
-        size = too_large(text, path.suffix)
-        if size:
-            raise ConnectionFailed(f"CAN database {path} cannot be read: it says {size} where a place or a size of a "
-                                   f"message or signal stands; allowed is up to {MAX_SIZE}.")
-        return _parsed(path, text)
+        size = too_large(without_texts(text) if path.suffix.lower() == _DBC else text, path.suffix)
+        # The library uses memory for each bit. Messages of an ARXML have no part of it for themselves.
+        return _parsed(path, text, f"CAN database {path} cannot be read: {size_words(size)}." if size else "")
     except _READABLE as error:
         raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None
     # The library's readers of some five formats raise whatever a damaged file leads them to.
@@ -72,31 +71,31 @@ def _unmarked(begin: bytes) -> str:
     return "utf-16-le" if begin[1:] == b"\0" else "utf-16-be" if begin[:1] == b"\0" else ""
 
 
-def _parsed(path: pathlib.Path, text: str) -> CarDatabase:
+def _parsed(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
+    """Read a text; refusal: why the library must not read it as a whole, as a sentence."""
     if path.suffix.lower() != _DBC:
-        return _parsed_other(path, text)
-    lines, refusal = dbc_messages(text), ""
+        return _parsed_other(path, text, refusal)
+    lines = dbc_messages(text)
     try:
-        messages = _messages(cantools.database.load_string(text, "dbc", strict=False))
+        messages, reason = _messages(_loaded(path, text, refusal)), ""
     # The library refuses a file as a whole, by whatever exception; then the messages count that can be used.
     except Exception as error:
         # Of a file without one complete line BO_ the library's sentence says more.
-        if all(line.problem for line in lines):
+        if all(line.problem for line in lines) and not refusal:
             raise
-        messages, refusal = built(lines), one_line(error) if isinstance(error, _READABLE) else _DAMAGED
-    return CarDatabase(path, messages, problems(lines, messages), refusal)
+        messages, reason = built(lines), one_line(error) if isinstance(error, _READABLE) else _DAMAGED
+    return CarDatabase(path, messages, problems(lines, messages), "" if refusal else reason)
 
 
-def _parsed_other(path: pathlib.Path, text: str) -> CarDatabase:
+def _parsed_other(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
     """Read another kind than DBC; after a refusal of the library, its messages one by one."""
     suffix, separated = path.suffix.lower(), Separated()
     text = with_kcd_lengths(text) if suffix == _KCD else text
     try:
-        messages = _messages(cantools.database.load_string(text, suffix[1:], strict=False) if suffix in _ALONE
-                             else cantools.database.load_file(str(path), strict=False))
+        messages = _messages(_loaded(path, text, refusal))
     # As of a DBC.
     except Exception:
-        found = _separated(suffix, text)
+        found = None if refusal and suffix not in (_KCD, _SYM) else _separated(suffix, text)
         if found is None or not (found.messages or found.faults):
             raise
         separated, messages = found, found.messages
@@ -106,6 +105,16 @@ def _parsed_other(path: pathlib.Path, text: str) -> CarDatabase:
     if suffix == _SYM:
         sym_problems(text, messages, problems_found)
     return CarDatabase(path, messages, problems_found, unread=separated.unread)
+
+
+def _loaded(path: pathlib.Path, text: str, refusal: str) -> Any:
+    """The library's database. ConnectionFailed states the refusal, if any."""
+    if refusal:
+        raise ConnectionFailed(refusal)
+    suffix = path.suffix.lower()
+    if suffix == _DBC or suffix in _ALONE:
+        return cantools.database.load_string(text, suffix[1:], strict=False)
+    return cantools.database.load_file(str(path), strict=False)
 
 
 def _separated(suffix: str, text: str) -> Separated | None:

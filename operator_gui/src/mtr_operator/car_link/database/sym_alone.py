@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import collections
+import functools
 import re
 from typing import Iterable, Iterator, Mapping, NamedTuple, Sequence
 
-import cantools
-
-from .alone import MAX_MESSAGES, Separated
+from .alone import MAX_MESSAGES, Separated, loaded_alone
 from .car_database import Unread
 from .sym_text import NAME, PART, SIGNALS, unquoted
 
@@ -59,8 +58,7 @@ def sym_messages(text: str) -> Separated | None:
             return None
     found = Separated()
     for name, document, body in documents:
-        found.add(lambda document=document: cantools.database.load_string(document, "sym", strict=False).messages,
-                  "SYM", _unread(name, body))
+        found.add(functools.partial(loaded_alone, document, "sym"), "SYM", _unread(name, body))
     return found
 
 
