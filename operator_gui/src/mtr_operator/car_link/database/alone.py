@@ -9,7 +9,7 @@ from typing import Any, Callable, Iterable
 from xml.etree import ElementTree
 
 import cantools
-from cantools.database.can.formats.arxml import SystemLoader
+from cantools.database.can.formats.arxml import SystemLoader  # type: ignore[attr-defined]
 
 from ..further.sizes import size_words, too_large
 from .car_database import Unread, printable
@@ -76,7 +76,8 @@ def loaded_alone(text: str, kind: str) -> list[Any]:
     size = too_large(text, f".{kind}")
     if size:
         raise ValueError(size_words(size))
-    return list(cantools.database.load_string(text, kind, strict=False).messages)
+    database: Any = cantools.database.load_string(text, kind, strict=False)
+    return list(database.messages)
 
 
 def with_kcd_lengths(text: str) -> str:
@@ -117,10 +118,12 @@ class _SystemLoader(SystemLoader):
         self.separated = Separated()
 
     def _load_message(self, bus_name: Any, can_frame_triggering: Any) -> Any:
+        inherited: Any = super()
+
         def read() -> list[Any]:
             if _text(can_frame_triggering, "IDENTIFIER") is None:
                 raise ValueError("its identifier is missing")
-            return [super(_SystemLoader, self)._load_message(bus_name, can_frame_triggering)]
+            return [inherited._load_message(bus_name, can_frame_triggering)]
 
         alone = Separated()
         alone.add(read, "ARXML", [Unread(*_frame(can_frame_triggering), bus_name)])
@@ -129,7 +132,8 @@ class _SystemLoader(SystemLoader):
         return next(iter(alone.messages), None)
 
     def _load_package_messages(self, package_elem: Any) -> list[Any]:
-        return [each for each in super()._load_package_messages(package_elem) if each is not None]
+        inherited: Any = super()
+        return [each for each in inherited._load_package_messages(package_elem) if each is not None]
 
 
 def _frame(triggering: ElementTree.Element) -> tuple[str, range]:

@@ -15,6 +15,7 @@ _HEAD = re.compile(r"\s*(?://[^\n]*\n\s*)?FormatVersion\s*=\s*6\.0\s*//")
 # The library ignores an incomplete statement at the end of a file, therefore a section without messages follows.
 _FILE = ('FormatVersion=6.0 // Do not edit this line!\nTitle="x"\n\n{{ENUMS}}\n{}\n{{SIGNALS}}\n{}\n{}\n{}'
          "\n{{SENDRECEIVE}}\n")
+_TABLE = "/e:"
 _ENUMS, _MESSAGES = "{ENUMS}", ("{SEND}", "{RECEIVE}", "{SENDRECEIVE}")
 _DEFINED = {SIGNALS: "Sig", _ENUMS: "Enum"}
 # Characters of all messages with their definitions; more than one may use a definition.
@@ -68,7 +69,7 @@ def _document(section: str, pieces: Sequence[_Piece], definitions: Mapping[str, 
     body = "".join(piece.text for piece in pieces)
     names = dict.fromkeys(piece.name for piece in pieces if piece.key == "Sig")
     own = "".join(signals.get(name, "") for name in names)
-    words = dict.fromkeys(word.removeprefix("/e:") for word in _WORD.findall(own + body))
+    words = dict.fromkeys(word[len(_TABLE):] if word.startswith(_TABLE) else word for word in _WORD.findall(own + body))
     return _FILE.format("".join(enums.get(word, "") for word in words), own, section, body), body
 
 
