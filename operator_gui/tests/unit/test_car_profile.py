@@ -55,7 +55,7 @@ def test_demo_car_is_decoded_as_its_database_says(raw, state):
 def test_database_of_diagnostics_is_a_sentence(tmp_path, monkeypatch):
     path = write(tmp_path)
     diagnostics = cantools.database.diagnostics.Database()
-    monkeypatch.setattr("cantools.database.load_file", lambda *_, **__: diagnostics)
+    monkeypatch.setattr("cantools.database.load_string", lambda *_, **__: diagnostics)
     with pytest.raises(ConnectionFailed, match=r"other\.dbc has no message Doors"):
         load_profile(path)
 
