@@ -26,7 +26,7 @@ from .any_bag.conversions import Found, convert
 from .any_bag.errors import BagUnusable
 from .any_bag.frames import yaw_of
 from .any_bag.sources import Asked, is_own
-from .replay_faults import GAP_LIMIT_S, Topics, faults, is_useless
+from .replay_faults import GAP_LIMIT_S, Topics, faults, is_useless, shows_nothing
 
 # The first of a drive tells whether its sensors fit together.
 COMPARED_S = 60.0
@@ -44,11 +44,12 @@ def main(arguments: Optional[List[str]] = None) -> int:
         topics, start_s = seen_in(options.bag)
         if is_own(topics, asked):
             own = Topics({"front": names.FRONT_SCAN, "rear": names.REAR_SCAN}, names.WHEEL_ODOMETRY)
-            return replayed(programs[0], options, options.bag, Conversion(own, {}, [], []), start_s)
+            return replayed(programs[0], options, options.bag, Conversion(own, {}, [], [], []), start_s)
         with tempfile.TemporaryDirectory() as folder:
             bag = pathlib.Path(folder) / "inputs.bag"
             found = convert(pathlib.Path(options.bag), bag, asked, options.map is None, show)
-            conversion = Conversion(topics_of(found), found.parameters, found.said, against_each_other(bag, found))
+            compared = [] if found.faults else against_each_other(bag, found)
+            conversion = Conversion(topics_of(found), found.parameters, found.said, compared, found.faults)
             return replayed(programs[0], options, str(bag), conversion, start_s)
     except RobotError as error:
         print(error, file=sys.stderr)
@@ -63,12 +64,14 @@ class Conversion(NamedTuple):
         parameters: of localization, that follow from what the bag lacks.
         remarks: sentences on what the bag was taken for.
         comparison: lines on what its sensors show of each other.
+        faults: sentences on inputs that cannot be used.
     """
 
     topics: Topics
     parameters: Dict[str, float]
     remarks: List[str]
     comparison: List[str]
+    faults: List[str]
 
 
 def topics_of(found: Found) -> Topics:
@@ -84,9 +87,10 @@ def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Co
         print("\n".join(conversion.remarks), flush=True)
         return done.returncode
     summary = json.loads((options.out / "summary.json").read_text(encoding="utf-8"))
-    print("\n".join([*faults(summary, conversion.topics, gap_limit_of(options)), *conversion.remarks]))
-    if summary["scans_used"]:
-        # Advice from scans that are refused would only mislead.
+    sentences = faults(summary, conversion.topics, gap_limit_of(options))
+    print("\n".join([*conversion.faults, *sentences, *conversion.remarks]))
+    if summary["scans_used"] and not shows_nothing(summary):
+        # Advice from scans that cannot be used would only mislead.
         print("\n".join(conversion.comparison))
         report(options, bag, summary)
     return 1 if is_useless(summary) else 0

@@ -3,6 +3,7 @@
 from typing import Any, Dict, List, NamedTuple
 
 STAND_STILL = "localization.stand_still"
+FEW_SURFACES = "surfel_map.few_surfaces"
 # A few scans are always late: those under way while the pose is set to that of a new map.
 MAX_LATE_SHARE = 0.05
 # Default of the parameter gap_limit_s, see src/parameters.hpp.
@@ -28,7 +29,12 @@ def faults(summary: Dict[str, Any], topics: Topics, gap_limit_s: float = GAP_LIM
 
 def is_useless(summary: Dict[str, Any]) -> bool:
     """True when no pose may be relied on."""
-    return not summary["scans_used"] or not summary["poses_valid"]
+    return not summary["scans_used"] or not summary["poses_valid"] or shows_nothing(summary)
+
+
+def shows_nothing(summary: Dict[str, Any]) -> bool:
+    """True when the key-frames of a new map contain no surface: the poses follow the wheels alone."""
+    return summary.get("surfels") == 0 and any(message["code"] == FEW_SURFACES for message in summary["messages"])
 
 
 def _refused_scans(summary: Dict[str, Any], topics: Topics) -> List[str]:
@@ -44,6 +50,9 @@ def _refused_scans(summary: Dict[str, Any], topics: Topics) -> List[str]:
         total = summary["scans"]
         found.append(f"None of the {total} scans was used, so no pose is valid." if total else
                      f"The bag has no scans on {', '.join(topics.scans.values())}, so no pose is valid.")
+    elif shows_nothing(summary):
+        found.append(f"The scans on {', '.join(topics.scans.values())} show no surface, so no pose is valid: check "
+                     "their ranges, range_min and range_max.")
     return found
 
 

@@ -45,7 +45,7 @@ class Robot:
         self.scans = {"/scan": "laser", "/hokuyo_behind": "laser_behind"}
         self.mounts = dict(MOUNTS)
         self.has_odometry, self.has_imu, self.wanders = True, False, False
-        self.heights_m = {}
+        self.heights_m, self.ranges = {}, {}
         self.speed_mps, self.jump_s, self.scans_later_s = SPEED_MPS, 0.0, 0.0
 
     def write(self):
@@ -78,7 +78,8 @@ class Robot:
             imu.header.stamp, imu.header.frame_id, imu.angular_velocity.y = stamp, "imu", -turn
             bag.write("/imu", imu, stamp)
         for topic, frame in self.scans.items():
-            scan = LaserScan(angle_min=-1.0, angle_max=1.0, angle_increment=0.1, range_max=10.0, ranges=[5.0] * 21)
+            scan = LaserScan(angle_min=-1.0, angle_max=1.0, angle_increment=0.1, range_max=10.0)
+            scan.ranges = self.ranges.get(topic, [5.0] * 21)
             scan.header.frame_id = frame
             scan.header.stamp = rospy.Time.from_sec(time_s + self.scans_later_s)
             bag.write(topic, scan, stamp)
@@ -196,6 +197,34 @@ def test_what_a_bag_lacks_is_a_sentence(robot, converted, change, asked, words):
     with pytest.raises(BagUnusable, match=words) as caught:
         converted(asked)
     assert str(caught.value).endswith(".")
+
+
+MM = [1000.0 * (2.0 + 0.1 * beam) for beam in range(21)]
+
+
+@pytest.mark.parametrize(("ranges", "words"), [
+    ([math.nan] * 21, "has an echo between range_min 0 m and range_max 10 m"), ([math.inf] * 21, "has an echo"),
+    ([0.0] * 21, "has an echo"), ([-1.0] * 21, "has an echo"), ([65.5] * 21, "has an echo"),
+    ([1000.0] * 21, "has an echo"), ([3.4e38] * 21, "has an echo"), ([math.nan] * 10 + [11.0] * 11, "has an echo"),
+    (MM, "probably millimetres"), ([0.0] * 5 + MM[5:], "probably millimetres"),
+    ([math.nan] * 5 + MM[5:], "probably millimetres"), ([5.0] + MM[1:], "probably millimetres")])
+def test_scans_without_an_echo_and_ranges_in_millimetres_are_refused(robot, converted, ranges, words):
+    robot.ranges = {topic: ranges for topic in robot.scans}
+    with pytest.raises(BagUnusable, match=words) as caught:
+        converted()
+    assert "/scan" in str(caught.value) and max(len(part.split()) for part in str(caught.value).split(". ")) <= 30
+
+
+@pytest.mark.parametrize("ranges", [[5.0] + [math.inf] * 20, [3.4e38] * 20 + [5.0], [1000.0] * 20 + [5.0], [9.9] * 21])
+def test_few_echoes_are_accepted(robot, converted, ranges):
+    robot.ranges = {topic: ranges for topic in robot.scans}
+    assert converted()[0].faults == []
+
+
+def test_one_lidar_without_an_echo_is_named_and_the_other_is_used(robot, converted):
+    robot.ranges = {"/hokuyo_behind": [math.inf] * 21}
+    faults = converted()[0].faults
+    assert len(faults) == 1 and "None of the 60 scans of /hokuyo_behind has an echo" in faults[0]
 
 
 def test_robot_that_stands_may_be_localized_on_a_map(robot, converted):

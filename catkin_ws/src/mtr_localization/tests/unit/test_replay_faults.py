@@ -45,3 +45,11 @@ def test_bag_that_begins_in_motion_is_advised_its_option(valid, standing, advise
     sentences = faults({**GOOD, "poses_valid": valid, "messages": messages}, TOPICS)
     assert any("--in-motion" in sentence for sentence in sentences) is advised
     assert is_useless({**GOOD, "poses_valid": valid}) is (valid == 0)
+
+
+@pytest.mark.parametrize(("surfels", "code", "is_empty"), [
+    (0, "surfel_map.few_surfaces", True), (7, "surfel_map.few_surfaces", False), (0, "surfel_map.not_closed", False)])
+def test_map_without_a_surface_makes_each_pose_useless(surfels, code, is_empty):
+    summary = {**GOOD, "surfels": surfels, "messages": [{"code": code, "message": "Few.", "count": 1, "first_s": 9.0}]}
+    assert is_useless(summary) is is_empty
+    assert any("show no surface" in sentence for sentence in faults(summary, TOPICS)) is is_empty

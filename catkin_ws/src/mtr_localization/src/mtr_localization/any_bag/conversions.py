@@ -20,6 +20,7 @@ from mtr_description.shipped import urdf_in
 from mtr_description.urdf_tree import UrdfTree
 
 from . import sources
+from .echoes import EchoCount, check_echoes
 from .errors import BagUnusable
 from .frames import FrameTree, add_urdf, matrix, quaternion_of, yaw_of
 from .motion import WHEELS_TURN, Sample, check_moves, check_same_time, samples_of
@@ -41,6 +42,7 @@ class Found(NamedTuple):
         mounts: topics with scans -> (frame, base_from_lidar).
         parameters: of localization, that follow from what is missing.
         said: sentences for the person.
+        faults: sentences on inputs that cannot be used; other advice would mislead.
     """
 
     base: str
@@ -50,6 +52,7 @@ class Found(NamedTuple):
     samples: List[Sample]
     parameters: Dict[str, float]
     said: List[str]
+    faults: List[str]
 
 
 def convert(path: pathlib.Path, out: pathlib.Path, asked: Asked, needs_motion: bool,
@@ -102,7 +105,7 @@ def look(bag: rosbag.Bag, asked: Asked) -> Found:
     if asked.time_increment_s is None and any(_first(bag, topic).time_increment == 0.0 for topic in mounts):
         said.append("The scans do not say how long a sweep takes: each is taken at once, which is wrong by its length "
                     "times the speed; give --time-increment.")
-    return Found(base, odometry, imu, mounts, samples, {} if imu else dict(WHEELS_TURN), said)
+    return Found(base, odometry, imu, mounts, samples, {} if imu else dict(WHEELS_TURN), said, [])
 
 
 def _as_low(scans: List[str], at: Dict[str, FloatArray]) -> Tuple[List[str], List[str]]:
@@ -158,6 +161,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
         out.write(names.WHEEL_ODOMETRY, _odometry(sample, time), time)
         if found.imu is None:
             out.write(names.IMU_DATA, _imu(sample.angular_radps, time), time)
+    echoes = {topic: EchoCount(topic) for topic in found.mounts}
     targets = {FRONT_FRAME: names.FRONT_SCAN, REAR_FRAME: names.REAR_SCAN}
     wanted = [*found.mounts, *([found.imu] if found.imu else [])]
     count = max(1, bag.get_message_count(wanted))
@@ -166,6 +170,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
         if number % EVERY == 0:
             progress(number / count)
         if topic in found.mounts:
+            echoes[topic].add(message)
             frame = found.mounts[topic][0]
             message.header.frame_id = frame
             message.header.stamp -= rospy.Duration.from_sec(asked.scan_delay_s)
@@ -179,6 +184,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
             force.x, force.y, force.z = imu_turn @ _xyz(force)
             message.header.frame_id = IMU_FRAME
             out.write(names.IMU_DATA, message, message.header.stamp)
+    found.faults.extend(check_echoes(list(echoes.values())))
     progress(1.0)
 
 

@@ -1,0 +1,66 @@
+"""Usable echoes of a LiDAR's scans: without one, no pose follows from its scans."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import List, Sequence
+
+import numpy as np
+from sensor_msgs.msg import LaserScan
+
+from .errors import BagUnusable
+
+# Farther than a 2D LiDAR measures, and no more than 200 m in millimetres; larger values mark a missing echo.
+MIN_MM, MAX_MM = 200.0, 2e5
+# A driver may fill in one constant where an echo is missing.
+DISTINCT = 3
+MOST = 0.9
+
+
+class EchoCount:
+    """Counts the scans of one topic whose ranges can be used.
+
+    Attributes:
+        scans: number of scans.
+        usable: number of scans with at least one echo between range_min and range_max.
+    """
+
+    def __init__(self, topic: str) -> None:
+        self.topic, self.scans, self.usable = topic, 0, 0
+        self._in_mm, self._empty = 0, 0
+        self._limits_m = (0.0, 0.0)
+
+    def add(self, scan: LaserScan) -> None:
+        """Count one more scan."""
+        ranges = np.asarray(scan.ranges, dtype=float)
+        echoes = ranges[np.isfinite(ranges) & (ranges > 0.0)]
+        self.scans += 1
+        self._empty += int(ranges.size < 2)
+        self._limits_m = (scan.range_min, scan.range_max)
+        self.usable += bool(((echoes >= scan.range_min) & (echoes <= scan.range_max)).any())
+        large = echoes[(echoes > MIN_MM) & (echoes < MAX_MM)]
+        self._in_mm += bool(large.size > MOST * echoes.size and np.unique(large).size >= DISTINCT)
+
+    @property
+    def is_blind(self) -> bool:
+        """True when the scans have beams, but none of them an echo that can be used."""
+        return self._empty < self.scans and not self.usable
+
+    def check_unit(self) -> None:
+        """BagUnusable when the ranges are in millimetres."""
+        if self.scans and self._in_mm > MOST * self.scans:
+            raise BagUnusable(f"The ranges of {self.topic} are mostly above {MIN_MM:g} m, probably "
+                              f"millimetres (range_max is {self._limits_m[1]:g}): convert ranges, range_min and range_max to metres.")
+
+    def blind_sentence(self) -> str:
+        """Sentence for a topic that is blind."""
+        low_m, high_m = self._limits_m
+        return (f"None of the {self.scans} scans of {self.topic} has an echo between range_min {low_m:g} m and "
+                f"range_max {high_m:g} m: check the LiDAR and its driver.")
+
+
+def check_echoes(counts: Sequence[EchoCount]) -> List[str]:
+    """Sentences on the topics that are blind; BagUnusable when all are, or when ranges have another unit."""
+    for count in counts:
+        count.check_unit()
+    blind = [count.blind_sentence() for count in counts if count.is_blind]
+    if blind and len(blind) == len(counts):
+        raise BagUnusable(" ".join(blind))
+    return blind
