@@ -184,7 +184,7 @@ def parser() -> argparse.ArgumentParser:
     other.add_argument("--imu", metavar="TOPIC|none", help="gyro; none: the turn of the wheels, with its noise")
     other.add_argument("--base-frame", metavar="FRAME", help="the robot's frame, x ahead; default: the odometry's")
     other.add_argument("--urdf", metavar="FILE", help="URDF or xacro with the mounts, instead of the bag's transforms")
-    other.add_argument("--scan-delay", type=float, default=0.0, metavar="S", help="by how much their stamps are late")
+    other.add_argument("--scan-delay", type=float, metavar="S", help="by how much their stamps are late")
     other.add_argument("--time-increment", type=float, metavar="S",
                        help="from beam to beam, instead of the time_increment and scan_time of the scans")
     parsed.add_argument("--prior", type=float, nargs=3, metavar=("X", "Y", "HEADING"),

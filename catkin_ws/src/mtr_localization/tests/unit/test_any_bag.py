@@ -47,6 +47,7 @@ class Robot:
         self.has_odometry, self.has_imu, self.wanders = True, False, False
         self.heights_m, self.ranges = {}, {}
         self.speed_mps, self.jump_s, self.scans_later_s = SPEED_MPS, 0.0, 0.0
+        self.recorded = lambda stamp: stamp
 
     def write(self):
         """The bag."""
@@ -69,7 +70,7 @@ class Robot:
             odometry.pose.pose.position.x, odometry.pose.pose.position.y = place[:2]
             odometry.pose.pose.orientation.z = math.sin(0.5 * heading)
             odometry.pose.pose.orientation.w = math.cos(0.5 * heading)
-            bag.write("/base/odom", odometry, stamp)
+            bag.write("/base/odom", odometry, self.recorded(stamp))
         else:
             frames.append(transform("odom", "base", place, (0.0, 0.0, heading), time_s))
         bag.write("/tf", TFMessage(frames), stamp)
@@ -82,7 +83,7 @@ class Robot:
             scan.ranges = self.ranges.get(topic, [5.0] * 21)
             scan.header.frame_id = frame
             scan.header.stamp = rospy.Time.from_sec(time_s + self.scans_later_s)
-            bag.write(topic, scan, stamp)
+            bag.write(topic, scan, self.recorded(stamp))
 
 
 @pytest.fixture(name="robot")
@@ -225,6 +226,29 @@ def test_one_lidar_without_an_echo_is_named_and_the_other_is_used(robot, convert
     robot.ranges = {"/hokuyo_behind": [math.inf] * 21}
     faults = converted()[0].faults
     assert len(faults) == 1 and "None of the 60 scans of /hokuyo_behind has an echo" in faults[0]
+
+
+@pytest.mark.parametrize(("later_s", "words"), [(2.0, "2.00 s late"), (-2.0, "2.00 s early"), (4.5, "4.50 s late")])
+def test_stamps_that_differ_from_the_times_of_recording_are_refused(robot, converted, later_s, words):
+    robot.scans_later_s = later_s
+    with pytest.raises(BagUnusable, match=f"{words} compared with /base/odom.*--scan-delay {later_s:.2f}"):
+        converted()
+    assert converted(Asked(scan_delay_s=later_s))[0].faults == []
+    assert converted(Asked(scan_delay_s=0.0))[0].faults == []
+
+
+@pytest.mark.parametrize("recorded", [
+    lambda stamp: rospy.Time.from_sec(BEGIN_S), lambda stamp: rospy.Time.from_sec(0.1 * stamp.to_sec()),
+    lambda stamp: rospy.Time.from_sec(BEGIN_S + 0.2 * (stamp.to_sec() - BEGIN_S))])
+def test_times_of_recording_that_do_not_follow_the_stamps_show_nothing(robot, converted, recorded):
+    robot.scans_later_s, robot.recorded = 2.0, recorded
+    assert converted()[0].faults == []
+
+
+@pytest.mark.parametrize("later_s", [0.0, 0.1, -0.5])
+def test_usual_delays_of_the_recording_are_accepted(robot, converted, later_s):
+    robot.scans_later_s, robot.recorded = later_s, lambda stamp: stamp + rospy.Duration.from_sec(3.0)
+    assert converted()[0].faults == []
 
 
 def test_robot_that_stands_may_be_localized_on_a_map(robot, converted):

@@ -20,9 +20,10 @@ from mtr_description.shipped import urdf_in
 from mtr_description.urdf_tree import UrdfTree
 
 from . import sources
-from .echoes import EchoCount, check_echoes
+from .delays import Delays
 from .errors import BagUnusable
 from .frames import FrameTree, add_urdf, matrix, quaternion_of, yaw_of
+from .input_checks import OdometryClock, ScanCheck, check_scans
 from .motion import WHEELS_TURN, Sample, check_moves, check_same_time, samples_of
 from .sources import TF, Asked
 
@@ -42,6 +43,7 @@ class Found(NamedTuple):
         mounts: topics with scans -> (frame, base_from_lidar).
         parameters: of localization, that follow from what is missing.
         said: sentences for the person.
+        delays: of the odometry.
         faults: sentences on inputs that cannot be used; other advice would mislead.
     """
 
@@ -52,6 +54,7 @@ class Found(NamedTuple):
     samples: List[Sample]
     parameters: Dict[str, float]
     said: List[str]
+    delays: Delays
     faults: List[str]
 
 
@@ -85,7 +88,8 @@ def look(bag: rosbag.Bag, asked: Asked) -> Found:
     tree = _tree_of(bag, asked)
     frames = {topic: _first(bag, topic).header.frame_id for topic in scans}
     base = asked.base_frame or _base_of(bag, odometry, tree, next(iter(frames.values())))
-    samples = samples_of(list(_poses(bag, odometry, base)))
+    delays = Delays()
+    samples = samples_of(list(_poses(bag, odometry, base, delays)))
     if len(samples) < 2:
         raise BagUnusable(f"There is no odometry of {base} in the bag; name its topic by --odometry, or the robot's "
                           "frame by --base-frame.")
@@ -105,7 +109,7 @@ def look(bag: rosbag.Bag, asked: Asked) -> Found:
     if asked.time_increment_s is None and any(_first(bag, topic).time_increment == 0.0 for topic in mounts):
         said.append("The scans do not say how long a sweep takes: each is taken at once, which is wrong by its length "
                     "times the speed; give --time-increment.")
-    return Found(base, odometry, imu, mounts, samples, {} if imu else dict(WHEELS_TURN), said, [])
+    return Found(base, odometry, imu, mounts, samples, {} if imu else dict(WHEELS_TURN), said, delays, [])
 
 
 def _as_low(scans: List[str], at: Dict[str, FloatArray]) -> Tuple[List[str], List[str]]:
@@ -141,14 +145,16 @@ def _base_of(bag: rosbag.Bag, odometry: str, tree: FrameTree, scan_frame: str) -
     return frame
 
 
-def _poses(bag: rosbag.Bag, odometry: str, base: str) -> Iterator[Tuple[float, Pose2]]:
-    for _, message, _ in bag.read_messages(topics=TF_TOPICS if odometry == TF else [odometry]):
+def _poses(bag: rosbag.Bag, odometry: str, base: str, delays: Delays) -> Iterator[Tuple[float, Pose2]]:
+    for _, message, received in bag.read_messages(topics=TF_TOPICS if odometry == TF else [odometry]):
         if odometry != TF:
             at = message.pose.pose
+            delays.add(received.to_sec(), message.header.stamp.to_sec())
             yield message.header.stamp.to_sec(), _planar(matrix(_xyz(at.position), _xyzw(at.orientation)))
             continue
         for each in message.transforms:
             if each.child_frame_id.lstrip("/") == base:
+                delays.add(received.to_sec(), each.header.stamp.to_sec())
                 yield each.header.stamp.to_sec(), _planar(_matrix(each.transform))
 
 
@@ -161,19 +167,20 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
         out.write(names.WHEEL_ODOMETRY, _odometry(sample, time), time)
         if found.imu is None:
             out.write(names.IMU_DATA, _imu(sample.angular_radps, time), time)
-    echoes = {topic: EchoCount(topic) for topic in found.mounts}
+    checks = {topic: ScanCheck(topic, float(np.copysign(1.0, place[2, 2])))
+              for topic, (_, place) in found.mounts.items()}
     targets = {FRONT_FRAME: names.FRONT_SCAN, REAR_FRAME: names.REAR_SCAN}
     wanted = [*found.mounts, *([found.imu] if found.imu else [])]
     count = max(1, bag.get_message_count(wanted))
     imu_turn = None if found.imu is None else _imu_turn(bag, found, asked)
-    for number, (topic, message, _) in enumerate(bag.read_messages(topics=wanted)):
+    for number, (topic, message, received) in enumerate(bag.read_messages(topics=wanted)):
         if number % EVERY == 0:
             progress(number / count)
         if topic in found.mounts:
-            echoes[topic].add(message)
             frame = found.mounts[topic][0]
             message.header.frame_id = frame
-            message.header.stamp -= rospy.Duration.from_sec(asked.scan_delay_s)
+            message.header.stamp -= rospy.Duration.from_sec(asked.scan_delay_s or 0.0)
+            checks[topic].add(message, received.to_sec())
             if asked.time_increment_s is not None:
                 message.time_increment = asked.time_increment_s
                 message.scan_time = asked.time_increment_s * len(message.ranges)
@@ -184,7 +191,8 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
             force.x, force.y, force.z = imu_turn @ _xyz(force)
             message.header.frame_id = IMU_FRAME
             out.write(names.IMU_DATA, message, message.header.stamp)
-    found.faults.extend(check_echoes(list(echoes.values())))
+    clock = OdometryClock("the transforms" if found.odometry == TF else found.odometry, found.samples, found.delays)
+    found.faults.extend(check_scans(list(checks.values()), clock, asked))
     progress(1.0)
 
 

@@ -47,7 +47,8 @@ class EchoCount:
         """BagUnusable when the ranges are in millimetres."""
         if self.scans and self._in_mm > MOST * self.scans:
             raise BagUnusable(f"The ranges of {self.topic} are mostly above {MIN_MM:g} m, probably "
-                              f"millimetres (range_max is {self._limits_m[1]:g}): convert ranges, range_min and range_max to metres.")
+                              f"millimetres (range_max is {self._limits_m[1]:g}): convert ranges, range_min "
+                              "and range_max to metres.")
 
     def blind_sentence(self) -> str:
         """Sentence for a topic that is blind."""

@@ -20,7 +20,7 @@ class Asked:
         front_scan, rear_scan, odometry, imu: topics; odometry may be TF, rear_scan and imu NONE.
         base_frame: of the robot, in which x is ahead.
         urdf: file with the mounts, where the bag has no transforms.
-        scan_delay_s: by how much the scans' stamps are late.
+        scan_delay_s: by how much the scans' stamps are late; None: the times of recording are compared.
         time_increment_s: from beam to beam where the scans do not say it.
     """
 
@@ -30,7 +30,7 @@ class Asked:
     imu: Optional[str] = None
     base_frame: Optional[str] = None
     urdf: Optional[str] = None
-    scan_delay_s: float = 0.0
+    scan_delay_s: Optional[float] = None
     time_increment_s: Optional[float] = None
 
 

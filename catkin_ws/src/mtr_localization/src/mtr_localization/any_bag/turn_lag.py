@@ -1,0 +1,153 @@
+"""Offset between the stamps of two sensors, from the turns of the robot that both measured."""
+# SPDX-License-Identifier: Apache-2.0
+from typing import List, NamedTuple, Optional, Sequence, Tuple
+
+import numpy as np
+from sensor_msgs.msg import LaserScan
+
+from mtr_core.arrays import FloatArray
+
+# Offsets that are searched, and their step.
+MAX_LAG_S, STEP_S = 6.0, 0.05
+# Smaller offsets are those of drivers and networks, and within the accuracy of the method.
+MIN_LAG_S = 0.3
+# Both rates must vary by so much, and be compared for so long and for this share of the shorter one.
+MIN_RATE_RADPS, MIN_OVERLAP_S, MIN_OVERLAP = 0.05, 10.0, 0.5
+# Correlation at the offset; and the factor by which the unexplained variance is larger without the offset.
+MIN_CORRELATION, MIN_GAIN = 0.7, 2.0
+# Scans closer than this turn too little to be compared; scans farther apart have another view.
+MIN_PAIR_S, MAX_PAIR_S = 0.09, 0.5
+BIN_RAD, MAX_TURN_RAD = np.radians(1.0), np.radians(30.0)
+# An edge that appears between two scans counts no more than this ratio of ranges (natural logarithm).
+MAX_DIFFERENCE = 0.3
+MIN_BINS, MIN_SHARE = 30, 0.5
+# Enough of a drive; the rest only costs time.
+MAX_PAIRS = 6000
+# A longer span contains stamps of another clock.
+MAX_SPAN_S = 4.0 * 3600.0
+
+
+class Rates(NamedTuple):
+    """Turn rates in rad/s, left positive, with their times in s."""
+
+    times_s: FloatArray
+    rates_radps: FloatArray
+
+
+class Lag(NamedTuple):
+    """Time by which the stamps of a sensor are late, in s; is_certain: the turns exclude an offset of zero."""
+
+    lag_s: float
+    is_certain: bool
+
+
+def rates_of(samples: Sequence[Tuple[float, float]]) -> Rates:
+    """Finite samples (time in s, rate in rad/s) in the order of their times."""
+    table = np.array(samples, dtype=float).reshape(-1, 2)
+    table = table[np.isfinite(table).all(axis=1)]
+    times_s, first = np.unique(table[:, 0], return_index=True)
+    return Rates(times_s, table[first, 1])
+
+
+def turn_lag(reference: Rates, other: Rates, max_lag_s: float = MAX_LAG_S) -> Optional[Lag]:
+    """Lag of the other's stamps behind the reference; None when the turns do not show it."""
+    if min(len(reference.times_s), len(other.times_s)) < 2:
+        return None
+    begin_s = min(reference.times_s[0], other.times_s[0]) - STEP_S
+    end_s = max(reference.times_s[-1], other.times_s[-1]) + STEP_S
+    if end_s - begin_s > MAX_SPAN_S:
+        return None
+    grid_s = np.arange(begin_s, end_s, STEP_S)
+    ours, theirs = _resampled(reference, grid_s), _resampled(other, grid_s)
+    steps = np.arange(-round(max_lag_s / STEP_S), round(max_lag_s / STEP_S) + 1)
+    needed = max(MIN_OVERLAP_S / STEP_S, MIN_OVERLAP * min(np.isfinite(ours).sum(), np.isfinite(theirs).sum()))
+    found = np.array([_correlation(ours, theirs, int(step), needed) for step in steps])
+    if not np.isfinite(found).any():
+        return None
+    best, none = int(np.nanargmax(found)), found[len(steps) // 2]
+    if found[best] < MIN_CORRELATION or not np.isfinite(none):
+        return None
+    lag_s = float(steps[best] * STEP_S)
+    gain = (1.0 - none ** 2) / max(1.0 - found[best] ** 2, 1e-6)
+    return Lag(lag_s, bool(abs(lag_s) >= MIN_LAG_S and gain >= MIN_GAIN))
+
+
+def _resampled(rates: Rates, grid_s: FloatArray) -> FloatArray:
+    """Mean of about 0.2 s on the grid; NaN outside the samples and in their gaps."""
+    values = np.interp(grid_s, rates.times_s, rates.rates_radps, left=np.nan, right=np.nan)
+    after = np.clip(np.searchsorted(rates.times_s, grid_s), 1, len(rates.times_s) - 1)
+    values[rates.times_s[after] - rates.times_s[after - 1] > 2.0 * MAX_PAIR_S] = np.nan
+    smooth: FloatArray = np.convolve(values, np.full(5, 0.2), mode="same")
+    return smooth
+
+
+def _correlation(ours: FloatArray, theirs: FloatArray, step: int, needed: float) -> float:
+    """Of both for the other's stamps late by so many steps; NaN for fewer common samples than needed, or no turn."""
+    one = ours[max(0, -step):len(ours) - max(0, step)]
+    two = theirs[max(0, step):len(theirs) - max(0, -step)]
+    both = np.isfinite(one) & np.isfinite(two)
+    if both.sum() < needed:
+        return float("nan")
+    one, two = one[both] - one[both].mean(), two[both] - two[both].mean()
+    if min(one.std(), two.std()) < MIN_RATE_RADPS:
+        return float("nan")
+    return float((one * two).mean() / (one.std() * two.std()))
+
+
+class ScanTurns:
+    """Turn rates of a LiDAR, from how far its ranges move from beam to beam between two scans."""
+
+    def __init__(self, sense: float) -> None:
+        """sense: -1 for a LiDAR that hangs upside down."""
+        self._sense = sense
+        self._last: Optional[Tuple[float, FloatArray]] = None
+        self._samples: List[Tuple[float, float]] = []
+
+    def add(self, scan: LaserScan) -> None:
+        """Compare one more scan with the previous one."""
+        time_s = scan.header.stamp.to_sec()
+        passed_s = MAX_PAIR_S if self._last is None else time_s - self._last[0]
+        if 0.0 <= passed_s < MIN_PAIR_S or len(self._samples) >= MAX_PAIRS:
+            return
+        profile = _profile(scan)
+        if self._last is not None and 0.0 < passed_s < MAX_PAIR_S and len(profile) == len(self._last[1]):
+            turn = _turn(self._last[1], profile)
+            if turn is not None:
+                self._samples.append((time_s - 0.5 * passed_s, self._sense * turn / passed_s))
+        self._last = time_s, profile
+
+    @property
+    def rates(self) -> Rates:
+        """All rates so far."""
+        return rates_of(self._samples)
+
+
+def _profile(scan: LaserScan) -> FloatArray:
+    """Logarithm of the range per degree, left increasing; NaN without an echo."""
+    ranges = np.asarray(scan.ranges, dtype=float)
+    ranges[~((ranges >= max(scan.range_min, 1e-3)) & (ranges <= scan.range_max))] = np.nan
+    if ranges.size < 2 or not np.isfinite(scan.angle_increment):
+        return np.zeros(0)
+    span = abs(scan.angle_increment) * (ranges.size - 1)
+    picks = np.round(np.linspace(0, ranges.size - 1, max(2, min(720, round(span / BIN_RAD) + 1)))).astype(int)
+    profile: FloatArray = np.log(ranges[picks if scan.angle_increment > 0.0 else picks[::-1]])
+    return profile
+
+
+def _turn(before: FloatArray, after: FloatArray) -> Optional[float]:
+    """Turn to the left in rad; None when too few beams have an echo in both, or the best shift is the largest."""
+    most = min(round(MAX_TURN_RAD / BIN_RAD), len(before) // 3)
+    costs = []
+    for shift in range(-most, most + 1):
+        one = before[max(0, shift):len(before) + min(0, shift)]
+        two = after[max(0, -shift):len(after) - max(0, shift)]
+        difference = np.abs(one - two)
+        difference = difference[np.isfinite(difference)]
+        few = difference.size < max(MIN_BINS, MIN_SHARE * np.isfinite(after).sum())
+        costs.append(np.inf if few else float(np.minimum(difference, MAX_DIFFERENCE).mean()))
+    best = int(np.argmin(costs))
+    if not 0 < best < len(costs) - 1 or not np.isfinite(costs[best - 1:best + 2]).all():
+        return None
+    left, middle, right = costs[best - 1:best + 2]
+    bend = left - 2.0 * middle + right
+    return float((best - most + (0.5 * (left - right) / bend if bend > 0.0 else 0.0)) * BIN_RAD)
