@@ -26,7 +26,7 @@ from .any_bag.conversions import Found, convert
 from .any_bag.errors import BagUnusable
 from .any_bag.frames import yaw_of
 from .any_bag.sources import Asked, is_own
-from .replay_faults import GAP_LIMIT_S, Topics, faults, is_useless, shows_nothing
+from .replay_faults import GAP_LIMIT_S, Topics, causes, faults, is_useless, shows_nothing
 
 # The first of a drive tells whether its sensors fit together.
 COMPARED_S = 60.0
@@ -43,7 +43,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
         asked = asked_of(options)
         topics, start_s = seen_in(options.bag)
         if is_own(topics, asked):
-            own = Topics({"front": names.FRONT_SCAN, "rear": names.REAR_SCAN}, names.WHEEL_ODOMETRY)
+            own = Topics({"front": names.FRONT_SCAN, "rear": names.REAR_SCAN}, names.WHEEL_ODOMETRY, names.IMU_DATA)
             return replayed(programs[0], options, options.bag, Conversion(own, {}, [], [], []), start_s)
         with tempfile.TemporaryDirectory() as folder:
             bag = pathlib.Path(folder) / "inputs.bag"
@@ -76,7 +76,7 @@ class Conversion(NamedTuple):
 
 def topics_of(found: Found) -> Topics:
     """Topics of another robot's bag; the front LiDAR is its first."""
-    return Topics(dict(zip(("front", "rear"), found.mounts)), found.odometry)
+    return Topics(dict(zip(("front", "rear"), found.mounts)), found.odometry, found.imu)
 
 
 def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Conversion, start_s: float) -> int:
@@ -87,11 +87,13 @@ def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Co
         print("\n".join(conversion.remarks), flush=True)
         return done.returncode
     summary = json.loads((options.out / "summary.json").read_text(encoding="utf-8"))
-    sentences = faults(summary, conversion.topics, gap_limit_of(options))
-    print("\n".join([*conversion.faults, *sentences, *conversion.remarks]))
+    gap_limit_s = gap_limit_of(options)
+    sentences = faults(summary, conversion.topics, gap_limit_s, conversion.faults)
+    print("\n".join([*sentences, *conversion.remarks]))
     if summary["scans_used"] and not shows_nothing(summary):
         # Advice from scans that cannot be used would only mislead.
-        print("\n".join(conversion.comparison))
+        if not causes(summary, conversion.topics, gap_limit_s, conversion.faults):
+            print("\n".join(conversion.comparison))
         report(options, bag, summary)
     return 1 if is_useless(summary) else 0
 

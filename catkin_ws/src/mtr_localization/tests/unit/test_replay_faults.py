@@ -1,12 +1,14 @@
 """Sentences on a replay without valid poses: the reason first, then what to do."""
 # SPDX-License-Identifier: Apache-2.0
+import re
+
 import pytest
 
 from mtr_localization.replay_faults import Topics, faults, is_useless
 
-TOPICS = Topics({"front": "/scan", "rear": "/scan_behind"}, "/odom")
+TOPICS = Topics({"front": "/scan", "rear": "/scan_behind"}, "/odom", "/imu")
 GOOD = {"scans": 900, "scans_used": 900, "scans_refused": 0, "refusals": [], "messages": [], "poses": 4500,
-        "poses_valid": 4400, "wheel_samples": 4501, "duration_s": 90.0}
+        "poses_valid": 4400, "wheel_samples": 4501, "imu_samples": 9001, "duration_s": 90.0}
 
 
 def test_replay_without_faults_has_no_remark():
@@ -53,3 +55,31 @@ def test_map_without_a_surface_makes_each_pose_useless(surfels, code, is_empty):
     summary = {**GOOD, "surfels": surfels, "messages": [{"code": code, "message": "Few.", "count": 1, "first_s": 9.0}]}
     assert is_useless(summary) is is_empty
     assert any("show no surface" in sentence for sentence in faults(summary, TOPICS)) is is_empty
+
+
+@pytest.mark.parametrize(("change", "first"), [
+    ({"imu_samples": 181}, "The IMU on /imu comes every 0.50 s"),
+    ({"imu_samples": 451}, "The IMU on /imu comes every 0.20"),
+    ({"wheel_samples": 271}, "Odometry on /odom comes every 0.33 s"),
+    ({"silent": "localization.imu_silent"}, "Silent. It concerns 4000 of 4500 poses: check .* of /imu, or"),
+    ({"silent": "localization.imu_not_a_number"}, "Silent. It concerns 4000"),
+    ({"silent": "localization.wheels_silent"}, "Silent. It concerns 4000 of 4500 poses: check .* of /odom.")])
+def test_slow_or_silent_input_is_named_first_and_without_false_advice(change, first):
+    messages = [{"code": "localization.stand_still", "message": "Stand still.", "count": 4500, "first_s": 0.0}]
+    if "silent" in change:
+        messages.append({"code": change.pop("silent"), "message": "Silent.", "count": 4000, "first_s": 0.0})
+    summary = {**GOOD, "scans_used": 0, "scans_refused": 900, "poses_valid": 0, "messages": messages, **change}
+    sentences = faults(summary, TOPICS)
+    assert re.match(first, sentences[0]) and sentences[-1].startswith("None of the 900 scans") and len(sentences) == 2
+    assert not any(advice in " ".join(sentences) for advice in ("--scan-delay", "--in-motion"))
+
+
+def test_input_that_was_found_faulty_before_is_named_first_and_once():
+    messages = [{"code": "localization.imu_silent", "message": "Silent.", "count": 4000, "first_s": 0.0}]
+    assert faults({**GOOD, "messages": messages, "scans_refused": 800}, TOPICS, known=["It ends."]) == ["It ends."]
+
+
+def test_turn_of_the_wheels_is_no_slow_imu_and_a_short_silence_needs_no_remark():
+    assert faults({**GOOD, "imu_samples": 100}, Topics({"front": "/scan"}, "/odom")) == []
+    messages = [{"code": "localization.imu_silent", "message": "Silent.", "count": 100, "first_s": 0.0}]
+    assert faults({**GOOD, "messages": messages}, TOPICS) == []

@@ -23,6 +23,7 @@ from . import sources
 from .delays import Delays
 from .errors import BagUnusable
 from .frames import FrameTree, add_urdf, matrix, quaternion_of, yaw_of
+from .imu_check import ImuCheck
 from .input_checks import OdometryClock, ScanCheck, check_scans
 from .motion import WHEELS_TURN, Sample, check_moves, check_same_time, samples_of
 from .sources import TF, Asked
@@ -172,6 +173,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
     targets = {FRONT_FRAME: names.FRONT_SCAN, REAR_FRAME: names.REAR_SCAN}
     wanted = [*found.mounts, *([found.imu] if found.imu else [])]
     count = max(1, bag.get_message_count(wanted))
+    imu_check = None if found.imu is None else ImuCheck(found.imu)
     imu_turn = None if found.imu is None else _imu_turn(bag, found, asked)
     for number, (topic, message, received) in enumerate(bag.read_messages(topics=wanted)):
         if number % EVERY == 0:
@@ -185,13 +187,15 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
                 message.time_increment = asked.time_increment_s
                 message.scan_time = asked.time_increment_s * len(message.ranges)
             out.write(targets[frame], message, message.header.stamp)
-        elif imu_turn is not None:
+        elif imu_turn is not None and imu_check is not None:
             rate, force = message.angular_velocity, message.linear_acceleration
             rate.x, rate.y, rate.z = imu_turn @ _xyz(rate)
             force.x, force.y, force.z = imu_turn @ _xyz(force)
             message.header.frame_id = IMU_FRAME
-            out.write(names.IMU_DATA, message, message.header.stamp)
+            if imu_check.add(message):
+                out.write(names.IMU_DATA, message, message.header.stamp)
     clock = OdometryClock("the transforms" if found.odometry == TF else found.odometry, found.samples, found.delays)
+    found.faults.extend([] if imu_check is None else imu_check.faults(clock.name, clock.turns))
     found.faults.extend(check_scans(list(checks.values()), clock, asked))
     progress(1.0)
 

@@ -83,6 +83,8 @@ def _resampled(rates: Rates, grid_s: FloatArray) -> FloatArray:
 
 def _correlation(ours: FloatArray, theirs: FloatArray, step: int, needed: float) -> float:
     """Of both for the other's stamps late by so many steps; NaN for fewer common samples than needed, or no turn."""
+    if abs(step) >= len(ours):
+        return float("nan")
     one = ours[max(0, -step):len(ours) - max(0, step)]
     two = theirs[max(0, step):len(theirs) - max(0, -step)]
     both = np.isfinite(one) & np.isfinite(two)
