@@ -48,6 +48,7 @@ class Robot:
         self.heights_m, self.ranges = {}, {}
         self.speed_mps, self.jump_s, self.scans_later_s = SPEED_MPS, 0.0, 0.0
         self.recorded = lambda stamp: stamp
+        self.spoil_odometry = self.spoil_transform = lambda message: None
 
     def write(self):
         """The bag."""
@@ -70,9 +71,12 @@ class Robot:
             odometry.pose.pose.position.x, odometry.pose.pose.position.y = place[:2]
             odometry.pose.pose.orientation.z = math.sin(0.5 * heading)
             odometry.pose.pose.orientation.w = math.cos(0.5 * heading)
+            self.spoil_odometry(odometry)
             bag.write("/base/odom", odometry, self.recorded(stamp))
         else:
             frames.append(transform("odom", "base", place, (0.0, 0.0, heading), time_s))
+        for frame in frames:
+            self.spoil_transform(frame)
         bag.write("/tf", TFMessage(frames), stamp)
         if self.has_imu:
             imu = Imu()
@@ -249,6 +253,43 @@ def test_times_of_recording_that_do_not_follow_the_stamps_show_nothing(robot, co
 def test_usual_delays_of_the_recording_are_accepted(robot, converted, later_s):
     robot.scans_later_s, robot.recorded = later_s, lambda stamp: stamp + rospy.Duration.from_sec(3.0)
     assert converted()[0].faults == []
+
+
+def without_rotation(orientation):
+    """Its quaternion is zero."""
+    orientation.x = orientation.y = orientation.z = orientation.w = 0.0
+
+
+def with_value(target, name, value):
+    """Set one attribute."""
+    setattr(target, name, value)
+
+
+@pytest.mark.parametrize(("change", "words"), [
+    ({"spoil_odometry": lambda odometry: without_rotation(odometry.pose.pose.orientation)},
+     "A pose of /base/odom has no rotation"),
+    ({"spoil_odometry": lambda odometry: with_value(odometry.pose.pose.position, "x", math.nan)},
+     "A pose of /base/odom is not a number"),
+    ({"spoil_odometry": lambda odometry: with_value(odometry.pose.pose.orientation, "w", math.nan)},
+     "A pose of /base/odom"),
+    ({"spoil_odometry": lambda odometry: with_value(odometry.header, "stamp", rospy.Time(0))},
+     "Each of the 60 poses of /base/odom has the stamp 0, "),
+    ({"spoil_odometry": lambda odometry: with_value(odometry.header, "stamp", rospy.Time(7))}, "has the stamp 7, "),
+    ({"has_odometry": False, "spoil_transform": lambda each: with_value(each.header, "stamp", rospy.Time(0))},
+     "Each of the 60 poses of the transforms has the stamp 0, "),
+    ({"spoil_transform": lambda each: without_rotation(each.transform.rotation)},
+     "A pose of the transform from base to laser has no rotation"),
+    ({"spoil_transform": lambda each: with_value(each.transform.translation, "y", math.inf)},
+     "A pose of the transform from base to laser is not a number"),
+    ({"scans": {"/scan": ""}}, "The scans of /scan have no frame_id"),
+    ({"scans": {"/scan": "/"}}, "The scans of /scan have no frame_id"),
+    ({"scans": {"/scan": "laser", "/z": ""}}, "The scans of /z have no frame_id")])
+def test_part_with_impossible_values_is_named(robot, converted, change, words):
+    for name, value in change.items():
+        setattr(robot, name, value)
+    with pytest.raises(BagUnusable, match=words) as caught:
+        converted()
+    assert max(len(part.split()) for part in str(caught.value).split(". ")) <= 30
 
 
 def test_robot_that_stands_may_be_localized_on_a_map(robot, converted):

@@ -1,16 +1,18 @@
 """Offsets of stamps are found by the turns of the robot, and nothing is claimed without turns."""
 # SPDX-License-Identifier: Apache-2.0
+import contextlib
 import math
 
 import numpy as np
 import pytest
 import rospy
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import Imu, LaserScan
 
 from mtr_core.se2 import Pose2
 from mtr_localization.any_bag.delays import Delays
 from mtr_localization.any_bag.errors import BagUnusable
-from mtr_localization.any_bag.input_checks import OdometryClock, ScanCheck, check_scans
+from mtr_localization.any_bag.imu_check import ImuCheck
+from mtr_localization.any_bag.input_checks import OdometryClock, ScanCheck, check_odometry, check_scans
 from mtr_localization.any_bag.motion import Sample
 from mtr_localization.any_bag.sources import Asked
 from mtr_localization.any_bag.turn_lag import ScanTurns, rates_of, turn_lag
@@ -72,6 +74,20 @@ def test_offset_is_found_for_lidars_of_any_kind_and_small_ones_are_accepted(opti
 def test_two_lidars_with_different_offsets_cannot_be_corrected_by_one_option():
     with pytest.raises(BagUnusable, match="/b are 2.* late .*--front-scan /a alone"):
         check_scans([scans_late(0.0, "/a"), scans_late(2.0, "/b")], odometry(), Asked())
+
+
+@pytest.mark.parametrize(("scans_s", "imu_s", "is_odometry"), [
+    (3.0, 3.0, True), (-2.0, -2.0, True), (3.0, 0.0, False), (0.0, 3.0, False), (0.0, 0.0, False), (3.0, -2.0, False)])
+def test_odometry_is_named_when_scans_and_imu_agree(scans_s, imu_s, is_odometry):
+    imu = ImuCheck("/imu")
+    for sample_s, rate in zip(*odometry().turns):
+        message = Imu()
+        message.header.stamp, message.angular_velocity.z = rospy.Time.from_sec(sample_s + imu_s), rate
+        imu.add(message)
+    side = "early" if scans_s > 0.0 else "late"
+    with pytest.raises(BagUnusable, match=f"stamps of /odom are {abs(scans_s):.2f} s {side}") if is_odometry else (
+            contextlib.nullcontext()):
+        check_odometry([scans_late(scans_s)], imu, odometry())
 
 
 def test_without_turns_nothing_is_claimed():

@@ -24,13 +24,14 @@ from .delays import Delays
 from .errors import BagUnusable
 from .frames import FrameTree, add_urdf, matrix, quaternion_of, yaw_of
 from .imu_check import ImuCheck
-from .input_checks import OdometryClock, ScanCheck, check_scans
+from .input_checks import OdometryClock, ScanCheck, check_odometry, check_scans
 from .motion import WHEELS_TURN, Sample, check_moves, check_same_time, samples_of
 from .sources import TF, Asked
 
 TF_TOPICS = ("/tf", "/tf_static", "tf")
 FRONT_FRAME, REAR_FRAME, IMU_FRAME = "front_lidar", "rear_lidar", "imu"
 NO_FORCE = -1.0
+TRANSFORMS = "the transforms"
 # Both LiDARs look at one map: what is so much higher has another outline.
 SAME_PLANE_M = 0.5
 EVERY = 500
@@ -87,13 +88,10 @@ def look(bag: rosbag.Bag, asked: Asked) -> Found:
     scans = sources.scans_of(topics, asked)
     odometry, imu = sources.odometry_of(topics, asked), sources.imu_of(topics, asked)
     tree = _tree_of(bag, asked)
-    frames = {topic: _first(bag, topic).header.frame_id for topic in scans}
+    frames = {topic: _scan_frame(bag, topic) for topic in scans}
     base = asked.base_frame or _base_of(bag, odometry, tree, next(iter(frames.values())))
     delays = Delays()
-    samples = samples_of(list(_poses(bag, odometry, base, delays)))
-    if len(samples) < 2:
-        raise BagUnusable(f"There is no odometry of {base} in the bag; name its topic by --odometry, or the robot's "
-                          "frame by --base-frame.")
+    samples = _samples(bag, odometry, base, delays)
     check_same_time({odometry: samples[0].time_s,
                      **{topic: _first(bag, topic).header.stamp.to_sec() for topic in scans}})
     at = {topic: tree.fixed(base, frame) for topic, frame in frames.items()}
@@ -113,6 +111,27 @@ def look(bag: rosbag.Bag, asked: Asked) -> Found:
     return Found(base, odometry, imu, mounts, samples, {} if imu else dict(WHEELS_TURN), said, delays, [])
 
 
+def _scan_frame(bag: rosbag.Bag, topic: str) -> str:
+    frame = str(_first(bag, topic).header.frame_id)
+    if not frame.strip("/ "):
+        raise BagUnusable(f"The scans of {topic} have no frame_id, so their place on the robot is unknown: set the "
+                          "frame_id in the LiDAR's driver.")
+    return frame
+
+
+def _samples(bag: rosbag.Bag, odometry: str, base: str, delays: Delays) -> List[Sample]:
+    poses = list(_poses(bag, odometry, base, delays))
+    if not poses:
+        raise BagUnusable(f"There is no odometry of {base} in the bag; name its topic by --odometry, or the robot's "
+                          "frame by --base-frame.")
+    samples = samples_of(poses)
+    if len(samples) < 2:
+        name = TRANSFORMS if odometry == TF else odometry
+        raise BagUnusable(f"Each of the {len(poses)} poses of {name} has the stamp {samples[0].time_s:g}, at least two "
+                          "are needed: correct the odometry's driver, or name another topic by --odometry.")
+    return samples
+
+
 def _as_low(scans: List[str], at: Dict[str, FloatArray]) -> Tuple[List[str], List[str]]:
     """Topics of the LiDARs about as low as the lowest, and a sentence about each other: it sees other things."""
     lowest_m = min(at[topic][2, 3] for topic in scans)
@@ -129,7 +148,7 @@ def _tree_of(bag: rosbag.Bag, asked: Asked) -> FrameTree:
         return tree
     for _, message, _ in bag.read_messages(topics=TF_TOPICS):
         for each in message.transforms:
-            tree.add(each.header.frame_id, each.child_frame_id, _matrix(each.transform))
+            tree.add(each.header.frame_id, each.child_frame_id, _matrix(each))
     return tree
 
 
@@ -151,12 +170,12 @@ def _poses(bag: rosbag.Bag, odometry: str, base: str, delays: Delays) -> Iterato
         if odometry != TF:
             at = message.pose.pose
             delays.add(received.to_sec(), message.header.stamp.to_sec())
-            yield message.header.stamp.to_sec(), _planar(matrix(_xyz(at.position), _xyzw(at.orientation)))
+            yield message.header.stamp.to_sec(), _planar(matrix(_xyz(at.position), _xyzw(at.orientation), odometry))
             continue
         for each in message.transforms:
             if each.child_frame_id.lstrip("/") == base:
                 delays.add(received.to_sec(), each.header.stamp.to_sec())
-                yield each.header.stamp.to_sec(), _planar(_matrix(each.transform))
+                yield each.header.stamp.to_sec(), _planar(_matrix(each))
 
 
 def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progress: Callable[[float], None]) -> None:
@@ -194,8 +213,10 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
             message.header.frame_id = IMU_FRAME
             if imu_check.add(message):
                 out.write(names.IMU_DATA, message, message.header.stamp)
-    clock = OdometryClock("the transforms" if found.odometry == TF else found.odometry, found.samples, found.delays)
-    found.faults.extend([] if imu_check is None else imu_check.faults(clock.name, clock.turns))
+    clock = OdometryClock(TRANSFORMS if found.odometry == TF else found.odometry, found.samples, found.delays)
+    if imu_check is not None:
+        check_odometry(list(checks.values()), imu_check, clock)
+        found.faults.extend(imu_check.faults(clock.name, clock.turns))
     found.faults.extend(check_scans(list(checks.values()), clock, asked))
     progress(1.0)
 
@@ -248,8 +269,9 @@ def _planar(transform: FloatArray) -> Pose2:
     return Pose2(float(transform[0, 3]), float(transform[1, 3]), yaw_of(transform))
 
 
-def _matrix(transform: Any) -> FloatArray:
-    return matrix(_xyz(transform.translation), _xyzw(transform.rotation))
+def _matrix(message: TransformStamped) -> FloatArray:
+    at, source = message.transform, f"the transform from {message.header.frame_id} to {message.child_frame_id}"
+    return matrix(_xyz(at.translation), _xyzw(at.rotation), source)
 
 
 def _xyz(vector: Any) -> List[float]:

@@ -15,16 +15,21 @@ from .errors import BagUnusable
 FIXED_M, FIXED_RAD = 1e-3, 1e-3
 
 
-def matrix(translation: Iterable[float], quaternion: Iterable[float]) -> FloatArray:
-    """parent_from_child, 4x4, of a translation in m and a quaternion x, y, z, w; BagUnusable for one that is none."""
+def matrix(translation: Iterable[float], quaternion: Iterable[float], source: str) -> FloatArray:
+    """parent_from_child, 4x4, of a translation in m and a quaternion x, y, z, w; BagUnusable for one that is none.
+
+    Args:
+        source: topic or frames that the sentence names.
+    """
     found = np.eye(4)
     try:
         found[:3, :3] = Rotation.from_quat(list(quaternion)).as_matrix()
     except ValueError:
-        raise BagUnusable("A transform of the bag has no rotation: its quaternion is zero.") from None
+        raise BagUnusable(f"A pose of {source} has no rotation: its quaternion is zero or not a number. Correct what "
+                          "publishes it.") from None
     found[:3, 3] = list(translation)
     if not np.isfinite(found).all():
-        raise BagUnusable("A transform of the bag is not a number.")
+        raise BagUnusable(f"A pose of {source} is not a number. Correct what publishes it.")
     return found
 
 

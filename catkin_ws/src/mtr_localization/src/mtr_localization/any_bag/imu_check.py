@@ -46,6 +46,11 @@ class ImuCheck:
         self._samples.append((stamp_s, rate.z))
         return True
 
+    @property
+    def rates(self) -> Rates:
+        """Turn rates so far."""
+        return rates_of(self._samples)
+
     def faults(self, odometry: str, turns: Rates) -> List[str]:
         """Sentences on parts that are missing; BagUnusable for an IMU that cannot be used.
 
@@ -57,7 +62,7 @@ class ImuCheck:
         if self._unstamped > MAX_BAD * total:
             raise BagUnusable(f"{self._unstamped} of {total} messages of {self.topic} have the stamp 0: correct the "
                               f"IMU's driver, {REMEDY}.")
-        rates = rates_of(self._samples)
+        rates = self.rates
         if total and len(rates.times_s) <= (1.0 - MAX_BAD) * len({time_s for time_s, _ in self._samples}):
             raise BagUnusable(f"The turn rates of {self.topic} are not numbers: check the IMU and its driver, "
                               f"{REMEDY}.")

@@ -7,6 +7,7 @@ from sensor_msgs.msg import LaserScan
 from .delays import Delays
 from .echoes import EchoCount, check_echoes
 from .errors import BagUnusable
+from .imu_check import ImuCheck
 from .motion import Sample
 from .sources import Asked
 from .turn_lag import Lag, Rates, ScanTurns, rates_of, turn_lag
@@ -57,6 +58,16 @@ class ScanCheck:
         """Lag behind the odometry by the times of recording."""
         ours, theirs = self._delays.median_s, odometry.delays.median_s
         return None if ours is None or theirs is None else theirs - ours
+
+
+def check_odometry(scans: Sequence[ScanCheck], imu: ImuCheck, odometry: OdometryClock) -> None:
+    """BagUnusable when scans and IMU agree on the turns, and the odometry shows them at another time."""
+    found = [turn_lag(odometry.turns, imu.rates), *(scan.turn_lag(odometry) for scan in scans)]
+    lags_s = [lag.lag_s for lag in found if lag is not None and lag.is_certain]
+    if len(lags_s) == len(found) and max(lags_s) - min(lags_s) <= SAME_LAG_S:
+        side = "early" if lags_s[0] > 0.0 else "late"
+        raise BagUnusable(f"The stamps of {odometry.name} are {abs(lags_s[0]):.2f} s {side} compared with the turns of "
+                          "scans and IMU: correct the odometry's clock.")
 
 
 def check_scans(scans: Sequence[ScanCheck], odometry: OdometryClock, asked: Asked) -> List[str]:
