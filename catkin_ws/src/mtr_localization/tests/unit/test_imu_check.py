@@ -4,14 +4,13 @@ import math
 
 import numpy as np
 import pytest
-import rospy
-from sensor_msgs.msg import Imu
 
 from mtr_localization.any_bag.errors import BagUnusable
 from mtr_localization.any_bag.imu_check import ImuCheck
 from mtr_localization.any_bag.turn_lag import rates_of
 
 BEGIN_S, DURATION_S, RATE_HZ = 1000.0, 45.0, 50.0
+GRAVITY = (0.0, 0.0, 9.81)
 NOISE = np.random.default_rng(1).normal(0.0, 0.002, 10000)
 
 
@@ -25,20 +24,12 @@ def odometry():
     return rates_of([(BEGIN_S + t, turn_rate(t)) for t in np.arange(0.0, DURATION_S, 0.02)])
 
 
-def imu_message(stamp_s, rate_radps, force_mps2=9.81):
-    """One message."""
-    message = Imu()
-    message.header.stamp = rospy.Time.from_sec(stamp_s)
-    message.angular_velocity.z, message.linear_acceleration.z = rate_radps, force_mps2
-    return message
-
-
 def faults(stamp=lambda t: BEGIN_S + t, rate=turn_rate, rate_hz=RATE_HZ, is_there=lambda _: True, noise=1.0):
     """Sentences on an IMU with these stamps and values."""
     check = ImuCheck("/imu")
     for number, t in enumerate(np.arange(0.0, DURATION_S, 1.0 / rate_hz)):
         if is_there(t):
-            check.add(imu_message(stamp(t), rate(t) + noise * NOISE[number]))
+            check.add(stamp(t), (0.0, 0.0, rate(t) + noise * NOISE[number]), GRAVITY)
     return check.faults("/odom", odometry())
 
 
@@ -80,4 +71,4 @@ def test_imu_that_can_be_used_needs_no_remark(change):
 
 def test_message_without_a_stamp_is_left_out():
     check = ImuCheck("/imu")
-    assert not check.add(imu_message(0.0, 0.1)) and check.add(imu_message(BEGIN_S, 0.1))
+    assert not check.add(0.0, (0.0, 0.0, 0.1), GRAVITY) and check.add(BEGIN_S, (0.0, 0.0, 0.1), GRAVITY)

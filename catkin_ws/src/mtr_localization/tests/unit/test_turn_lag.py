@@ -5,15 +5,13 @@ import math
 
 import numpy as np
 import pytest
-import rospy
-from sensor_msgs.msg import Imu, LaserScan
 
 from mtr_core.se2 import Pose2
 from mtr_localization.any_bag.delays import Delays
 from mtr_localization.any_bag.errors import BagUnusable
 from mtr_localization.any_bag.imu_check import ImuCheck
 from mtr_localization.any_bag.input_checks import OdometryClock, ScanCheck, check_odometry, check_scans
-from mtr_localization.any_bag.motion import Sample
+from mtr_localization.any_bag.motion import Sample, Sweep
 from mtr_localization.any_bag.sources import Asked
 from mtr_localization.any_bag.turn_lag import ScanTurns, rates_of, turn_lag
 
@@ -34,9 +32,7 @@ def scan_at(time_s, stamp_s, beams=271, sense=1.0, is_turning=True):
     cosines = np.stack([np.cos(directions), np.sin(directions)], axis=1)
     with np.errstate(divide="ignore"):
         ranges = ((HALF_ROOM_M * np.sign(cosines) - place) / cosines).min(axis=1)
-    scan = LaserScan(angle_min=-2.3, angle_max=2.3, angle_increment=4.6 / (beams - 1), range_max=20.0, ranges=ranges)
-    scan.header.stamp = rospy.Time.from_sec(BEGIN_S + stamp_s)
-    return scan
+    return Sweep(BEGIN_S + stamp_s, 4.6 / (beams - 1), 0.0, 20.0, ranges)
 
 
 def odometry(is_turning=True):
@@ -81,9 +77,7 @@ def test_two_lidars_with_different_offsets_cannot_be_corrected_by_one_option():
 def test_odometry_is_named_when_scans_and_imu_agree(scans_s, imu_s, is_odometry):
     imu = ImuCheck("/imu")
     for sample_s, rate in zip(*odometry().turns):
-        message = Imu()
-        message.header.stamp, message.angular_velocity.z = rospy.Time.from_sec(sample_s + imu_s), rate
-        imu.add(message)
+        imu.add(sample_s + imu_s, (0.0, 0.0, rate), (0.0, 0.0, 9.81))
     side = "early" if scans_s > 0.0 else "late"
     with pytest.raises(BagUnusable, match=f"stamps of /odom are {abs(scans_s):.2f} s {side}") if is_odometry else (
             contextlib.nullcontext()):
@@ -111,6 +105,5 @@ def test_scans_without_echoes_show_no_turn():
     turns = ScanTurns(1.0)
     for time_s in np.arange(0.0, DURATION_S, 0.1):
         scan = scan_at(time_s, time_s)
-        scan.ranges = [math.inf] * len(scan.ranges)
-        turns.add(scan)
+        turns.add(scan._replace(ranges=[math.inf] * len(scan.ranges)))
     assert len(turns.rates.times_s) == 0

@@ -8,7 +8,7 @@ import rosbag
 import rospy
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import Imu
+from sensor_msgs.msg import Imu, LaserScan
 from tf2_msgs.msg import TFMessage
 
 from mtr_core import names
@@ -25,7 +25,7 @@ from .errors import BagUnusable
 from .frames import FrameTree, add_urdf, matrix, quaternion_of, yaw_of
 from .imu_check import ImuCheck
 from .input_checks import OdometryClock, ScanCheck, check_odometry, check_scans
-from .motion import WHEELS_TURN, Sample, check_moves, check_same_time, samples_of
+from .motion import WHEELS_TURN, Sample, Sweep, check_moves, check_same_time, samples_of
 from .sources import TF, Asked
 
 TF_TOPICS = ("/tf", "/tf_static", "tf")
@@ -201,7 +201,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
             frame = found.mounts[topic][0]
             message.header.frame_id = frame
             message.header.stamp -= rospy.Duration.from_sec(asked.scan_delay_s or 0.0)
-            checks[topic].add(message, received.to_sec())
+            checks[topic].add(_sweep(message), received.to_sec())
             if asked.time_increment_s is not None:
                 message.time_increment = asked.time_increment_s
                 message.scan_time = asked.time_increment_s * len(message.ranges)
@@ -211,14 +211,19 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
             rate.x, rate.y, rate.z = imu_turn @ _xyz(rate)
             force.x, force.y, force.z = imu_turn @ _xyz(force)
             message.header.frame_id = IMU_FRAME
-            if imu_check.add(message):
+            if imu_check.add(message.header.stamp.to_sec(), _xyz(rate), _xyz(force)):
                 out.write(names.IMU_DATA, message, message.header.stamp)
-    clock = OdometryClock(TRANSFORMS if found.odometry == TF else found.odometry, found.samples, found.delays)
-    if imu_check is not None:
-        check_odometry(list(checks.values()), imu_check, clock)
-        found.faults.extend(imu_check.faults(clock.name, clock.turns))
-    found.faults.extend(check_scans(list(checks.values()), clock, asked))
+    _check(list(checks.values()), imu_check, found, asked)
     progress(1.0)
+
+
+def _check(scans: List[ScanCheck], imu: Optional[ImuCheck], found: Found, asked: Asked) -> None:
+    """Add to the faults; BagUnusable when no pose could rely on the inputs."""
+    clock = OdometryClock(TRANSFORMS if found.odometry == TF else found.odometry, found.samples, found.delays)
+    if imu is not None:
+        check_odometry(scans, imu, clock)
+        found.faults.extend(imu.faults(clock.name, clock.turns))
+    found.faults.extend(check_scans(scans, clock, asked))
 
 
 def _imu_turn(bag: rosbag.Bag, found: Found, asked: Asked) -> FloatArray:
@@ -252,6 +257,11 @@ def _odometry(sample: Sample, time: rospy.Time) -> Odometry:
     message.pose.pose.orientation.w = float(np.cos(0.5 * sample.pose.heading))
     message.twist.twist.linear.x, message.twist.twist.angular.z = sample.linear_mps, sample.angular_radps
     return message
+
+
+def _sweep(message: LaserScan) -> Sweep:
+    return Sweep(message.header.stamp.to_sec(), message.angle_increment, message.range_min, message.range_max,
+                 message.ranges)
 
 
 def _imu(rate_radps: float, time: rospy.Time) -> Imu:

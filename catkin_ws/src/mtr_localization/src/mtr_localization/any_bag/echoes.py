@@ -3,9 +3,9 @@
 from typing import List, Sequence
 
 import numpy as np
-from sensor_msgs.msg import LaserScan
 
 from .errors import BagUnusable
+from .motion import Sweep
 
 # Farther than a 2D LiDAR measures, and no more than 200 m in millimetres; larger values mark a missing echo.
 MIN_MM, MAX_MM = 200.0, 2e5
@@ -24,24 +24,24 @@ class EchoCount:
 
     def __init__(self, topic: str) -> None:
         self.topic, self.scans, self.usable = topic, 0, 0
-        self._in_mm, self._empty = 0, 0
+        self._in_mm, self._impossible = 0, 0
         self._limits_m = (0.0, 0.0)
 
-    def add(self, scan: LaserScan) -> None:
+    def add(self, scan: Sweep) -> None:
         """Count one more scan."""
         ranges = np.asarray(scan.ranges, dtype=float)
         echoes = ranges[np.isfinite(ranges) & (ranges > 0.0)]
         self.scans += 1
-        self._empty += int(ranges.size < 2)
-        self._limits_m = (scan.range_min, scan.range_max)
-        self.usable += bool(((echoes >= scan.range_min) & (echoes <= scan.range_max)).any())
+        self._impossible += int(ranges.size < 2 or scan.range_max_m <= scan.range_min_m)
+        self._limits_m = (scan.range_min_m, scan.range_max_m)
+        self.usable += bool(((echoes >= scan.range_min_m) & (echoes <= scan.range_max_m)).any())
         large = echoes[(echoes > MIN_MM) & (echoes < MAX_MM)]
         self._in_mm += bool(large.size > MOST * echoes.size and np.unique(large).size >= DISTINCT)
 
     @property
     def is_blind(self) -> bool:
-        """True when the scans have beams, but none of them an echo that can be used."""
-        return self._empty < self.scans and not self.usable
+        """True when no scan has a usable echo; localization itself names scans without beams and swapped limits."""
+        return self._impossible < self.scans and not self.usable
 
     def check_unit(self) -> None:
         """BagUnusable when the ranges are in millimetres."""

@@ -1,9 +1,8 @@
 """Checks of the IMU of another robot's bag against its odometry."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import List, Tuple
+from typing import List, Sequence, Tuple
 
 import numpy as np
-from sensor_msgs.msg import Imu
 
 from mtr_core.arrays import FloatArray
 
@@ -33,17 +32,15 @@ class ImuCheck:
         self._repeats: List[int] = []
         self._last: Tuple[float, ...] = ()
 
-    def add(self, message: Imu) -> bool:
+    def add(self, stamp_s: float, rate_radps: Sequence[float], force_mps2: Sequence[float]) -> bool:
         """Add one more message, in the robot's frame; False when it has no stamp and must be left out."""
-        stamp_s = message.header.stamp.to_sec()
         if stamp_s <= 0.0:
             self._unstamped += 1
             return False
-        rate, force = message.angular_velocity, message.linear_acceleration
-        values = (rate.x, rate.y, rate.z, force.x, force.y, force.z)
+        values = (*rate_radps, *force_mps2)
         self._repeats.append(self._repeats[-1] + 1 if values == self._last else 0)
         self._last = values
-        self._samples.append((stamp_s, rate.z))
+        self._samples.append((stamp_s, rate_radps[2]))
         return True
 
     @property

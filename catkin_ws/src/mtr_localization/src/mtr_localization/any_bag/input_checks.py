@@ -2,13 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, List, Optional, Sequence
 
-from sensor_msgs.msg import LaserScan
-
 from .delays import Delays
 from .echoes import EchoCount, check_echoes
 from .errors import BagUnusable
 from .imu_check import ImuCheck
-from .motion import Sample
+from .motion import Sample, Sweep
 from .sources import Asked
 from .turn_lag import Lag, Rates, ScanTurns, rates_of, turn_lag
 
@@ -44,11 +42,11 @@ class ScanCheck:
         self.topic, self.echoes = topic, EchoCount(topic)
         self._turns, self._delays = ScanTurns(sense), Delays()
 
-    def add(self, scan: LaserScan, received_s: float) -> None:
+    def add(self, scan: Sweep, received_s: float) -> None:
         """Add one more scan, with its stamp as corrected."""
         self.echoes.add(scan)
         self._turns.add(scan)
-        self._delays.add(received_s, scan.header.stamp.to_sec())
+        self._delays.add(received_s, scan.stamp_s)
 
     def turn_lag(self, odometry: OdometryClock) -> Optional[Lag]:
         """Lag behind the odometry by the turns of the robot."""

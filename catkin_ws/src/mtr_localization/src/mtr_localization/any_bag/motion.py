@@ -24,6 +24,16 @@ class Sample(NamedTuple):
     angular_radps: float
 
 
+class Sweep(NamedTuple):
+    """Ranges of one scan in m, with its stamp in s, the step from beam to beam in rad and the limits in m."""
+
+    stamp_s: float
+    angle_increment_rad: float
+    range_min_m: float
+    range_max_m: float
+    ranges: Sequence[float]
+
+
 def samples_of(poses: Sequence[Tuple[float, Pose2]]) -> List[Sample]:
     """With the speeds since the pose before; poses that were sent again count once. BagUnusable for a clock that was
     set, and for a robot that never moves: it shows nothing of where it is."""

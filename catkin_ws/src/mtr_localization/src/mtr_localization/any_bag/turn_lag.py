@@ -3,9 +3,10 @@
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
-from sensor_msgs.msg import LaserScan
 
 from mtr_core.arrays import FloatArray
+
+from .motion import Sweep
 
 # Offsets that are searched, and their step.
 MAX_LAG_S, STEP_S = 6.0, 0.05
@@ -105,9 +106,9 @@ class ScanTurns:
         self._last: Optional[Tuple[float, FloatArray]] = None
         self._samples: List[Tuple[float, float]] = []
 
-    def add(self, scan: LaserScan) -> None:
+    def add(self, scan: Sweep) -> None:
         """Compare one more scan with the previous one."""
-        time_s = scan.header.stamp.to_sec()
+        time_s = scan.stamp_s
         passed_s = MAX_PAIR_S if self._last is None else time_s - self._last[0]
         if 0.0 <= passed_s < MIN_PAIR_S or len(self._samples) >= MAX_PAIRS:
             return
@@ -124,15 +125,15 @@ class ScanTurns:
         return rates_of(self._samples)
 
 
-def _profile(scan: LaserScan) -> FloatArray:
+def _profile(scan: Sweep) -> FloatArray:
     """Logarithm of the range per degree, left increasing; NaN without an echo."""
     ranges = np.asarray(scan.ranges, dtype=float)
-    ranges[~((ranges >= max(scan.range_min, 1e-3)) & (ranges <= scan.range_max))] = np.nan
-    if ranges.size < 2 or not np.isfinite(scan.angle_increment):
+    ranges[~((ranges >= max(scan.range_min_m, 1e-3)) & (ranges <= scan.range_max_m))] = np.nan
+    if ranges.size < 2 or not np.isfinite(scan.angle_increment_rad):
         return np.zeros(0)
-    span = abs(scan.angle_increment) * (ranges.size - 1)
+    span = abs(scan.angle_increment_rad) * (ranges.size - 1)
     picks = np.round(np.linspace(0, ranges.size - 1, max(2, min(720, round(span / BIN_RAD) + 1)))).astype(int)
-    profile: FloatArray = np.log(ranges[picks if scan.angle_increment > 0.0 else picks[::-1]])
+    profile: FloatArray = np.log(ranges[picks if scan.angle_increment_rad > 0.0 else picks[::-1]])
     return profile
 
 
