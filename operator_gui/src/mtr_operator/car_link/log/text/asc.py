@@ -14,7 +14,8 @@ _EVENT = re.compile(r"(start of measurement|log trigger event|statistic:|.*chip 
 _TIMED = re.compile(r"(\d+[.,]\d+)\s+(.*)")
 _CLASSIC = re.compile(r"(\d+)\s+(\S+)\s+(Rx|Tx|TxRq)\s+([dr])\b\s*(.*)", re.IGNORECASE)
 _FD = re.compile(r"CANFD\s+(\d+)\s+(Rx|Tx|TxRq)\s+(\S+)\s+(.*)", re.IGNORECASE)
-_FD_VALUES = re.compile(r"(?:\S*\s+)?([01])\s+([01])\s+([0-9a-fA-F])\s+(\d{1,2})\b\s*(.*)")
+# Bits BRS and ESI, data length code and length, behind a name that is written or not: no name begins with a digit.
+_FD_VALUES = re.compile(r"(?:[^\s\d]\S*\s+)?([01])\s+([01])\s+([0-9a-fA-F])\s+(\d{1,2})\b\s*(.*)")
 # Behind the data, such as: Length = 244000 BitCount = 125 ID = 801
 _WRITTEN_ID = re.compile(r"\bID = (\d+)(x?)")
 _DATA_END = re.compile(r"\s(Length|BitCount|ID)\s*=")
