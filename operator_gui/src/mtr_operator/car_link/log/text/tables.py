@@ -8,6 +8,7 @@ import re
 import statistics
 from typing import Mapping, Sequence
 
+from .cells import is_set
 from .lines import (
     MAX_STANDARD,
     Line,
@@ -30,7 +31,9 @@ _COLUMNS = {
     _ID: ("id", "arbitrationid", "canid", "identifier", "messageid", "idhex", "arbid", "msgid"),
     _EXTENDED: ("extended", "ext", "isextended", "ide", "extendedid"), _DIRECTION: ("dir", "direction", "rxtx"),
     _BUS: ("bus", "channel", "chn", "busnumber"), _LENGTH: ("len", "length", "dlc", "datalength"),
-    _DATA: ("data", "databytes", "payload", "datahex"), _REMOTE: ("remote", "rtr"), _ERROR: ("error", "iserror")}
+    _DATA: ("data", "databytes", "payload", "datahex"),
+    _REMOTE: ("remote", "rtr", "isremote", "isrtr", "remoteframe", "isremoteframe"),
+    _ERROR: ("error", "err", "iserror", "iserr", "errorframe", "iserrorframe")}
 _FIRST_BYTE = re.compile(r"(?:d|b|data|byte)_?[01]")
 _UNITS_S = {"us": 1e-6, "microseconds": 1e-6, "ms": 1e-3, "milliseconds": 1e-3, "s": 1.0, "seconds": 1.0}
 # Tables without a header, by their number of columns before the data.
@@ -107,7 +110,7 @@ class Table(LineReader):
         if len(values) < len({*self._columns}) - 1 or _TIME not in values or _ID not in values:
             raise ValueError(f"has {line.count(self._delimiter) + 1} columns, and {len(self._columns)} are wanted")
         time_s = seconds(values[_TIME]) * (self._unit_s or 1.0)
-        if values.get(_REMOTE) == "1" or values.get(_ERROR) == "1":
+        if any([is_set(values.get(column, ""), column) for column in (_REMOTE, _ERROR)]):
             return Line.NO_DATA
         can_id = hex_id(values[_ID])
         is_extended = values[_EXTENDED].lower() in _TRUE if _EXTENDED in values else can_id > MAX_STANDARD

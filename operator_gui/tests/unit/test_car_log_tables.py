@@ -1,0 +1,46 @@
+"""Tables of frames with the words, columns and units that different tools write: understood, or refused by line."""
+# SPDX-License-Identifier: Apache-2.0
+import pytest
+
+from mtr_operator.car_link.log.read_log import ReadLog
+from mtr_operator.domain.errors import ConnectionFailed
+
+YES = ("true", "True", "TRUE", "1", "yes", "Yes", "y", "Y", "t", "x", "on", '"true"', " 1 ")
+NO = ("false", "False", "FALSE", "0", "no", "N", "f", "off", "")
+OTHERS = ("2", "maybe", "-1", "truely", "1.0", "?")
+
+
+def log_of(folder, head, rows, encoding="utf-8"):
+    path = folder / "bus.csv"
+    path.write_bytes("".join(f"{line}\n" for line in (head, *rows)).encode(encoding))
+    return ReadLog(path)
+
+
+def frames_of(read):
+    return [(frame.can_id, frame.is_extended, frame.data) for frame in read]
+
+
+@pytest.mark.parametrize("column", ["Error", "Remote", "RTR", "IsError", "is_remote_frame", "Error Frame"])
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+def test_error_and_remote_frames_are_no_data_in_each_word(tmp_path, column, delimiter):
+    head = delimiter.join(["Time", "ID", column, "DLC", "Data"])
+    words = [word for pair in zip(YES, NO * 2) for word in pair]
+    read = log_of(tmp_path, head, [delimiter.join([f"{0.1 * at:.1f}", "321", word, "1", f"{at:02X}"])
+                                   for at, word in enumerate(words)])
+    assert frames_of(read) == [(0x321, False, bytes([at])) for at, word in enumerate(words) if word in NO]
+    assert read.notice == ""
+
+
+@pytest.mark.parametrize("column", ["error", "remote"])
+@pytest.mark.parametrize("word", OTHERS)
+def test_word_that_is_neither_yes_nor_no_is_refused_with_its_line(tmp_path, column, word):
+    read = log_of(tmp_path, f"Time,ID,{column},DLC,Data", ["0.0,321,0,1,01", f"0.1,321,{word},1,02", "0.2,321,0,1,03"])
+    assert [frame.data for frame in read] == [b"\1", b"\3"]
+    assert f"line 3 has the word {word} in the column {column}, which is neither yes nor no: " in read.notice
+    with pytest.raises(ConnectionFailed, match="line 2 has the word"):
+        log_of(tmp_path, f"Time,ID,{column},DLC,Data", [f"0.1,321,{word},1,02"])
+
+
+def test_error_frame_of_a_remote_column_with_a_strange_word_is_not_data(tmp_path):
+    read = log_of(tmp_path, "Time,ID,Remote,Error,DLC,Data", ["0.0,321,no,no,1,01", "0.1,321,yes,what,1,02"])
+    assert [frame.data for frame in read] == [b"\1"] and "line 3 has the word what" in read.notice
