@@ -44,3 +44,28 @@ def test_word_that_is_neither_yes_nor_no_is_refused_with_its_line(tmp_path, colu
 def test_error_frame_of_a_remote_column_with_a_strange_word_is_not_data(tmp_path):
     read = log_of(tmp_path, "Time,ID,Remote,Error,DLC,Data", ["0.0,321,no,no,1,01", "0.1,321,yes,what,1,02"])
     assert [frame.data for frame in read] == [b"\1"] and "line 3 has the word what" in read.notice
+
+
+EXTENDED = ("Extended", "extended", "EXT", "Xtd", "Y", "yes", "True", "1", "x", "29", "29 bit", "29-bit")
+STANDARD = ("Standard", "std", "STD", "s", "N", "no", "False", "0", "11", "11 Bit", "11-bit", "")
+
+
+@pytest.mark.parametrize("column", ["Extended", "ext", "IsExtended", "IDE", "extended_id", "ID Type"])
+@pytest.mark.parametrize(("extended", "standard"), list(zip(EXTENDED, STANDARD)))
+def test_format_of_an_identifier_is_understood_in_each_word(tmp_path, column, extended, standard):
+    read = log_of(tmp_path, f"Time,ID,{column},DLC,Data", [f"0.0,321,{extended},1,01", f"0.1,321,{standard},1,02",
+                                                           f"0.2,18DA10F1,{extended},1,03"])
+    assert frames_of(read) == [(0x321, True, b"\1"), (0x321, False, b"\2"), (0x18DA10F1, True, b"\3")]
+    assert read.notice == ""
+
+
+@pytest.mark.parametrize("word", ["CAN", "extent", "2", "?", "10", "-1", "FD"])
+def test_word_that_is_no_format_of_an_identifier_is_refused_with_its_line(tmp_path, word):
+    read = log_of(tmp_path, "Time,ID,Extended,DLC,Data", ["0.0,321,no,1,01", f"0.1,321,{word},1,02"])
+    assert frames_of(read) == [(0x321, False, b"\1")]
+    assert f"line 3 has the word {word} in the column extended" in read.notice
+
+
+def test_identifier_without_a_format_is_extended_when_it_is_too_large_for_a_standard_one(tmp_path):
+    read = log_of(tmp_path, "Time,ID,Extended,DLC,Data", ["0.0,7FF,,1,01", "0.1,800,,1,02"])
+    assert frames_of(read) == [(0x7FF, False, b"\1"), (0x800, True, b"\2")]

@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import re
 
+from .lines import MAX_STANDARD
+
 _YES = ("true", "t", "1", "yes", "y", "x", "on")
 _NO = ("false", "f", "0", "no", "n", "off")
+_EXTENDED = (*_YES, "extended", "ext", "xtd", "29", "29bit", "eff")
+_STANDARD = (*_NO, "standard", "std", "s", "11", "11bit", "sff")
 
 
 def is_set(word: str, column: str) -> bool:
     """Return whether a column of yes and no says yes; an empty one says no. ValueError for any other word."""
     return bool(word) and _choice(word, column, _YES, _NO)
+
+
+def is_extended(word: str, can_id: int) -> bool:
+    """Return whether an identifier is an extended one; where the word is empty, its value decides. ValueError for a
+    word that names neither format."""
+    return _choice(word, "extended", _EXTENDED, _STANDARD) if word else can_id > MAX_STANDARD
 
 
 def _choice(word: str, column: str, yes: tuple[str, ...], no: tuple[str, ...]) -> bool:

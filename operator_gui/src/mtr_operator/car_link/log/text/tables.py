@@ -8,9 +8,8 @@ import re
 import statistics
 from typing import Mapping, Sequence
 
-from .cells import is_set
+from .cells import is_extended, is_set
 from .lines import (
-    MAX_STANDARD,
     Line,
     LineReader,
     Read,
@@ -29,7 +28,9 @@ _COLUMNS = {
     _TIME: ("timestamp", "time", "timeus", "timems", "times", "timestampus", "timestampms", "timestamps", "timeoffset",
             "timeoffsetms", "timestampmicroseconds", "timestampmilliseconds", "timestampseconds", "abstime"),
     _ID: ("id", "arbitrationid", "canid", "identifier", "messageid", "idhex", "arbid", "msgid"),
-    _EXTENDED: ("extended", "ext", "isextended", "ide", "extendedid"), _DIRECTION: ("dir", "direction", "rxtx"),
+    _EXTENDED: ("extended", "ext", "isextended", "isext", "ide", "extendedid", "isextendedid", "extid", "extendedframe",
+                "idtype", "idformat"),
+    _DIRECTION: ("dir", "direction", "rxtx"),
     _BUS: ("bus", "channel", "chn", "busnumber"), _LENGTH: ("len", "length", "dlc", "datalength"),
     _DATA: ("data", "databytes", "payload", "datahex"),
     _REMOTE: ("remote", "rtr", "isremote", "isrtr", "remoteframe", "isremoteframe"),
@@ -39,7 +40,6 @@ _UNITS_S = {"us": 1e-6, "microseconds": 1e-6, "ms": 1e-3, "milliseconds": 1e-3, 
 # Tables without a header, by their number of columns before the data.
 _WITHOUT_HEADER = ((_TIME, _ID, _EXTENDED, _DIRECTION, _BUS, _LENGTH), (_TIME, _ID, _EXTENDED, _BUS, _LENGTH))
 _BASE64 = ["timestamp", "arbitration_id", "extended", "remote", "error", "dlc", "data"]
-_TRUE = ("true", "1", "yes", "x", "ext")
 # No message of a car comes more often.
 _SHORTEST_CYCLE_S = 0.0005
 
@@ -113,10 +113,10 @@ class Table(LineReader):
         if any([is_set(values.get(column, ""), column) for column in (_REMOTE, _ERROR)]):
             return Line.NO_DATA
         can_id = hex_id(values[_ID])
-        is_extended = values[_EXTENDED].lower() in _TRUE if _EXTENDED in values else can_id > MAX_STANDARD
         bus = values.get(_BUS, "")
         channel = int(bus) if re.fullmatch(r"\d{1,3}", bus) else 0
-        return frame(time_s, can_id, is_extended, self._data(values), channel=channel)
+        return frame(time_s, can_id, is_extended(values.get(_EXTENDED, ""), can_id), self._data(values),
+                     channel=channel)
 
     def _data(self, values: Mapping[str, str]) -> bytes:
         text, length = values.get(_DATA, ""), values.get(_LENGTH, "")
