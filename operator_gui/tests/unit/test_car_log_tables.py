@@ -69,3 +69,22 @@ def test_word_that_is_no_format_of_an_identifier_is_refused_with_its_line(tmp_pa
 def test_identifier_without_a_format_is_extended_when_it_is_too_large_for_a_standard_one(tmp_path):
     read = log_of(tmp_path, "Time,ID,Extended,DLC,Data", ["0.0,7FF,,1,01", "0.1,800,,1,02"])
     assert frames_of(read) == [(0x7FF, False, b"\1"), (0x800, True, b"\2")]
+
+
+BUSES = "Time,ID,Bus,DLC,Data"
+
+
+@pytest.mark.parametrize("column", ["Bus", "Channel", "Chn"])
+@pytest.mark.parametrize(("names", "channels"), [
+    (("0", "1"), [0, 1]), (("1", "2"), [1, 2]), (("can0", "can1"), [0, 1]), (("CAN 1", "CAN 2"), [1, 2]),
+    (("CAN_1", "CAN-0"), [1, 0]), (("HS", "HS"), [0, 0]), (("", ""), [0, 0]), (("vcan12", "vcan3"), [12, 3])])
+def test_buses_of_a_table_have_the_numbers_in_their_names(tmp_path, column, names, channels):
+    read = log_of(tmp_path, BUSES.replace("Bus", column),
+                  [f"{0.1 * at:.1f},321,{name},1,0{at}" for at, name in enumerate(names)])
+    assert [frame.channel for frame in read] == channels and read.notice == ""
+
+
+@pytest.mark.parametrize("names", [("HS", "MS"), ("can0", "vcan0"), ("0", "HS"), ("body", "can1"), ("CAN", "CAN 1")])
+def test_buses_of_a_table_that_cannot_be_numbered_are_refused(tmp_path, names):
+    with pytest.raises(ConnectionFailed, match=f"names the buses {names[0]} and {names[1]}, and only names with"):
+        log_of(tmp_path, BUSES, [f"{0.1 * at:.1f},321,{names[at % 2]},1,01" for at in range(6)])

@@ -82,7 +82,7 @@ class LineReader(ABC):
 
 
 class Channels:
-    """Numbers of buses by the names of their interfaces: can1, vcan1 and slcan1 are number 1."""
+    """Numbers of buses by the names of their interfaces: can1, vcan1, CAN 1 and 1 are number 1."""
 
     def __init__(self) -> None:
         self._numbers: dict[str, int] = {}
@@ -93,7 +93,7 @@ class Channels:
         known = self._numbers.get(name)
         if known is not None:
             return known
-        match = re.fullmatch(r"[A-Za-z]*[-_.]?(\d{1,3})", name)
+        match = re.fullmatch(r"[A-Za-z]*[-_. ]?(\d{1,3})", name)
         number = int(match[1]) if match else 0
         self._is_unnumbered = self._is_unnumbered or match is None
         self._numbers[name] = number

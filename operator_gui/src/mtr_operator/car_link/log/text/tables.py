@@ -10,6 +10,7 @@ from typing import Mapping, Sequence
 
 from .cells import is_extended, is_set
 from .lines import (
+    Channels,
     Line,
     LineReader,
     Read,
@@ -54,6 +55,7 @@ class Table(LineReader):
         self._delimiter = ","
         self._is_base64 = False
         self._unit_s: float | None = None
+        self._channels = Channels()
 
     def prepare(self, lines: Sequence[str]) -> None:
         """See LineReader: whole numbers are microseconds, unless no bus could carry so many frames in them."""
@@ -114,9 +116,8 @@ class Table(LineReader):
             return Line.NO_DATA
         can_id = hex_id(values[_ID])
         bus = values.get(_BUS, "")
-        channel = int(bus) if re.fullmatch(r"\d{1,3}", bus) else 0
         return frame(time_s, can_id, is_extended(values.get(_EXTENDED, ""), can_id), self._data(values),
-                     channel=channel)
+                     channel=self._channels.number(bus) if bus else 0)
 
     def _data(self, values: Mapping[str, str]) -> bytes:
         text, length = values.get(_DATA, ""), values.get(_LENGTH, "")
