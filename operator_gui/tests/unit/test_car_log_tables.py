@@ -88,3 +88,43 @@ def test_buses_of_a_table_have_the_numbers_in_their_names(tmp_path, column, name
 def test_buses_of_a_table_that_cannot_be_numbered_are_refused(tmp_path, names):
     with pytest.raises(ConnectionFailed, match=f"names the buses {names[0]} and {names[1]}, and only names with"):
         log_of(tmp_path, BUSES, [f"{0.1 * at:.1f},321,{names[at % 2]},1,01" for at in range(6)])
+
+
+def columns_of(names):
+    return ["Time", "ID", *[f"{names}{at}" for at in range(8)]]
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+@pytest.mark.parametrize("names", ["D", "B", "Data", "Byte ", "data_", "DataByte", "d0"])
+@pytest.mark.parametrize("form", ["X", "02x", "#x"])
+def test_each_column_of_a_byte_is_one_byte(tmp_path, delimiter, names, form):
+    datas = [bytes((first + at) % 256 for at in range(size)) for first in (0, 1, 9, 15, 16, 250) for size in range(9)]
+    rows = [delimiter.join([f"{0.1 * at:.1f}", "321", *[f"{byte:{form}}" for byte in data]] + [""] * (8 - len(data)))
+            for at, data in enumerate(datas)]
+    read = log_of(tmp_path, delimiter.join(columns_of(names)), rows)
+    assert [frame.data for frame in read] == datas and read.notice == ""
+
+
+@pytest.mark.parametrize(("behind", "row", "data"), [
+    ("Error", "0.1,321,1,2,,,,,,,0", b"\1\2"), ("Error", "0.1,321,1,2,,,,,,,true", None),
+    ("Bus", "0.1,321,1,0,0,0,0,0,0,10,3", b"\1\0\0\0\0\0\0\x10"), ("DLC", "0.1,321,1,2,0,0,0,0,0,0,2", b"\1\2"),
+    ("ASCII", "0.1,321,41,42,,,,,,,AB", b"AB"), ("Data", "0.1,321,41,42,,,,,,,41 42", b"AB")])
+def test_columns_behind_those_of_the_bytes_are_no_data(tmp_path, behind, row, data):
+    read = log_of(tmp_path, ",".join([*columns_of("D"), behind]), ["0.0,321,1", row])
+    assert [frame.data for frame in read][1:] == ([] if data is None else [data]) and read.notice == ""
+
+
+@pytest.mark.parametrize("cells", ["1,,3", "1,2x,3", "1,100,3", "001,2,3", ",2", "1 2,3", "-1,2", "+1,2"])
+def test_column_that_is_not_one_byte_is_refused_with_its_line(tmp_path, cells):
+    read = log_of(tmp_path, ",".join(columns_of("D")), ["0.0,321,1,2", f"0.1,321,{cells}"])
+    assert [frame.data for frame in read] == [b"\1\2"]
+    assert "line 3 has a byte of data that is no number" in read.notice
+
+
+@pytest.mark.parametrize(("text", "data"), [
+    ("1 0 0 0", b"\1\0\0\0"), ("01 00", b"\1\0"), ("0100", b"\1\0"), ("0100 0203", b"\1\0\2\3"), ("5", b"\5"),
+    ("", b""), ("010", None), ("1 203", None), ("1 0203", None)])
+def test_words_of_a_column_without_length_are_bytes(tmp_path, text, data):
+    read = log_of(tmp_path, "Time,ID,Data", ["0.0,321,00", f"0.1,321,{text}"])
+    assert [frame.data for frame in read][1:] == ([] if data is None else [data])
+    assert ("line 3 has a byte" in read.notice) == (data is None)

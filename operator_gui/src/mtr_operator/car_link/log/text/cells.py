@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from typing import Sequence
 
-from .lines import MAX_STANDARD
+from .lines import MAX_STANDARD, hex_bytes, some_bytes
 
+_BYTE_DIGITS = 2
 _YES = ("true", "t", "1", "yes", "y", "x", "on")
 _NO = ("false", "f", "0", "no", "n", "off")
 _EXTENDED = (*_YES, "extended", "ext", "xtd", "29", "29bit", "eff")
@@ -21,6 +23,17 @@ def is_extended(word: str, can_id: int) -> bool:
     """Return whether an identifier is an extended one; where the word is empty, its value decides. ValueError for a
     word that names neither format."""
     return _choice(word, "extended", _EXTENDED, _STANDARD) if word else can_id > MAX_STANDARD
+
+
+def data_of(words: Sequence[str], length: str) -> bytes:
+    """Return the data of one column: a word for each byte, or bytes without blanks. length: empty when not stated."""
+    if length:
+        count = int(length)
+        is_whole = len(words) == 1 and len(words[0]) == _BYTE_DIGITS * count
+        return hex_bytes(words[0]) if is_whole else some_bytes(words, count)
+    if all(len(word) <= _BYTE_DIGITS for word in words):
+        return some_bytes(words, len(words))
+    return b"".join(map(hex_bytes, words))
 
 
 def _choice(word: str, column: str, yes: tuple[str, ...], no: tuple[str, ...]) -> bool:

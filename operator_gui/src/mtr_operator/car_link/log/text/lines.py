@@ -15,6 +15,9 @@ MAX_STANDARD, _MAX_EXTENDED = 0x7FF, 0x1FFF_FFFF
 _MAX_CHANNEL = 0xFFFF
 # End of the year 9999 in UNIX time: no clock of a log shows more, whatever its origin.
 _LATEST_S = 253_402_300_799.0
+# A byte by the base of its digits. More digits than a byte needs are of another base: candump -i writes binary ones.
+_BYTES = {base: re.compile(pattern) for base, pattern in (
+    (2, "[01]{8}"), (10, r"\d{1,3}"), (16, "(?:0[xX])?[0-9A-Fa-f]{1,2}"))}
 
 # Identifier and whether it is an extended one, by the name of a message.
 Names = Mapping[str, "tuple[int, bool]"]
@@ -146,6 +149,8 @@ def some_bytes(words: Sequence[str], count: int, base: int = 16) -> bytes:
     """The first words as data; what follows them is another column."""
     if len(words) < count:
         raise ValueError(f"has {len(words)} bytes of data, and says {count}")
+    if not all(map(_BYTES[base].fullmatch, words[:count])):
+        raise ValueError("has a byte of data that is no number")
     try:
         return bytes(int(word, base) for word in words[:count])
     except ValueError:

@@ -8,7 +8,7 @@ import re
 import statistics
 from typing import Mapping, Sequence
 
-from .cells import is_extended, is_set
+from .cells import data_of, is_extended, is_set
 from .lines import (
     Channels,
     Line,
@@ -16,7 +16,6 @@ from .lines import (
     Read,
     WrongShape,
     frame,
-    hex_bytes,
     hex_id,
     seconds,
     some_bytes,
@@ -36,7 +35,8 @@ _COLUMNS = {
     _DATA: ("data", "databytes", "payload", "datahex"),
     _REMOTE: ("remote", "rtr", "isremote", "isrtr", "remoteframe", "isremoteframe"),
     _ERROR: ("error", "err", "iserror", "iserr", "errorframe", "iserrorframe")}
-_FIRST_BYTE = re.compile(r"(?:d|b|data|byte)_?[01]")
+# Columns of one byte each.
+_FIRST_BYTE, _BYTE = (re.compile(rf"(?:d|b|data|byte|databyte){number}") for number in ("0?[01]", r"\d\d?"))
 _UNITS_S = {"us": 1e-6, "microseconds": 1e-6, "ms": 1e-3, "milliseconds": 1e-3, "s": 1.0, "seconds": 1.0}
 # Tables without a header, by their number of columns before the data.
 _WITHOUT_HEADER = ((_TIME, _ID, _EXTENDED, _DIRECTION, _BUS, _LENGTH), (_TIME, _ID, _EXTENDED, _BUS, _LENGTH))
@@ -53,7 +53,7 @@ class Table(LineReader):
     def __init__(self) -> None:
         self._columns: Sequence[str] = ()
         self._delimiter = ","
-        self._is_base64 = False
+        self._is_base64 = self._are_bytes = False
         self._unit_s: float | None = None
         self._channels = Channels()
 
@@ -73,16 +73,14 @@ class Table(LineReader):
 
     def _header(self, line: str) -> bool:
         delimiter = max(",;\t", key=line.count)
-        words = [each.strip().strip('"') for each in line.split(delimiter)]
+        words = [each.strip().strip('"') for each in line.rstrip(delimiter).split(delimiter)]
         names = [re.sub(r"[^a-z0-9]", "", word.lower()) for word in words]
-        columns = [next((key for key, known in _COLUMNS.items() if name in known), _UNKNOWN) for name in names]
-        first = next((at for at, name in enumerate(names) if _FIRST_BYTE.fullmatch(name)), None)
-        if first is not None:
-            columns = [*columns[:first], _DATA]
+        columns = _columns(names)
         if not {_TIME, _ID, _DATA} <= set(columns):
             return False
         self.is_recognized = True
         self._columns, self._delimiter, self._is_base64 = columns, delimiter, words == _BASE64
+        self._are_bytes = any(map(_FIRST_BYTE.fullmatch, names))
         unit = re.search(r"(us|ms|microseconds|milliseconds|seconds|(?<=[^a-z])s)$",
                          re.sub(r"[^a-z]+", " ", words[columns.index(_TIME)].lower()).strip())
         self._unit_s = _UNITS_S[unit[1]] if unit else None
@@ -100,7 +98,11 @@ class Table(LineReader):
 
     def _values(self, line: str) -> Mapping[str, str]:
         words = line.split(self._delimiter, len(self._columns) - 1)
-        return {column: word.strip().strip('"') for column, word in zip(self._columns, words)}
+        values: dict[str, str] = {}
+        for column, word in zip(self._columns, words):
+            before = f"{values[_DATA]}{self._delimiter}" if column == _DATA and column in values else ""
+            values[column] = before + word.strip().strip('"')
+        return values
 
     def read(self, line: str) -> Read:
         """See LineReader."""
@@ -125,11 +127,24 @@ class Table(LineReader):
             raise ValueError(f"has the length {length}")
         if self._is_base64:
             return _base64(text, length)
-        words = text.replace(self._delimiter, " ").split()
-        if not length:
-            return hex_bytes("".join(words))
-        count = int(length)
-        return hex_bytes(words[0]) if len(words) == 1 and len(words[0]) == 2 * count else some_bytes(words, count)
+        if not self._are_bytes:
+            return data_of(text.replace(self._delimiter, " ").split(), length)
+        cells = [cell.strip().strip('"') for cell in text.rstrip(f"{self._delimiter} ").split(self._delimiter)]
+        words = cells if any(cells) else []
+        return some_bytes(words, int(length) if length else len(words))
+
+
+def _columns(names: Sequence[str]) -> list[str]:
+    """Return what the columns with these names hold; each column of one byte holds data."""
+    columns = [next((key for key, known in _COLUMNS.items() if name in known), _UNKNOWN) for name in names]
+    first = next((at for at, name in enumerate(names) if _FIRST_BYTE.fullmatch(name)), None)
+    if first is None:
+        return columns
+    behind = next((at for at in range(first, len(names)) if not _BYTE.fullmatch(names[at])), len(names))
+    # Rows may have more bytes than the header, unless another column is behind them.
+    count = behind - first if behind < len(names) else 1
+    others = [_UNKNOWN if column == _DATA else column for column in columns]
+    return [*others[:first], *[_DATA] * count, *others[behind:]]
 
 
 def _base64(text: str, length: str) -> bytes:
