@@ -128,3 +128,38 @@ def test_words_of_a_column_without_length_are_bytes(tmp_path, text, data):
     read = log_of(tmp_path, "Time,ID,Data", ["0.0,321,00", f"0.1,321,{text}"])
     assert [frame.data for frame in read][1:] == ([] if data is None else [data])
     assert ("line 3 has a byte" in read.notice) == (data is None)
+
+
+FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
+FORMS = {"columns": (",".join(["Time,ID,DLC", *[f"D{at}" for at in range(64)]]), ","),
+         "few columns": ("Time,ID,DLC,D1,D2,D3,D4,D5,D6,D7,D8", ","), "words": ("Time,ID,DLC,Data", " "),
+         "text": ("Time,ID,DLC,Data", "")}
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize("is_code", [True, False], ids=["code", "length"])
+def test_length_of_fd_frames_may_be_a_code(tmp_path, form, is_code):
+    head, blank = FORMS[form]
+    datas = [bytes(range(255, 255 - length, -1)) for length in FD_LENGTHS]
+    read = log_of(tmp_path, head, [
+        f"{0.1 * at:.1f},321,{FD_LENGTHS.index(len(data)) if is_code else len(data)},"
+        + blank.join(f"{byte:02X}" for byte in data) for at, data in enumerate(datas)])
+    assert [(frame.data, frame.is_fd) for frame in read] == [(data, len(data) > 8) for data in datas]
+    assert read.notice == ""
+
+
+@pytest.mark.parametrize("form", FORMS)
+@pytest.mark.parametrize(("length", "present"), [
+    (9, 8), (9, 10), (9, 16), (9, 64), (12, 8), (12, 16), (12, 64), (13, 24), (15, 16), (15, 63), (16, 12), (24, 20)])
+def test_length_that_contradicts_the_bytes_of_a_table_is_refused(tmp_path, form, length, present):
+    head, blank = FORMS[form]
+    read = log_of(tmp_path, head, ["0.0,321,0,", f"0.1,321,{length}," + blank.join(["01"] * present)])
+    assert [frame.data for frame in read] == [b""]
+    assert f"line 3 has {present} bytes of data, and says {length}" in read.notice
+
+
+@pytest.mark.parametrize(("length", "padding"), [(2, 8), (0, 8), (8, 64), (2, 64), (16, 64), (48, 64)])
+def test_columns_that_are_filled_up_are_no_data(tmp_path, length, padding):
+    cells = ",".join(["11"] * length + ["0"] * (padding - length))
+    read = log_of(tmp_path, FORMS["columns"][0], [f"0.1,321,{length},{cells}"])
+    assert [frame.data for frame in read] == [b"\x11" * length] and read.notice == ""

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from typing import Sequence
 
-from .lines import MAX_STANDARD, hex_bytes, some_bytes
+from .lines import CLASSIC_BYTES, MAX_STANDARD, fd_length, hex_bytes, some_bytes
 
 _BYTE_DIGITS = 2
+# Data length codes of more than eight bytes.
+_LONG_CODES = range(9, 16)
 _YES = ("true", "t", "1", "yes", "y", "x", "on")
 _NO = ("false", "f", "0", "no", "n", "off")
 _EXTENDED = (*_YES, "extended", "ext", "xtd", "29", "29bit", "eff")
@@ -28,12 +30,30 @@ def is_extended(word: str, can_id: int) -> bool:
 def data_of(words: Sequence[str], length: str) -> bytes:
     """Return the data of one column: a word for each byte, or bytes without blanks. length: empty when not stated."""
     if length:
-        count = int(length)
-        is_whole = len(words) == 1 and len(words[0]) == _BYTE_DIGITS * count
+        is_whole = len(words) == 1 and len(words[0]) > _BYTE_DIGITS
+        present = len(words[0]) // _BYTE_DIGITS if is_whole else sum(map(_is_byte, words))
+        count = length_of(length, present)
+        if present > max(count, CLASSIC_BYTES) or (is_whole and present != count):
+            raise ValueError(f"has {present} bytes of data, and says {count}")
         return hex_bytes(words[0]) if is_whole else some_bytes(words, count)
     if all(len(word) <= _BYTE_DIGITS for word in words):
         return some_bytes(words, len(words))
     return b"".join(map(hex_bytes, words))
+
+
+def length_of(text: str, present: int) -> int:
+    """Return the length of data: from 9 on it may be a data length code. present: bytes in the line. ValueError when
+    they are of neither length; those that fill up the columns of a classic frame are no contradiction."""
+    count = int(text)
+    if count not in _LONG_CODES or present == count:
+        return count
+    if present != fd_length(count):
+        raise ValueError(f"has {present} bytes of data, and says {count}")
+    return present
+
+
+def _is_byte(word: str) -> bool:
+    return bool(re.fullmatch(r"(?:0[xX])?[0-9A-Fa-f]{1,2}", word))
 
 
 def _choice(word: str, column: str, yes: tuple[str, ...], no: tuple[str, ...]) -> bool:

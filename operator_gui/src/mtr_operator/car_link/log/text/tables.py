@@ -8,7 +8,7 @@ import re
 import statistics
 from typing import Mapping, Sequence
 
-from .cells import data_of, is_extended, is_set
+from .cells import data_of, is_extended, is_set, length_of
 from .lines import (
     Channels,
     Line,
@@ -131,7 +131,7 @@ class Table(LineReader):
             return data_of(text.replace(self._delimiter, " ").split(), length)
         cells = [cell.strip().strip('"') for cell in text.rstrip(f"{self._delimiter} ").split(self._delimiter)]
         words = cells if any(cells) else []
-        return some_bytes(words, int(length) if length else len(words))
+        return some_bytes(words, length_of(length, len(words)) if length else len(words))
 
 
 def _columns(names: Sequence[str]) -> list[str]:
