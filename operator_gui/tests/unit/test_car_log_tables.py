@@ -163,3 +163,15 @@ def test_columns_that_are_filled_up_are_no_data(tmp_path, length, padding):
     cells = ",".join(["11"] * length + ["0"] * (padding - length))
     read = log_of(tmp_path, FORMS["columns"][0], [f"0.1,321,{length},{cells}"])
     assert [frame.data for frame in read] == [b"\x11" * length] and read.notice == ""
+
+
+@pytest.mark.parametrize(("unit", "unit_s"), [
+    ("us", 1e-6), ("\N{MICRO SIGN}s", 1e-6), ("\N{GREEK SMALL LETTER MU}s", 1e-6), ("ms", 1e-3), ("s", 1.0)])
+@pytest.mark.parametrize("column", ["Time ({})", "Time [{}]", "Time_{}", "Timestamp/{}", "Time {}"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "cp1252"])
+def test_unit_in_the_header_counts(tmp_path, unit, unit_s, column, encoding):
+    if encoding == "cp1252" and not unit.isascii():
+        unit = "\N{MICRO SIGN}s"
+    read = log_of(tmp_path, f"{column.format(unit)},ID,DLC,Data",
+                  [f"{20_000 * at}{'.0' * (at % 2)},321,1,01" for at in range(5)], encoding)
+    assert [frame.time_s for frame in read] == pytest.approx([20_000 * unit_s * at for at in range(5)])

@@ -35,6 +35,8 @@ _COLUMNS = {
     _DATA: ("data", "databytes", "payload", "datahex"),
     _REMOTE: ("remote", "rtr", "isremote", "isrtr", "remoteframe", "isremoteframe"),
     _ERROR: ("error", "err", "iserror", "iserr", "errorframe", "iserrorframe")}
+# Micro sign, Greek letter mu, and what is left of either in a file of another encoding.
+_MICRO = str.maketrans(dict.fromkeys("\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}\N{REPLACEMENT CHARACTER}", "u"))
 # Columns of one byte each.
 _FIRST_BYTE, _BYTE = (re.compile(rf"(?:d|b|data|byte|databyte){number}") for number in ("0?[01]", r"\d\d?"))
 _UNITS_S = {"us": 1e-6, "microseconds": 1e-6, "ms": 1e-3, "milliseconds": 1e-3, "s": 1.0, "seconds": 1.0}
@@ -73,7 +75,7 @@ class Table(LineReader):
 
     def _header(self, line: str) -> bool:
         delimiter = max(",;\t", key=line.count)
-        words = [each.strip().strip('"') for each in line.rstrip(delimiter).split(delimiter)]
+        words = [each.strip().strip('"').translate(_MICRO) for each in line.rstrip(delimiter).split(delimiter)]
         names = [re.sub(r"[^a-z0-9]", "", word.lower()) for word in words]
         columns = _columns(names)
         if not {_TIME, _ID, _DATA} <= set(columns):
