@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from typing import Sequence
 
 from .lines import Line, LineReader, Names, Read, WrongShape, fd_length, frame, some_bytes
 
@@ -16,6 +17,9 @@ _CLASSIC = re.compile(r"(\d+)\s+(\S+)\s+(Rx|Tx|TxRq)\s+([dr])\b\s*(.*)", re.IGNO
 _FD = re.compile(r"CANFD\s+(\d+)\s+(Rx|Tx|TxRq)\s+(\S+)\s+(.*)", re.IGNORECASE)
 # Bits BRS and ESI, data length code and length, behind a name that is written or not: no name begins with a digit.
 _FD_VALUES = re.compile(r"(?:[^\s\d]\S*\s+)?([01])\s+([01])\s+([0-9a-fA-F])\s+(\d{1,2})\b\s*(.*)")
+# Identifier or name, by its place.
+_PLACE = re.compile(r"\d+[.,]\d+\s+(?:CANFD\s+\d+\s+(?:Rx|Tx|TxRq)|\d+)\s+(\S+)", re.IGNORECASE)
+_NUMBER = re.compile(r"([0-9A-Fa-f]+)([xX]?)")
 # Behind the data, such as: Length = 244000 BitCount = 125 ID = 801
 _WRITTEN_ID = re.compile(r"\bID = (\d+)(x?)")
 _DATA_END = re.compile(r"\s(Length|BitCount|ID)\s*=")
@@ -30,9 +34,15 @@ class Asc(LineReader):
 
     def __init__(self, names: Names):
         self._names = names
+        self._has_names = False
         self._base = _HEX
         self._are_steps = False
         self._time_s = 0.0
+
+    def prepare(self, lines: Sequence[str]) -> None:
+        """See LineReader: BC is an identifier, or in a log with names in place of identifiers the message BC."""
+        texts = (match[1] for match in map(_PLACE.match, lines) if match is not None)
+        self._has_names = any(text in self._names and not _NUMBER.fullmatch(text) for text in texts)
 
     def read(self, line: str) -> Read:
         """See LineReader."""
@@ -85,22 +95,29 @@ class Asc(LineReader):
                      channel=_channel(channel))
 
     def _identifier(self, text: str, rest: str) -> tuple[int, bool]:
-        if text in self._names:
-            return self._names[text]
-        is_extended = text[-1:] in ("x", "X")
-        try:
-            can_id = int(text[:-1] if is_extended else text, self._base)
-        except ValueError:
-            can_id = -1
-        if 0 <= can_id <= _MAX[is_extended]:
-            return can_id, is_extended
-        written = _WRITTEN_ID.search(rest)
+        number, named, written = self._number(text), self._names.get(text), _WRITTEN_ID.search(rest)
+        if named is not None and (number is None or (self._has_names and written is None)):
+            return named
         if written is not None and not text[:1].isdecimal():
             return int(written[1]), bool(written[2])
-        if can_id < 0:
+        if number is None:
             raise ValueError(f"has the name {text} in place of an identifier, and the CAN database of the car profile "
                              "has no such message")
-        raise ValueError(f"has the identifier {text}, which is too large")
+        if number[0] > _MAX[number[1]]:
+            raise ValueError(f"has the identifier {text}, which is too large")
+        return number
+
+    def _number(self, text: str) -> tuple[int, bool] | None:
+        """Return what the text is as a number; None for a name, of which one may be too large a number."""
+        match = _NUMBER.fullmatch(text)
+        if match is None:
+            return None
+        is_extended = bool(match[2])
+        try:
+            can_id = int(match[1], self._base)
+        except ValueError:
+            return None
+        return (can_id, is_extended) if can_id <= _MAX[is_extended] or text not in self._names else None
 
 
 def _channel(text: str) -> int:

@@ -131,10 +131,9 @@ def seconds(text: str) -> float:
 
 def hex_id(text: str) -> int:
     """An identifier in hexadecimal, with or without 0x."""
-    try:
-        return int(text, 16)
-    except ValueError:
-        raise WrongShape from None
+    if not re.fullmatch(r"(?:0[xX])?[0-9A-Fa-f]+", text):
+        raise WrongShape
+    return int(text, 16)
 
 
 def hex_bytes(text: str) -> bytes:
