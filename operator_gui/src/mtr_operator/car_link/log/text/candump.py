@@ -25,6 +25,8 @@ _STANDARD_DIGITS = 3
 _LOG = re.compile(r"\(([^()]*)\)\s+(\S+)\s+([0-9A-Fa-f]{1,8})#(\S*)(?:\s+[RT])?")
 _CONSOLE = re.compile(r"(?:\(([^()]*)\)\s+)?([A-Za-z][\w.-]*)\s+(?:[RT]X\s+[B-]\s+[E-]\s+)?([0-9A-Fa-f]{3,8})\s+"
                       r"[\[{](\d{1,2})[\]}]\s*(.*)")
+# Bytes of candump -i.
+_BINARY = re.compile(r"[01]{8}")
 _DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d) (\d\d:\d\d:\d\d)(\.\d+)?")
 # Steps from frame to frame begin with 0, and are not in ascending order.
 _MIN_FRAMES, _FALLING_SHARE = 4, 0.2
@@ -89,8 +91,10 @@ class CandumpConsole(LineReader):
         can_id, is_extended = hex_id(id_text), len(id_text) > _STANDARD_DIGITS
         if rest.startswith("remote request") or (is_extended and can_id & _ERROR_FLAG):
             return Line.NO_DATA
+        words = rest.split()[:int(length)]
+        base = 2 if words and all(map(_BINARY.fullmatch, words)) else 16
         # CAN FD has two digits.
-        return frame(time_s, can_id & _ID_MASK, is_extended, some_bytes(rest.split(), int(length)),
+        return frame(time_s, can_id & _ID_MASK, is_extended, some_bytes(words, int(length), base),
                      is_fd=len(length) > 1, channel=self._channels.number(name))
 
 
