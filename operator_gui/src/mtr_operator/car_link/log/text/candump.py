@@ -28,8 +28,9 @@ _CONSOLE = re.compile(r"(?:\(([^()]*)\)\s+)?([A-Za-z][\w.-]*)\s+(?:[RT]X\s+[B-]\
 # Bytes of candump -i.
 _BINARY = re.compile(r"[01]{8}")
 _DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d) (\d\d:\d\d:\d\d)(\.\d+)?")
-# Steps from frame to frame begin with 0, and are not in ascending order.
-_MIN_FRAMES, _FALLING_SHARE = 4, 0.2
+# Both steps from frame to frame and times since the first frame begin with 0. Times of an interface do not fall, and
+# those of the second half are later than those of the first.
+_MIN_FRAMES, _FALLING_SHARE, _GROWING_SHARE = 4, 0.2, 0.75
 
 
 class CandumpLog(LineReader):
@@ -71,10 +72,9 @@ class CandumpConsole(LineReader):
 
     def prepare(self, lines: Sequence[str]) -> None:
         """See LineReader: -t d and -t z look alike."""
-        texts = [match[1] for match in map(_CONSOLE.fullmatch, lines) if match and match[1]]
-        times_s = [time_s for time_s in map(_time_or_nan, texts) if math.isfinite(time_s)]
-        falling = sum(after <= before for before, after in zip(times_s, times_s[1:]))
-        self._are_steps = len(times_s) >= _MIN_FRAMES and times_s[0] == 0.0 and falling > _FALLING_SHARE * len(times_s)
+        matches = [match for match in map(_CONSOLE.fullmatch, lines) if match and match[1]]
+        stamps = [(match[2], _time_or_nan(match[1])) for match in matches]
+        self._are_steps = _are_steps([(name, time_s) for name, time_s in stamps if math.isfinite(time_s)])
 
     def read(self, line: str) -> Read:
         """See LineReader."""
@@ -96,6 +96,20 @@ class CandumpConsole(LineReader):
         # CAN FD has two digits.
         return frame(time_s, can_id & _ID_MASK, is_extended, some_bytes(words, int(length), base),
                      is_fd=len(length) > 1, channel=self._channels.number(name))
+
+
+def _are_steps(stamps: Sequence[tuple[str, float]]) -> bool:
+    """Return whether times are those since the frame before; stamps: interface and time."""
+    times_s = [time_s for _, time_s in stamps]
+    if len(times_s) < _MIN_FRAMES or times_s[0] != 0.0:
+        return False
+    falling, last_s = 0, dict[str, float]()
+    for name, time_s in stamps:
+        falling += time_s < last_s.get(name, time_s)
+        last_s[name] = time_s
+    half = len(times_s) // 2
+    growing = sum(after > before for before, after in zip(times_s, times_s[half:]))
+    return falling > _FALLING_SHARE * len(times_s) or growing < _GROWING_SHARE * (len(times_s) - half)
 
 
 def _time_or_nan(text: str) -> float:
