@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import datetime
 import math
 import re
 from typing import Sequence
@@ -16,6 +15,7 @@ from .lines import (
     frame,
     hex_bytes,
     hex_id,
+    moment,
     seconds,
     some_bytes,
 )
@@ -27,7 +27,6 @@ _CONSOLE = re.compile(r"(?:\(([^()]*)\)\s+)?([A-Za-z][\w.-]*)\s+(?:[RT]X\s+[B-]\
                       r"[\[{](\d{1,2})[\]}]\s*(.*)")
 # Bytes of candump -i.
 _BINARY = re.compile(r"[01]{8}")
-_DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d) (\d\d:\d\d:\d\d)(\.\d+)?")
 # Both steps from frame to frame and times since the first frame begin with 0. Times of an interface do not fall, and
 # those of the second half are later than those of the first.
 _MIN_FRAMES, _FALLING_SHARE, _GROWING_SHARE = 4, 0.2, 0.75
@@ -84,7 +83,7 @@ class CandumpConsole(LineReader):
         time_text, name, id_text, length, rest = match.groups()
         if time_text is None:
             raise ValueError("has no time; record the bus with candump -l, or with -t a")
-        time_s = _time(time_text)
+        time_s = moment(time_text)
         if self._are_steps:
             self._sum_s += time_s
             time_s = self._sum_s
@@ -114,18 +113,6 @@ def _are_steps(stamps: Sequence[tuple[str, float]]) -> bool:
 
 def _time_or_nan(text: str) -> float:
     try:
-        return _time(text)
+        return moment(text)
     except ValueError:
         return math.nan
-
-
-def _time(text: str) -> float:
-    match = _DATE.fullmatch(text.strip())
-    if match is None:
-        return seconds(text)
-    year, month, day, clock, part = match.groups()
-    try:
-        moment = datetime.datetime.fromisoformat(f"{year}-{month}-{day}T{clock}")
-    except ValueError:
-        raise WrongShape from None
-    return moment.replace(tzinfo=datetime.timezone.utc).timestamp() + float(part or 0)

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import datetime
 import re
 from abc import ABC, abstractmethod
 from enum import Enum
@@ -15,6 +16,7 @@ MAX_STANDARD, _MAX_EXTENDED = 0x7FF, 0x1FFF_FFFF
 _MAX_CHANNEL = 0xFFFF
 # End of the year 9999 in UNIX time: no clock of a log shows more, whatever its origin.
 _LATEST_S = 253_402_300_799.0
+_DATE = re.compile(r"(\d{4}-\d\d-\d\d)[ T](\d\d:\d\d:\d\d)([.,]\d+)?(?: ?(Z|[+-]\d\d:?\d\d))?")
 # A byte by the base of its digits. More digits than a byte needs are of another base: candump -i writes binary ones.
 _BYTES = {base: re.compile(pattern) for base, pattern in (
     (2, "[01]{8}"), (10, r"\d{1,3}"), (16, "(?:0[xX])?[0-9A-Fa-f]{1,2}"))}
@@ -127,6 +129,20 @@ def seconds(text: str) -> float:
         return float(text.replace(",", "."))
     except ValueError:
         raise WrongShape from None
+
+
+def moment(text: str) -> float:
+    """A time in seconds, or a date with a time of day (ISO 8601) in UNIX time; UTC when it names no zone."""
+    match = _DATE.fullmatch(text.strip())
+    if match is None:
+        return seconds(text)
+    date, clock, part, zone = match.groups()
+    zone = "+00:00" if zone in (None, "Z") else zone if ":" in zone else f"{zone[:3]}:{zone[3:]}"
+    try:
+        whole_s = datetime.datetime.fromisoformat(f"{date}T{clock}{zone}").timestamp()
+    except (ValueError, OverflowError):
+        raise WrongShape from None
+    return whole_s + seconds(part or "0")
 
 
 def hex_id(text: str) -> int:

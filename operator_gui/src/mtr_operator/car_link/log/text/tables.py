@@ -8,7 +8,7 @@ import re
 import statistics
 from typing import Mapping, Sequence
 
-from .cells import data_of, is_extended, is_set, length_of
+from .cells import cell_data, cell_id, cell_time, data_length, is_extended, is_set
 from .lines import (
     Channels,
     Line,
@@ -16,8 +16,6 @@ from .lines import (
     Read,
     WrongShape,
     frame,
-    hex_id,
-    seconds,
     some_bytes,
 )
 
@@ -58,11 +56,12 @@ class Table(LineReader):
         self._is_base64 = self._are_bytes = False
         self._unit_s: float | None = None
         self._channels = Channels()
+        self._head = ""
 
     def prepare(self, lines: Sequence[str]) -> None:
         """See LineReader: whole numbers are microseconds, unless no bus could carry so many frames in them."""
-        head = next((line for line in lines if self._header(line)), "")
-        if not head:
+        self._head = next((line for line in lines if self._header(line)), "")
+        if not self._head:
             self._guess(lines)
         if not self._columns or self._unit_s is not None:
             return
@@ -110,15 +109,15 @@ class Table(LineReader):
         """See LineReader."""
         if not self._columns:
             raise WrongShape
-        if _is_header_again(line):
+        if line == self._head or _is_header_again(line):
             return Line.NOTHING
         values = self._values(line)
         if len(values) < len({*self._columns}) - 1 or _TIME not in values or _ID not in values:
             raise ValueError(f"has {line.count(self._delimiter) + 1} columns, and {len(self._columns)} are wanted")
-        time_s = seconds(values[_TIME]) * (self._unit_s or 1.0)
+        time_s = cell_time(values[_TIME], self._unit_s or 1.0)
         if any([is_set(values.get(column, ""), column) for column in (_REMOTE, _ERROR)]):
             return Line.NO_DATA
-        can_id = hex_id(values[_ID])
+        can_id = cell_id(values[_ID])
         bus = values.get(_BUS, "")
         return frame(time_s, can_id, is_extended(values.get(_EXTENDED, ""), can_id), self._data(values),
                      channel=self._channels.number(bus) if bus else 0)
@@ -130,10 +129,10 @@ class Table(LineReader):
         if self._is_base64:
             return _base64(text, length)
         if not self._are_bytes:
-            return data_of(text.replace(self._delimiter, " ").split(), length)
+            return cell_data(text.replace(self._delimiter, " ").split(), length)
         cells = [cell.strip().strip('"') for cell in text.rstrip(f"{self._delimiter} ").split(self._delimiter)]
         words = cells if any(cells) else []
-        return some_bytes(words, length_of(length, len(words)) if length else len(words))
+        return some_bytes(words, data_length(length, len(words)) if length else len(words))
 
 
 def _columns(names: Sequence[str]) -> list[str]:

@@ -27,12 +27,13 @@ Numbered = Tuple[int, str]
 
 
 class _Trial(NamedTuple):
-    """score: frames first. place: of the reader. first: what is wrong with the first line that is known and not read.
-    ambiguity: names of buses that cannot be numbered."""
+    """score: frames first. place: of the reader. first: what is wrong with the first line that is not read, of a reader
+    that knows other lines. is_known: the reader knows some line. ambiguity: names of buses that cannot be numbered."""
 
     score: tuple[int, int, bool, bool, int]
     place: int
     first: str = ""
+    is_known: bool = False
     ambiguity: str = ""
 
 
@@ -68,7 +69,7 @@ class TextLog:
             raise ConnectionFailed(f"The CAN log {path} names the buses {buses}, and only names with "
                                    "different numbers, such as can0 and can1, say which is which.")
         if not best.score[0]:
-            raise ConnectionFailed(_refusal(path, self._head, best.first))
+            raise ConnectionFailed(_refusal(path, self._head, best))
         self._place = best.place
         self.kind = self._reader().name
 
@@ -121,24 +122,31 @@ def _best(head: Sequence[Numbered], names: Names, suffix: str) -> _Trial:
 
 def _tried(reader: LineReader, place: int, head: Sequence[Numbered], suffix: str) -> _Trial:
     reader.prepare([line for _, line in head])
-    frames = known = 0
-    first = ""
+    frames = known = others = 0
+    first = strange = ""
     for number, line in head:
         try:
-            frames += isinstance(reader.read(line), LoggedFrame)
-        except WrongShape:
-            continue
+            is_frame = isinstance(reader.read(line), LoggedFrame)
+        except WrongShape as error:
+            strange = strange or _quoted_line(number, line, str(error))
         except (ValueError, Damaged) as error:
             known += 1
             first = first or _quoted_line(number, line, str(error))
         except Ambiguous as error:
-            return _Trial((len(head), 0, True, True, -place), place, first, error.names)
-    return _Trial((frames, known, reader.is_recognized, _BY_SUFFIX.get(suffix) == reader.name, -place), place, first)
+            return _Trial((len(head), 0, True, True, -place), place, ambiguity=error.names)
+        else:
+            frames += is_frame
+            others += not is_frame
+    is_known = others > 0 or known > 0
+    score = (frames, known, reader.is_recognized, _BY_SUFFIX.get(suffix) == reader.name, -place)
+    return _Trial(score, place, first or (strange if is_known else ""), is_known)
 
 
-def _refusal(path: pathlib.Path, head: Sequence[Numbered], first: str) -> str:
-    if first:
-        return f"The CAN log {path} holds no frame that is understood: {first}."
+def _refusal(path: pathlib.Path, head: Sequence[Numbered], best: _Trial) -> str:
+    if best.first:
+        return f"The CAN log {path} holds no frame that is understood: {best.first}."
+    if best.is_known:
+        return f"The CAN log {path} holds no frame."
     line = _quoted_line(*head[0], "is not understood") if head else "it is empty"
     return f"The CAN log {path} holds no frame: {line}; read are {kinds()}, BLF, MF4 and python-can's databases."
 

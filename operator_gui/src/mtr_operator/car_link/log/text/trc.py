@@ -25,7 +25,7 @@ _DIRECTIONS = ("Rx", "Tx")
 # Columns of the versions that do not name them; those of 2.x are in the file.
 _COLUMNS = {"1.0": "N O I L D", "1.1": "N O d I L D", "1.2": "N O B d I L D", "1.3": "N O B d I R L D"}
 _DATA_TYPES, _FD_TYPES = {"DT", "FD", "FB", "FE", "BI"}, {"FD", "FB", "FE", "BI"}
-_HACKER = re.compile(r"(\d+[.,]\d+)\s+([0-9A-Fa-f]{1,8})\s+([0-8])((?:\s+[0-9A-Fa-f]{2})*)\s*(.*)")
+_HACKER = re.compile(r"(\d+[.,]\d+)\s+([0-9A-Fa-f]{1,8})\s+([0-8])\b((?:\s+[0-9A-Fa-f]{2})*)\s*(.*)")
 
 
 class PcanTrace(LineReader):
