@@ -123,7 +123,7 @@ def test_column_that_is_not_one_byte_is_refused_with_its_line(tmp_path, cells):
 
 @pytest.mark.parametrize(("text", "data"), [
     ("1 0 0 0", b"\1\0\0\0"), ("01 00", b"\1\0"), ("0100", b"\1\0"), ("0100 0203", b"\1\0\2\3"), ("5", b"\5"),
-    ("", b""), ("010", None), ("1 203", None), ("1 0203", None)])
+    ("", b""), ("0x5", b"\5"), ("0x1 0x02", b"\1\2"), ("010", None), ("1 203", None), ("1 0203", None)])
 def test_words_of_a_column_without_length_are_bytes(tmp_path, text, data):
     read = log_of(tmp_path, "Time,ID,Data", ["0.0,321,00", f"0.1,321,{text}"])
     assert [frame.data for frame in read][1:] == ([] if data is None else [data])
@@ -175,3 +175,10 @@ def test_unit_in_the_header_counts(tmp_path, unit, unit_s, column, encoding):
     read = log_of(tmp_path, f"{column.format(unit)},ID,DLC,Data",
                   [f"{20_000 * at}{'.0' * (at % 2)},321,1,01" for at in range(5)], encoding)
     assert [frame.time_s for frame in read] == pytest.approx([20_000 * unit_s * at for at in range(5)])
+
+
+@pytest.mark.parametrize(("length", "text", "data"), [
+    (1, "0x5", b"\5"), (1, "5", b"\5"), (2, "0x5 6", b"\5\6"), (2, "0506", b"\5\6"), (2, "05 06 00", b"\5\6")])
+def test_words_of_a_column_with_length_are_bytes(tmp_path, length, text, data):
+    read = log_of(tmp_path, "Time,ID,DLC,Data", [f"0.1,321,{length},{text}"])
+    assert [frame.data for frame in read] == [data] and read.notice == ""

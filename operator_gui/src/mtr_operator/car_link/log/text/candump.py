@@ -102,7 +102,8 @@ def _are_steps(stamps: Sequence[tuple[str, float]]) -> bool:
     times_s = [time_s for _, time_s in stamps]
     if len(times_s) < _MIN_FRAMES or times_s[0] != 0.0:
         return False
-    falling, last_s = 0, dict[str, float]()
+    falling = 0
+    last_s: dict[str, float] = {}
     for name, time_s in stamps:
         falling += time_s < last_s.get(name, time_s)
         last_s[name] = time_s

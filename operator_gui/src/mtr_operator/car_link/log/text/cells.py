@@ -62,13 +62,13 @@ def is_extended(word: str, can_id: int) -> bool:
 def cell_data(words: Sequence[str], length: str) -> bytes:
     """Return the data of one column: a word for each byte, or bytes without blanks. length: empty when not stated."""
     if length:
-        is_whole = len(words) == 1 and len(words[0]) > _BYTE_DIGITS
+        is_whole = len(words) == 1 and not _is_byte(words[0])
         present = len(words[0]) // _BYTE_DIGITS if is_whole else sum(map(_is_byte, words))
         count = data_length(length, present)
         if present > max(count, CLASSIC_BYTES) or (is_whole and present != count):
             raise ValueError(f"has {present} bytes of data, and says {count}")
         return hex_bytes(words[0]) if is_whole else some_bytes(words, count)
-    if all(len(word) <= _BYTE_DIGITS for word in words):
+    if all(map(_is_byte, words)):
         return some_bytes(words, len(words))
     return b"".join(map(hex_bytes, words))
 
