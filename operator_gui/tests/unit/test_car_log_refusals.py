@@ -77,3 +77,11 @@ def test_header_with_another_first_column_is_not_left_out(tmp_path):
     path.write_text(f"{NUMBERED}1,0.0,321,1,01\n{NUMBERED}2,0.1,321,1,02\n")
     read = ReadLog(path)
     assert [frame.data for frame in read] == [b"\1", b"\2"] and read.notice == ""
+
+
+@pytest.mark.parametrize("head", ["", "Time     ID        DLC       Data                    Comment\n"])
+def test_canhacker_trace_without_decimals_is_no_trace_of_pcan(tmp_path, head):
+    rows = [f"{10 * at}   321      2           01 02\n" for at in range(20)]
+    number = head.count("\n") + 1
+    assert f'line {number} is not understood: "0   321      2           01 02"' in refusal(
+        tmp_path, "bus.trc", head + "".join(rows))

@@ -20,7 +20,7 @@ from .lines import (
 
 _MS_PER_S = 1000.0
 _STANDARD_DIGITS = 4
-_NUMBERED = re.compile(r"\d+\)?\s")
+_NUMBERED, _BRACKETED = re.compile(r"\d+\)?\s"), re.compile(r"\d+\)\s")
 _DIRECTIONS = ("Rx", "Tx")
 # Columns of the versions that do not name them; those of 2.x are in the file.
 _COLUMNS = {"1.0": "N O I L D", "1.1": "N O d I L D", "1.2": "N O B d I L D", "1.3": "N O B d I R L D"}
@@ -35,13 +35,15 @@ class PcanTrace(LineReader):
 
     def __init__(self) -> None:
         self._columns: Sequence[str] = _COLUMNS["1.0"].split()
+        self._are_named = False
 
     def read(self, line: str) -> Read:
         """See LineReader."""
         if line.startswith(";"):
             self._header(line)
             return Line.NOTHING
-        if not _NUMBERED.match(line):
+        # CanHacker's times look like numbers of frames, which have a bracket in versions that name no columns.
+        if not (_NUMBERED if self._are_named else _BRACKETED).match(line):
             raise WrongShape
         values = dict(zip(self._columns, line.split(maxsplit=len(self._columns) - 1)))
         if not {"O", "I"} <= set(values):
@@ -57,6 +59,7 @@ class PcanTrace(LineReader):
             self._columns = _COLUMNS.get(value.strip(), _COLUMNS["1.0"]).split()
         elif key == "$COLUMNS":
             self._columns = [each.strip() for each in value.split(",")]
+            self._are_named = True
 
     def _frame(self, values: dict[str, str]) -> Read:
         id_text, rest = values["I"], values.get("D", "")
