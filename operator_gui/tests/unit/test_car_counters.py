@@ -14,6 +14,7 @@ from mtr_operator.car_link.learn.findings import findings_of
 from mtr_operator.car_link.learn.session import LearnSession, Stage
 from mtr_operator.car_link.learn.written_profile import write_profile
 from mtr_operator.car_link.profile import load_profile
+from mtr_operator.cli.cars.trying import try_profile
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import LockState
 
@@ -81,10 +82,13 @@ cycle_time_s: 0.1
 alive_signal: ALIVE
 command_signal: EVENTS
 """
+SIGNED = DATABASE.replace("4@1+", "4@1-")
+BIG_ENDIAN = DATABASE.replace("8|4@1+", "11|4@0-").replace("16|4@1+", "19|4@0-").replace("0|4@1+", "3|4@0-")
+ELSEWHERE = PROFILE.replace("alive_signal: ALIVE", "alive_signal: {message: OTHER, signal: COUNT, values: [0, 14]}")
 
 
-def written(folder, *lines, limits="0|0", profile=PROFILE):
-    (folder / "car.dbc").write_text(DATABASE.format(limits=limits))
+def written(folder, *lines, limits="0|0", profile=PROFILE, database=DATABASE):
+    (folder / "car.dbc").write_text(database.format(limits=limits))
     path = folder / "car.yaml"
     path.write_text(profile + "".join(f"{line}\n" for line in lines))
     return str(path)
@@ -125,6 +129,33 @@ def test_simulated_car_counts_as_the_profile_says(tmp_path, line):
         frames.is_locked = index // 10 % 2 == 0
         (_, message), = frames.next()
         assert judge.judge(profile.decode(801, False, bytes(message.data)), 0.1 * index) == ""
+
+
+@pytest.mark.parametrize("limits", ["0|7", "-8|7", "0|0", "0|14"])
+@pytest.mark.parametrize("lines", [(), ("alive_values: [0, 14]", "command_values: 15"), ("alive_values: 15",)])
+@pytest.mark.parametrize("database", [SIGNED, BIG_ENDIAN], ids=["little endian", "big endian"])
+def test_signed_counters_are_compared_without_their_sign(tmp_path, limits, lines, database):
+    profile = load_profile(written(tmp_path, *lines, limits=limits, database=database))
+    judge = FrameJudge(profile)
+    for index in range(600):
+        changes = index // 20
+        data = bytes([changes % 2, index % 15, changes % 15, 0])
+        assert judge.judge(profile.decode(801, False, data), 0.1 * index) == "", index
+    assert "ALIVE of the Car's lock message went from 14 to 9" in judge.judge(
+        profile.decode(801, False, bytes([1, 9, 14, 0])), 60.0)
+
+
+@pytest.mark.parametrize(("profile", "lines"), [(PROFILE, ("alive_values: 15",)), (PROFILE, ("alive_values: [1, 15]",)),
+                                                (PROFILE, ("command_values: [1, 15]",)), (ELSEWHERE, ())])
+def test_simulated_car_and_link_agree_on_signed_counters(tmp_path, profile, lines):
+    assert try_profile(written(tmp_path, *lines, profile=profile, database=SIGNED)).is_good
+
+
+def test_signed_counter_of_another_message_has_its_values(tmp_path):
+    companions = Companions(load_profile(written(tmp_path, profile=ELSEWHERE, database=SIGNED)).further)
+    assert not any(companions.frame(("", 802, False), bytes([index % 15]), 0.1 * index) for index in range(300))
+    doubt, = companions.frame(("", 802, False), bytes([9]), 40.0)
+    assert "went from 14 to 9" in doubt
 
 
 @pytest.mark.parametrize(("line", "words"), [
@@ -179,10 +210,11 @@ def test_learned_counter_has_the_values_that_were_seen(tmp_path, counter, lost, 
 
 
 @pytest.mark.parametrize("has_names", [False, True])
-def test_learned_counters_of_a_database_are_believed_beyond_what_was_seen(tmp_path, has_names):
+@pytest.mark.parametrize("database", [DATABASE, SIGNED], ids=["unsigned", "signed"])
+def test_learned_counters_of_a_database_are_believed_beyond_what_was_seen(tmp_path, has_names, database):
     def data(is_locked, count, changes):
         return bytes([1 - is_locked, count % 15, changes % 15, 0])
-    written(tmp_path)
+    written(tmp_path, database=database)
     names = DatabaseNames(tmp_path / "car.dbc") if has_names else None
     path = tmp_path / "learned.yaml"
     write_profile(path, recorded(data), names)

@@ -67,13 +67,14 @@ class FrameJudge:
         if last.alive is None or reading.alive is None:
             return ""
         name = self._profile.alive_signal
-        step = self._counts[name].step(last.alive, reading.alive)
+        before, now = (self._profile.counts(name).unsigned(each) for each in (last.alive, reading.alive))
+        step = self._counts[name].step(before, now)
         if step == 0:
             self.is_repeated = True
-            return f"The signal {name} of the Car's lock message stands still at {reading.alive}."
+            return f"The signal {name} of the Car's lock message stands still at {now}."
         if step == 1:
             return ""
-        return f"The signal {name} of the Car's lock message went from {last.alive} to {reading.alive}."
+        return f"The signal {name} of the Car's lock message went from {before} to {now}."
 
     def _state(self, reading: LockReading) -> str:
         if reading.state is not LockState.UNKNOWN:
@@ -84,9 +85,10 @@ class FrameJudge:
         if last.commands is None or reading.commands is None:
             return ""
         name = self._profile.command_signal
-        step = self._counts[name].step(last.commands, reading.commands)
+        before, now = (self._profile.counts(name).unsigned(each) for each in (last.commands, reading.commands))
+        step = self._counts[name].step(before, now)
         if step is None:
-            return (f"The signal {name} of the Car's lock message went from {last.commands} to {reading.commands}.")
+            return f"The signal {name} of the Car's lock message went from {before} to {now}."
         if is_change and step == 0 and last.state is not LockState.UNKNOWN:
             return f"The Car was {reading.state.value} on its bus, and {name} counted no command."
         return ""

@@ -61,7 +61,7 @@ class Companions:
             kept = self._values[place.key, place.signal]
             if place.key != key or place.signal not in values or not kept:
                 continue
-            before, now = kept[-1][1], values[place.signal]
+            before, now = (place.counts.unsigned(each) for each in (kept[-1][1], values[place.signal]))
             step = self._watches[place.key, place.signal].step(before, now)
             if step is None:
                 yield f"{_signal(place)} went from {before} to {now}."

@@ -31,6 +31,10 @@ class CountRange:
         """Return the value for a count from 0."""
         return self.low + count % (self.high - self.low + 1)
 
+    def unsigned(self, value: int) -> int:
+        """Return a raw value as the profile declares it: -1 of a signed counter of 4 bits is 15."""
+        return value % (1 << self.length)
+
 
 def count_range(entries: Entries, key: str, values: Any, signal: Any) -> CountRange:
     """Return the values of a counter (a signal of cantools).
@@ -72,10 +76,9 @@ class CountWatch:
 
     def step(self, before: int, now: int) -> int | None:
         """Return 0 for a repeated value, 1 for the next value, None for a jump."""
-        values = self._values
-        if values.is_declared:
+        before, now = (self._values.unsigned(each) for each in (before, now))
+        if self._values.is_declared:
             return self._declared_step(before, now)
-        before, now = (each % (1 << values.length) for each in (before, now))
         self._highest = max(self._highest, before) if self._highest < 0 else self._highest
         if now == before:
             return 0
