@@ -54,6 +54,30 @@ def test_end_that_was_only_a_lost_frame_is_a_doubt_when_it_is_counted_beyond():
     assert doubts([3, 4, 5, 0, 1], CountRange(0, 15, 4), may_learn=False) == [3]
 
 
+@pytest.mark.parametrize("odd", [[15], [7], [], [15, 15, 9]])
+@pytest.mark.parametrize("at", [0, 3, 14, 15, 45, 50])
+@pytest.mark.parametrize("may_learn", [True, False])
+@pytest.mark.parametrize(("low", "high"), [(0, 14), (0, 15), (1, 14)])
+def test_unusual_value_is_doubted_only_where_it_is(odd, at, may_learn, low, high):
+    values = counting(low, high, at) + odd + counting(low, high, 300)
+    found = doubts(values, CountRange(0, 15, 4), may_learn)
+    # Every unusual value, and at most one later wrap that was not known yet.
+    assert len(found) <= len(odd) + 2 and all(index <= at + len(odd) + 16 for index in found), found
+
+
+@pytest.mark.parametrize(("low", "high", "length"), [(2, 15, 4), (3, 12, 4), (2, 5, 3), (5, 200, 8), (2, 255, 8)])
+@pytest.mark.parametrize("may_learn", [True, False])
+def test_wrap_to_any_value_is_a_doubt_once_and_then_known(low, high, length, may_learn):
+    values = counting(low, high, 6 * (high - low + 1))
+    assert doubts(values, CountRange(0, (1 << length) - 1, length), may_learn) == [high - low + 1]
+
+
+def test_wrong_wrap_is_replaced_by_the_one_that_repeats():
+    # 15 is lost twice in a row, which looks like a wrap of 0 to 14.
+    values = counting(0, 14, 30) + counting(0, 15, 160)
+    assert doubts(values, CountRange(0, 15, 4))[-1] <= 30 + 2 * 16
+
+
 def test_declared_counter_has_no_other_value():
     declared = CountRange(0, 14, 4, True)
     assert doubts([13, 14, 15, 0, 1], declared) == [2, 3]
@@ -207,6 +231,25 @@ def test_learned_counter_has_the_values_that_were_seen(tmp_path, counter, lost, 
     for index in range(600):
         assert judge.judge(profile.decode(801, False, bytes([1, beside | counting(low, high, 1, index)[0], 0, 0])),
                            0.1 * index) == ""
+
+
+@pytest.mark.parametrize(("count_at", "values", "odd"), [
+    (lambda index: 2 + index % 14, (2, 15), 0), (lambda index: 3 + index % 10, (3, 12), 0),
+    (lambda index: 15 if index == 45 else (index - (index > 45)) % 15, (0, 14), 2),
+    (lambda index: (index - 52 * (index >= 52)) % 15, (0, 14), 1),
+    (lambda index: (index - 1) % 15 if index else 15, (0, 14), 1),
+    (lambda index: (index - 53 * (index >= 53)) % 16, None, 1), (lambda index: 8 + index % 8, None, 0)])
+def test_learned_counter_fits_its_own_recording(tmp_path, count_at, values, odd):
+    def data(is_locked, count, _changes):
+        return bytes([int(is_locked), count_at(count), 0, 0])
+    found = recorded(data)
+    assert found.best.counter_values == values
+    write_profile(tmp_path / "learned.yaml", found)
+    profile = load_profile(str(tmp_path / "learned.yaml"))
+    judge = FrameJudge(profile)
+    said = [judge.judge(profile.decode(801, False, data(True, index, 0)), 0.1 * index) for index in range(600)]
+    assert sum(map(bool, said)) <= odd, list(filter(None, said))
+    assert try_profile(str(tmp_path / "learned.yaml")).is_good
 
 
 @pytest.mark.parametrize("has_names", [False, True])

@@ -1,4 +1,4 @@
-"""Counters in messages: which values they count through, and whether one goes on from frame to frame.
+"""Counters in messages: their values, and their steps from frame to frame.
 
 Not every counter has a power of two of values: those of AUTOSAR's E2E profiles leave one out, others the zero.
 """
@@ -11,7 +11,7 @@ from typing import Any
 from ..database.car_database import is_finite
 from .entries import Entries, is_whole
 
-# A counter that begins again does so with one of these.
+# The first wrap of a counter that is accepted leads to one of these.
 _FIRST_VALUES = (0, 1)
 # Values less than all of its bits that a counter of changes may leave out at its end.
 _LEFT_OUT = 1
@@ -19,8 +19,8 @@ _LEFT_OUT = 1
 
 @dataclass(frozen=True)
 class CountRange:
-    """low, high: values that it counts through before it begins again. length: bits. is_declared: by the profile, so
-    that no other value is right; else they are limits of the database or of its bits."""
+    """low, high: lowest and highest value; high wraps to low. length: bits. is_declared: by the profile, so that no
+    other value is right; else they are limits of the database or of its bits."""
 
     low: int
     high: int
@@ -65,29 +65,31 @@ def _of_database(signal: Any, most: int) -> CountRange:
 
 
 class CountWatch:
-    """Follows one counter. may_learn: it counts so often that it begins again soon; then the value after which it does
-    is taken from the first time, until it counts beyond it."""
+    """Checks the steps of one counter.
+
+    may_learn: set for a counter that wraps often. Its first wrap to 0 or 1 then defines the highest value, and a later
+    value beyond it is reported as a jump. A decrease that repeats is a wrap of any counter: the second one in a row is
+    accepted, and replaces an earlier wrap. A single unusual value is therefore reported once.
+    """
 
     def __init__(self, values: CountRange, may_learn: bool):
         self._values = values
         self._may_learn = may_learn
+        # The highest value that was reached by an increment.
         self._highest = -1
         self._wrap: tuple[int, int] | None = None
+        self._is_confirmed = False
+        self._newest_decrease: tuple[int, int] | None = None
 
     def step(self, before: int, now: int) -> int | None:
-        """Return 0 for a repeated value, 1 for the next value, None for a jump."""
+        """Return 0 for a repeated value, 1 for an increment or a wrap, None for a jump."""
         before, now = (self._values.unsigned(each) for each in (before, now))
         if self._values.is_declared:
             return self._declared_step(before, now)
-        self._highest = max(self._highest, before) if self._highest < 0 else self._highest
         if now == before:
             return 0
-        if now == before + 1:
-            self._highest = max(self._highest, now)
-            is_beyond = self._wrap is not None and before == self._wrap[0]
-            self._wrap = None if is_beyond else self._wrap
-            return None if is_beyond else 1
-        return 1 if self._begins_again(before, now) else None
+        is_step = self._is_increment(before, now) if now == before + 1 else self._is_wrap(before, now)
+        return 1 if is_step else None
 
     def _declared_step(self, before: int, now: int) -> int | None:
         values = self._values
@@ -96,13 +98,29 @@ class CountWatch:
         step = (now - before) % (values.high - values.low + 1)
         return step if step <= 1 else None
 
-    def _begins_again(self, before: int, now: int) -> bool:
-        values, most = self._values, (1 << self._values.length) - 1
-        if (before, now) in ((most, 0), (values.high, values.low), self._wrap):
-            self._wrap = self._wrap or (before, now)
+    def _is_increment(self, before: int, now: int) -> bool:
+        """False for a value beyond the highest one; a wrap that was seen only once is then forgotten."""
+        self._highest = max(self._highest, now)
+        if self._wrap is None or before != self._wrap[0]:
             return True
-        is_end = before >= self._highest if self._may_learn else before >= most - _LEFT_OUT
-        if self._wrap is not None or now not in _FIRST_VALUES or not is_end or before - now <= 1:
+        self._wrap = self._wrap if self._is_confirmed else None
+        return False
+
+    def _is_wrap(self, before: int, now: int) -> bool:
+        decrease, most = (before, now), (1 << self._values.length) - 1
+        is_known = decrease in ((most, 0), (self._values.high, self._values.low))
+        # Two frames in the wrong order are no wrap.
+        if not is_known and before - now <= 1:
             return False
-        self._wrap = (before, now)
-        return True
+        is_repeated = decrease in (self._wrap, self._newest_decrease)
+        self._newest_decrease = decrease
+        if is_repeated:
+            self._wrap, self._is_confirmed = decrease, True
+        elif self._wrap is None and (before == self._highest if is_known else self._may_be_first(before, now)):
+            self._wrap = decrease
+        return is_known or decrease == self._wrap
+
+    def _may_be_first(self, before: int, now: int) -> bool:
+        """True for a decrease that is accepted as a wrap before it repeats."""
+        most = (1 << self._values.length) - 1
+        return now in _FIRST_VALUES and before >= (self._highest if self._may_learn else most - _LEFT_OUT)

@@ -1,4 +1,4 @@
-"""Recognises counters and check sums: what goes on with each frame, or by one with each change of the locks."""
+"""Recognises check sums, and counters of the frames and of the changes of the locks."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .recording import Message
 _MIN_WIDTH = 2
 # Lost frames make a counter jump.
 _MIN_SHARE = 0.9
-# Times that a counter begins again at a value, before that counts as its end.
+# Times that the same decrease repeats before it counts as the wrap.
 _MIN_WRAPS = 2
 # Frames of which the rest was seen before, so that the same check sum had to follow.
 _MIN_REPEATS = 16
@@ -38,8 +38,8 @@ class Field(NamedTuple):
 
 
 class FrameCounter(NamedTuple):
-    """field: the bits. values: lowest and highest, of a counter that begins again before all its bits are set or not
-    with 0; None for any other."""
+    """field: the bits. values: lowest and highest, of a counter that leaves out values of its bits; None for any
+    other."""
 
     field: Field
     values: tuple[int, int] | None = None
@@ -52,7 +52,7 @@ def frame_counter(message: Message) -> FrameCounter | None:
         return None
     found = [each for field in _fields(message.length) for each in _shares(values, field)]
     share, *_, best = max(found, key=lambda each: each[:3])
-    return best if share >= _MIN_SHARE else None
+    return _checked(message, best) if share >= _MIN_SHARE else None
 
 
 def change_counter(parts: Sequence[Held], length: int) -> Field | None:
@@ -78,16 +78,35 @@ def _fields(length: int) -> list[Field]:
             for low in range(BITS_PER_BYTE - _MIN_WIDTH + 1) for width in range(_MIN_WIDTH, BITS_PER_BYTE - low + 1)]
 
 
+def _checked(message: Message, found: FrameCounter) -> FrameCounter | None:
+    """The counter as a test would follow it over the whole recording, without values when they do not fit; None when
+    most of its frames would not be understood either way."""
+    parts = [field_of(sample.value, *found.field) for sample in message.samples]
+    return next((each for each in (found, FrameCounter(found.field)) if _share_of_steps(parts, each) >= _MIN_SHARE),
+                None)
+
+
+def _share_of_steps(parts: Sequence[int], counter: FrameCounter) -> float:
+    """Part of the steps that are increments or wraps for CountWatch."""
+    width = counter.field.width
+    low, high = counter.values or (0, (1 << width) - 1)
+    watch = CountWatch(CountRange(low, high, width, counter.values is not None), may_learn=True)
+    return sum(watch.step(before, now) == 1 for before, now in zip(parts, parts[1:])) / (len(parts) - 1)
+
+
 def _shares(values: Sequence[int], field: Field) -> Iterator[tuple[float, int, bool, FrameCounter]]:
-    """Part of the frames that go on by one from the frame before, width, whether through all values, and counter."""
+    """Part of the steps that are increments or wraps, width, whether through all values, and counter."""
     parts = [field_of(value, field.start, field.width) for value in values]
     steps = collections.Counter(zip(parts, parts[1:]))
     counted = sum(number for (before, now), number in steps.items() if now == before + 1)
-    low, high, most = min(parts), max(parts), (1 << field.width) - 1
+    most = (1 << field.width) - 1
     yield (counted + steps[most, 0]) / (len(parts) - 1), field.width, True, FrameCounter(field)
-    # The highest bit is one of the counter's, and what begins again did so more than once.
-    if (low, high) != (0, most) and low <= 1 and high > most >> 1 and steps[high, low] >= _MIN_WRAPS:
-        yield (counted + steps[high, low]) / (len(parts) - 1), field.width, False, FrameCounter(field, (low, high))
+    decreases = ((number, before, now) for (before, now), number in steps.items() if now < before)
+    # The most frequent decrease, so that a single unusual value does not count as an end.
+    wraps, high, low = max(decreases, default=(0, 0, 0))
+    # The highest bit changes, so it belongs to the counter.
+    if (low, high) != (0, most) and low <= most >> 1 < high and wraps >= _MIN_WRAPS:
+        yield (counted + wraps) / (len(parts) - 1), field.width, False, FrameCounter(field, (low, high))
 
 
 def _counts_stays(parts: Sequence[Held], field: Field) -> bool:
