@@ -1,10 +1,12 @@
 """A state that the Car sends only when it changes; and the message of the state on more than one bus."""
 # SPDX-License-Identifier: Apache-2.0
+import itertools
 import math
 
 import pytest
 
 from mtr_operator.car_link.can_frame import CanFrame
+from mtr_operator.car_link.further.spoken_frames import SpokenFrames
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.log.log_car import LogCarLink
 from mtr_operator.car_link.profile import load_profile
@@ -18,8 +20,11 @@ DATABASE = f"""VERSION ""
 BU_: Body
 BO_ {LOCK_ID} DOORS: 8 Body
  SG_ LOCK : 0|2@1+ (1,0) [0|3] "" Body
+ SG_ COUNT : 8|8@1+ (1,0) [0|255] "" Body
+ SG_ CHANGES : 16|4@1+ (1,0) [0|15] "" Body
 BO_ {SPEED_ID} SPEED: 4 Body
  SG_ KMH : 0|16@1+ (1,0) [0|0] "" Body
+ SG_ ALIVE : 16|4@1+ (1,0) [0|15] "" Body
 """
 PROFILE = """database: car.dbc
 message: DOORS
@@ -139,6 +144,26 @@ def test_car_that_sends_its_state_only_on_change_passes_an_autolock(tmp_path, li
     tried = try_profile(written(tmp_path, lines))
     assert tried.is_good, tried
     assert not math.isinf(tried.worst_s)
+
+
+@pytest.mark.parametrize("counters", [
+    "alive_signal: COUNT", "alive_signal: COUNT\nalive_values: [1, 14]", "alive_signal: COUNT\ncommand_signal: CHANGES",
+    "alive_signal: {message: SPEED, signal: ALIVE}", "alive_signal: {message: DOORS, signal: COUNT, values: 15}",
+    "alive_signal: {message: SPEED, signal: ALIVE, values: [1, 15]}\ncommand_signal: CHANGES"])
+@pytest.mark.parametrize("lines", [WHOLE_BUS, MESSAGE, "cycle_time_s: 0.1\nsent_on_change: true", "cycle_time_s: 0.1"],
+                         ids=["whole bus", "message", "also on change", "cyclic"])
+def test_counter_of_a_simulated_car_increases_with_each_frame(tmp_path, lines, counters):
+    path = written(tmp_path, f"{lines}\n{counters}")
+    profile, counts = load_profile(path), {}
+    frames = SpokenFrames(profile)
+    for index in range(200):
+        frames.is_locked = index // 20 % 2 == 0
+        for _, message in frames.next():
+            counts.setdefault(message.arbitration_id, []).append(message.data)
+    alive_id, byte, mask = (SPEED_ID, 2, 15) if "ALIVE" in counters else (LOCK_ID, 1, 255)
+    values = [data[byte] & mask for data in counts[alive_id]]
+    assert {after - before for before, after in itertools.pairwise(values) if after > before} == {1}
+    assert try_profile(path).is_good
 
 
 @pytest.mark.parametrize(("lines", "words"), [

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import collections
 from typing import Any, Iterator, NamedTuple
 
 import can
@@ -43,6 +44,7 @@ class SpokenFrames:
         self._profile = profile
         self._was_locked = is_locked
         self._cycles = self._changes = self._shown = 0
+        self._sent: collections.Counter[MessageKey] = collections.Counter()
         self._is_told = False
         # The state first: what belongs to a change comes with it or behind it.
         self._messages: dict[MessageKey, Any] = {
@@ -64,32 +66,40 @@ class SpokenFrames:
             self._shown = max(round(_SHOWN_S / self._profile.cycle_time_s), _FEWEST_FRAMES)
             self._is_told = False
         if self._profile.is_only_on_change:
-            yield self._sign_of_life()
-        for (bus, _, _), message in self._messages.items():
+            yield from self._sign_of_life()
+        for key, message in self._messages.items():
             if message is not self._profile.message or not self._is_told:
-                yield SpokenFrame(bus, _sent(message, self._data(message)))
+                yield self._frame(key, message)
         is_begun = self._cycles * self._profile.cycle_time_s > _ANNOUNCED_S
         self._is_told = self._profile.is_only_on_change and is_begun
 
-    def _sign_of_life(self) -> SpokenFrame:
-        """What comes with each cycle beside a state that is sent only on change."""
+    def _sign_of_life(self) -> Iterator[SpokenFrame]:
+        """Yield what is sent in each cycle next to a state that is sent only on change."""
         message = self._profile.liveness
         if message is None:
-            return SpokenFrame(FIRST_BUS, can.Message(arbitration_id=BACKGROUND_ID, is_extended_id=False))
-        return SpokenFrame(FIRST_BUS, _sent(message, self._data(message)))
+            yield SpokenFrame(FIRST_BUS, can.Message(arbitration_id=BACKGROUND_ID, is_extended_id=False))
+            return
+        key = (FIRST_BUS, message.frame_id, message.is_extended_frame)
+        # A message with further signals of the profile is sent in each cycle anyway.
+        if key not in self._messages:
+            yield self._frame(key, message)
 
-    def _data(self, message: Any) -> bytes:
-        wanted = dict(self._wanted(message))
+    def _frame(self, key: MessageKey, message: Any) -> SpokenFrame:
+        self._sent[key] += 1
+        return SpokenFrame(key[0], _sent(message, self._data(key, message)))
+
+    def _data(self, key: MessageKey, message: Any) -> bytes:
+        wanted = dict(self._wanted(key, message))
         for name, value in wanted.items():
             if as_decoded(message.get_signal_by_name(name), value) is None:
                 raise ConnectionFailed(f"Signal {name} of message {message.name} cannot carry the value {value}.")
         return encode(message, wanted)
 
-    def _wanted(self, message: Any) -> Iterator[tuple[str, int]]:
+    def _wanted(self, key: MessageKey, message: Any) -> Iterator[tuple[str, int]]:
         profile, further = self._profile, self._profile.further
         if message is profile.message:
-            yield from self._state()
-        for place, count in [*((each, self._cycles) for each in further.alive),
+            yield from self._state(self._sent[key])
+        for place, count in [*((each, self._sent[key]) for each in further.alive),
                              *((each, self._changes) for each in further.counters)]:
             if place.message is message:
                 yield place.signal, place.counts.value(count)
@@ -102,11 +112,12 @@ class SpokenFrames:
             if cause.place.message is message:
                 yield cause.place.signal, self._cause(cause)
 
-    def _state(self) -> Iterator[tuple[str, int]]:
+    def _state(self, sent: int) -> Iterator[tuple[str, int]]:
+        """sent: frames of the message, this one included."""
         profile = self._profile
         raw = state_raw(profile, self.is_locked)
         yield from ((signal, raw) for signal in (profile.door_signals.values() or (profile.signal,)))
-        counts = {profile.alive_signal: self._cycles, profile.command_signal: self._changes}
+        counts = {profile.alive_signal: sent, profile.command_signal: self._changes}
         yield from ((name, profile.counts(name).value(count)) for name, count in counts.items() if name)
         if profile.changed_signal:
             yield profile.changed_signal, int(self._shown > 0)
