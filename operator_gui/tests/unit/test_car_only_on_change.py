@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
+import re
 
 import pytest
 
@@ -176,12 +177,12 @@ def test_what_does_not_go_together_is_refused(tmp_path, lines, words):
         load_profile(written(tmp_path, lines))
 
 
-def played(folder, lines, channels):
-    """A log with the state on these channels, played to its end."""
-    path = folder / "bus.log"
-    path.write_text("".join(f"({1.7e9 + 0.1 * index + 0.01 * channel:.6f}) can{channel} {LOCK_ID:X}#01\n"
-                            for index in range(100) for channel in channels))
-    car = LogCarLink(path, written(folder, f"cycle_time_s: 0.1\n{lines}"))
+def played(folder, lines, channels, speed=()):
+    """A log with the state on these channels, and another message on those of speed, played to its end."""
+    path, sent = folder / "bus.log", [(LOCK_ID, each) for each in channels] + [(SPEED_ID, each) for each in speed]
+    path.write_text("".join(f"({1.7e9 + 0.1 * index + 0.01 * number:.6f}) can{channel} {can_id:X}#01000000\n"
+                            for index in range(100) for number, (can_id, channel) in enumerate(sent)))
+    car = LogCarLink(path, written(folder, lines if "cycle_time_s" in lines else f"cycle_time_s: 0.1\n{lines}"))
     car.connect()
     problems = set()
     for index in range(90):
@@ -208,3 +209,42 @@ def test_state_on_a_further_bus_that_is_named_is_told(tmp_path):
 def test_state_on_one_channel_is_that_of_the_car(tmp_path, channels):
     car, _ = played(tmp_path, "", channels)
     assert (car.lock_state, car.problem, car.notices) == (LockState.LOCKED, "", ())
+
+
+TWO_BUSES = "buses: {body: car.dbc, rear: car.dbc}"
+
+
+@pytest.mark.parametrize("lines", [TWO_BUSES, f"{TWO_BUSES}\n{WHOLE_BUS}", f"{TWO_BUSES}\n{MESSAGE}"],
+                         ids=["cyclic", "only on change", "only on change beside another"])
+@pytest.mark.parametrize("speed", [(0,), (1,), (2, 3), ()])
+@pytest.mark.parametrize(("channels", "words"), [
+    ((1,), "comes only on the bus body, and .* channel 0 and the bus body is channel 1"),
+    ((2,), "comes only on the bus rear, and .* channel 0 and the bus rear is channel 2"),
+    ((1, 2), "comes only on the bus body"), ((3,), "comes only on channel 3 of the log, and .* is channel 0")])
+def test_state_on_a_further_bus_only_is_a_problem_that_names_it(tmp_path, lines, speed, channels, words):
+    car, _ = played(tmp_path, lines, channels, speed)
+    assert re.search(rf"DOORS \(id 0x321\) {words}", car.problem)
+    assert (car.lock_state, car.notices) == (LockState.UNKNOWN, ())
+
+
+def test_message_of_life_on_a_further_bus_only_is_a_problem_that_names_it(tmp_path):
+    car, _ = played(tmp_path, f"{TWO_BUSES}\n{MESSAGE}", (0,), speed=(1,))
+    assert "Message SPEED (id 0x1A0) comes only on the bus body" in car.problem
+
+
+@pytest.mark.parametrize("speed", [(0,), (1,), (2, 3), ()])
+def test_state_on_the_first_bus_is_no_problem_whatever_the_others_carry(tmp_path, speed):
+    car, problems = played(tmp_path, TWO_BUSES, (0,), speed)
+    assert (car.lock_state, car.problem, car.notices) == (LockState.LOCKED, "", ())
+    assert not any("comes only" in problem for problem in problems)
+
+
+def test_missing_state_on_a_live_bus_names_the_bus_that_carries_it(tmp_path):
+    watch = LockWatch(load_profile(written(tmp_path, f"cycle_time_s: 0.1\n{TWO_BUSES}")))
+    for step in range(40):
+        time_s = 10.0 + 0.1 * step
+        watch.frame(CanFrame(SPEED_ID, False, bytes(4), time_s))
+        watch.frame(CanFrame(LOCK_ID, False, b"\x01", time_s, bus="body"))
+        watch.status(RobotStatus(step, 1, time_s, sent_s=time_s, steady_s=time_s), time_s)
+        assert watch.release(time_s) == []
+        assert time_s < 10.7 or "comes only on the bus body" in watch.problem

@@ -12,6 +12,7 @@ from .can_frame import CanFrame
 from .clocks.frame_time import FrameTime
 from .clocks.stamp_kind import StampKind
 from .further.companions import Companions
+from .further.state_buses import StateBuses
 from .liveness import Liveness
 from .lock_changes import Change, LockChanges
 from .profile import CarProfile, LockReading
@@ -41,8 +42,8 @@ class LockWatch:
         self._liveness = Liveness(profile)
         self._robot_session_id = 0
         self.is_lock_message, self.local_s = False, math.nan
-        self.is_alive_message = self._is_on_first = False
-        self._others: set[str] = set()
+        self.is_alive_message = False
+        self._buses = StateBuses(profile)
         self._time = FrameTime()
         self._changes = LockChanges(profile, Refused())
         self._companions = Companions(profile.further)
@@ -83,6 +84,7 @@ class LockWatch:
 
     def frame(self, frame: CanFrame) -> None:
         """Take a frame, in the order of arrival."""
+        self._buses.frame(frame)
         if frame.bus:
             self._beside(frame)
             return
@@ -99,7 +101,6 @@ class LockWatch:
             self._changes.follow(local_s, frame.arrival_s, reading, self._time.is_by_arrival)
         is_message = self._profile.is_message(frame.can_id, frame.is_extended)
         is_without_state = reading is None and self._profile.poll is None and is_message
-        self._is_on_first = self._is_on_first or is_message
         self.is_alive_message = self._profile.is_alive(frame.can_id, frame.is_extended)
         is_state = reading is not None and not self._changes.is_repeated
         self._liveness.frame(self.is_alive_message if self._profile.is_only_on_change else is_state, is_without_state)
@@ -108,8 +109,6 @@ class LockWatch:
     def _beside(self, frame: CanFrame) -> None:
         """A frame of a further bus: its adapter has a clock of its own, and belongs to what came with it."""
         self.is_lock_message = self.is_alive_message = False
-        if self._profile.is_message(frame.can_id, frame.is_extended) and self._profile.poll is None:
-            self._others.add(frame.bus)
         if self.has_time:
             self.local_s = self._time.newest_s
             self._companion(frame, self.local_s)
@@ -164,26 +163,14 @@ class LockWatch:
     @property
     def problem(self) -> str:
         """One sentence, or empty."""
-        return self._liveness.problem or self._time.problem or self._two_channels()
+        silence = self._liveness.problem
+        return (self._buses.elsewhere(is_silent=bool(silence)) or silence or self._time.problem
+                or self._buses.several_channels)
 
     @property
     def notices(self) -> tuple[str, ...]:
         """A sentence for each further bus with the message of the state."""
-        message = self._profile.message
-        names = sorted(self._others & set(self._profile.further.buses)) if self._is_on_first else ()
-        return tuple(f"Message {message.name} (id 0x{message.frame_id:X}) comes on the bus of the state and on the bus "
-                     f"{name}; that of the first one counts. Check that the adapters are at the buses that the profile "
-                     "names." for name in names)
-
-    def _two_channels(self) -> str:
-        """A log with the message of the state on channels that the profile does not name."""
-        unnamed = sorted(self._others - set(self._profile.further.buses))
-        if not (unnamed and self._is_on_first):
-            return ""
-        message = self._profile.message
-        return (f"Message {message.name} (id 0x{message.frame_id:X}) comes on several channels of the log, "
-                f"{unnamed[0]} among them, and the car profile does not say which is which; name the further buses "
-                "(buses).")
+        return self._buses.notices
 
     @property
     def clock_problem(self) -> str:
