@@ -22,6 +22,7 @@ BU_: Body
 BO_ {LOCK_ID} DOORS: 8 Body
  SG_ LOCK : 0|2@1+ (1,0) [0|3] "" Body
  SG_ COUNT : 8|8@1+ (1,0) [0|255] "" Body
+ SG_ FAR : 32|16@1+ (1,0) [0|0] "dm" Body
  SG_ CHANGES : 16|4@1+ (1,0) [0|15] "" Body
 BO_ {SPEED_ID} SPEED: 4 Body
  SG_ KMH : 0|16@1+ (1,0) [0|0] "" Body
@@ -165,6 +166,15 @@ def test_counter_of_a_simulated_car_increases_with_each_frame(tmp_path, lines, c
     values = [data[byte] & mask for data in counts[alive_id]]
     assert {after - before for before, after in itertools.pairwise(values) if after > before} == {1}
     assert try_profile(path).is_good
+
+
+@pytest.mark.parametrize("message", ["DOORS", "SPEED"])
+@pytest.mark.parametrize("alive", ["COUNT", "{message: SPEED, signal: ALIVE}"])
+def test_distance_of_a_phone_does_not_disturb_a_counter_of_its_message(tmp_path, message, alive):
+    distance = {"DOORS": "signal: FAR, unit: dm", "SPEED": "signal: KMH, unit: cm"}[message]
+    lines = f"cycle_time_s: 0.1\nalive_signal: {alive}\nphone_distance: {{message: {message}, {distance}}}"
+    tried = try_profile(written(tmp_path, lines))
+    assert tried.is_good, tried
 
 
 @pytest.mark.parametrize(("lines", "words"), [

@@ -20,7 +20,7 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .adapter import AdapterSettings
 from .bus import CanCarLink
 from .further.entries import FIRST_BUS
-from .further.spoken_frames import BACKGROUND_ID, SpokenFrames, phone_frame, state_raw
+from .further.spoken_frames import BACKGROUND_ID, SpokenFrames, state_raw
 from .phone.car_signal import PhoneSignal
 from .phone.simulated import SimulatedPhone
 from .profile import CarProfile, load_profile
@@ -129,9 +129,9 @@ class SpokenCar(RobotLink):
         if self.car.profile is None or not isinstance(signal, PhoneSignal):
             return
         for reported in self._phone.observe(status):
-            bus, message = phone_frame(signal, reported.distance_m)
-            self._buses[bus].send(message)
-            self._sent += 1
+            for bus, message in self._frames.phone(signal, reported.distance_m):
+                self._buses[bus].send(message)
+                self._sent += 1
         self._wait()
 
     def _answer(self, ecu: SpokenEcu) -> None:

@@ -46,6 +46,7 @@ class SpokenFrames:
         self._cycles = self._changes = self._shown = 0
         self._sent: collections.Counter[MessageKey] = collections.Counter()
         self._is_told = False
+        self._distance_raw: int | None = None
         # The state first: what belongs to a change comes with it or behind it.
         self._messages: dict[MessageKey, Any] = {
             (FIRST_BUS, profile.message.frame_id, profile.message.is_extended_frame): profile.message}
@@ -84,6 +85,16 @@ class SpokenFrames:
         if key not in self._messages:
             yield self._frame(key, message)
 
+    def phone(self, signal: PhoneSignal, distance_m: float) -> Iterator[SpokenFrame]:
+        """Yield the distance of a phone, in the nearest step of the Car's signal.
+
+        A message with other signals of the profile carries it from the next cycle on, and needs no frame of its own.
+        """
+        place = signal.place
+        self._distance_raw = round((distance_m / signal.metres - place.declared.offset) / place.declared.scale)
+        if place.key not in self._messages:
+            yield self._frame(place.key, place.message)
+
     def _frame(self, key: MessageKey, message: Any) -> SpokenFrame:
         self._sent[key] += 1
         return SpokenFrame(key[0], _sent(message, self._data(key, message)))
@@ -103,6 +114,8 @@ class SpokenFrames:
                              *((each, self._changes) for each in further.counters)]:
             if place.message is message:
                 yield place.signal, place.counts.value(count)
+        if isinstance(profile.phone, PhoneSignal) and profile.phone.place.key == key and self._distance_raw is not None:
+            yield profile.phone.place.signal, self._distance_raw
         for door in further.doors:
             if door.place.message is message:
                 yield door.place.signal, _other_than(door.open)
@@ -127,13 +140,6 @@ class SpokenFrames:
     def _cause(self, cause: CauseSignal) -> int:
         idle = min(cause.idle, default=_other_than(frozenset(cause.sources)))
         return _raw_of(cause.sources, self.source, idle) if cause.stays or self._shown else idle
-
-
-def phone_frame(signal: PhoneSignal, distance_m: float) -> SpokenFrame:
-    """The distance of a phone, in the nearest step of the Car's signal; all other signals are 0."""
-    place = signal.place
-    raw = round((distance_m / signal.metres - place.declared.offset) / place.declared.scale)
-    return SpokenFrame(place.bus, _sent(place.message, encode(place.message, {place.signal: raw})))
 
 
 def _sent(message: Any, data: bytes) -> can.Message:
