@@ -73,7 +73,7 @@ def _of_work() -> argparse.ArgumentParser:
 
 
 def check(options: argparse.Namespace) -> int:
-    """The plan is possible, and so large."""
+    """Validate a plan and print its number of runs."""
     from .kernels.registry import check_plan
     from .plan.plan import load_plan
     plan = load_plan(options.plan)
