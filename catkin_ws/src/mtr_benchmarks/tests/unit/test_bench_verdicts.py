@@ -1,5 +1,8 @@
 """Whole tests at the limit, and ranges over reflecting ground: their short forms, and the rows that judge them."""
 # SPDX-License-Identifier: Apache-2.0
+from dataclasses import replace
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -8,7 +11,7 @@ from mtr_benchmarks.ranges.cars import Polling, Radio
 from mtr_benchmarks.ranges.nulls import NullDraw, radials_of
 from mtr_benchmarks.ranges.pass_verdicts import AxesLimitDraw
 from mtr_benchmarks.ranges.table import limit_figures, whole_tests
-from mtr_benchmarks.ranges.verdicts import Judged, LimitDraw
+from mtr_benchmarks.ranges.verdicts import FAIL_BY_HOLE, SEARCHES, Judged, LimitDraw, verdict_of
 
 
 @pytest.mark.parametrize("search", ["key_press", "handle_request"])
@@ -47,6 +50,20 @@ def test_rows_tell_the_worst_kind_of_car():
     assert (wrong_pass.value, wrong_pass.remark, wrong_pass.is_met) == (0.9, "bad", False)
     assert wrong_fail.value == 0.1 and not wrong_fail.is_met
     assert rows["coverage of whole tests at the limit, least"].value == 0.9
+
+
+@pytest.mark.parametrize(("word", "holes_m", "counted"), [
+    ("fail", "5.00", FAIL_BY_HOLE), ("fail", "5.00 7.00", "fail"), ("fail", "7.00", "fail"), ("fail", "", "fail"),
+    ("fail", "5.00 12.00", FAIL_BY_HOLE), ("fail", "12.00", "fail"), ("pass", "5.00", "pass")])
+def test_fail_is_wrong_unless_every_hole_nearer_than_the_limit_is_one(word, holes_m, counted):
+    radial = SimpleNamespace(d50_m=10.0, works=lambda distance_m: 0.4 if distance_m == 5.0 else 0.6)
+    result = replace(SEARCHES["key_press"].empty(1, 0.0), holes_m=holes_m)
+    assert verdict_of(word, result, radial) == counted
+
+
+def test_fails_by_a_hole_have_a_share_of_their_own():
+    shares = limit_figures([judged("fail")] + [judged(FAIL_BY_HOLE)] * 2 + [judged("pass")])
+    assert (shares["fail"], shares["fail_by_hole"], shares["pass"]) == (0.25, 0.5, 0.25)
 
 
 def test_kinds_of_one_scenario_are_judged_together():

@@ -64,6 +64,10 @@ class Radial:
         """Where 95 % of them work; NaN where that is nowhere."""
         return self._distance_at(0.95)
 
+    def works(self, distance_m: float) -> float:
+        """Probability that a press works there, lapses apart."""
+        return float(self._works(np.array([distance_m]))[0])
+
     def press(self, distance_m: float) -> bool:
         """True when it works."""
         radio = self._radio

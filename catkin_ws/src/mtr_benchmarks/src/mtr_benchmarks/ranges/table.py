@@ -11,7 +11,7 @@ from .campaigns import AT_LIMIT, FADINGS, OVER_GROUND, POLLINGS, WIDTHS_M, Found
 from .phones import Coverage
 from .repeated import pairs_agree
 from .result import LineFound, false_passes, figures, share, without_interval
-from .verdicts import Judged
+from .verdicts import FAIL_BY_HOLE, Judged
 
 # A share that shall be 95 % has two rows: too few intervals hold, or they are wider than they need to be.
 LEAST = Requirement("least", "(share)", 0.94, 0.92, at_least=True)
@@ -47,6 +47,7 @@ def limit_figures(lines: List[Judged]) -> Dict[str, Optional[float]]:
     """Of whole tests at the limit; names are a promise. A line without an interval holds nothing."""
     return {"lines": float(len(lines)), "pass": share([line.verdict == "pass" for line in lines]),
             "fail": share([line.verdict == "fail" for line in lines]),
+            "fail_by_hole": share([line.verdict == FAIL_BY_HOLE for line in lines]),
             "coverage_95": share([bool(line.holds) for line in lines]),
             "judged_coverage": share([bool(line.judged_holds) for line in lines]),
             "half_width_median_m": float(np.nanmedian([line.half_m for line in lines])),

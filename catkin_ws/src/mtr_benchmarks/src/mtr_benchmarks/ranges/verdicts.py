@@ -36,6 +36,7 @@ from mtr_operator.domain.verdict.requirement import Requirement
 from .cars import HALF_WAVELENGTH_M, Radial, Radio
 
 FURTHER_PRESSES = 8
+FAIL_BY_HOLE = "fail_by_hole"
 _LIGHT_MPS = 299_792_458.0
 # Presses from 3 to 20 m, where the radials' ends lie at 8 to 14 m.
 PARAMETERS = KeyPressParameters(
@@ -70,7 +71,9 @@ class Judged(NamedTuple):
     """Of one line at its limit.
 
     Attributes:
-        verdict: its word. looks: at the line. holds: the recorded 95 % interval holds the truth; None without one.
+        verdict: its word; FAIL_BY_HOLE for a fail in whose holes presses truly fail more often than not, which is right
+            although the boundary keeps the limit.
+        looks: at the line. holds: the recorded 95 % interval holds the truth; None without one.
         judged_holds: the interval by which the last look judges does. half_m: of the 95 % interval. presses: in all.
     """
 
@@ -99,8 +102,15 @@ def at_the_limit(draw: LimitDraw) -> List[Judged]:
     for result in search.scenario.concluded(search.parameters, progress.results):
         progress.revise(result)
     judgement, results = judge(limits, lines, progress.results), cast(List[SearchedResult], progress.results)
-    return [judged(result, radial.d50_m, judgement.of_line(result.number).word, len(result.attempts_made))
-            for result, radial in zip(results, radials)]
+    return [judged(result, radial.d50_m, verdict_of(judgement.of_line(result.number).word, result, radial),
+                   len(result.attempts_made)) for result, radial in zip(results, radials)]
+
+
+def verdict_of(word: str, result: SearchedResult, radial: Any) -> str:
+    """FAIL_BY_HOLE for a fail whose holes are true ones, else its word; radial: with works(distance_m)."""
+    holes_m = result.holes_nearer_than(radial.d50_m)
+    is_by_hole = word == "fail" and holes_m and all(radial.works(hole_m) < 0.5 for hole_m in holes_m)
+    return FAIL_BY_HOLE if is_by_hole else word
 
 
 class _Scaled:
@@ -110,6 +120,10 @@ class _Scaled:
         self._radial = radial
         self._scale = scale
         self.d50_m = scale * radial.d50_m
+
+    def works(self, distance_m: float) -> float:
+        """Probability that a press works there."""
+        return self._radial.works(distance_m / self._scale)
 
     def press(self, distance_m: float) -> bool:
         """True when it works."""
