@@ -1,5 +1,6 @@
 """CAN databases of the other kinds (KCD, SYM, ARXML): refused with a sentence, or usable."""
 # SPDX-License-Identifier: Apache-2.0
+import importlib
 import pathlib
 import random
 import sys
@@ -11,10 +12,11 @@ from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.errors import OperatorError
 
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "operator_gui" / "tests" / "support"))
-from database_kinds import Frame, arxml, kcd, sym, written
+made = importlib.import_module("database_kinds")
 
-FRAMES = [Frame("DOORS", 0x123, [("LOCK", 0, 2), ("WINDOW", 8, 16)]), Frame("LIGHTS", 0x124, [("BEAM", 4, 12)])]
-KINDS = {".kcd": kcd(FRAMES), ".sym": sym(FRAMES), ".arxml": arxml(FRAMES)}
+FRAMES = [made.Frame("DOORS", 0x123, [("LOCK", 0, 2), ("WINDOW", 8, 16)]),
+          made.Frame("LIGHTS", 0x124, [("BEAM", 4, 12)])]
+KINDS = {".kcd": made.kcd(FRAMES), ".sym": made.sym(FRAMES), ".arxml": made.arxml(FRAMES)}
 
 
 def prepare(folder: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
@@ -22,7 +24,7 @@ def prepare(folder: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
     def case(chance: random.Random) -> Tuple[str, str]:
         suffix = chance.choice(sorted(KINDS))
         text = spoilt_text(chance, KINDS[suffix]).encode("utf-8", "surrogateescape").decode("latin-1")
-        path = written(folder, suffix, text)
+        path = made.written(folder, suffix, text)
         try:
             profile = load_profile(path)
         except OperatorError as error:

@@ -10,9 +10,10 @@ from typing import Callable, Tuple
 
 from spoiling import spoilt_bytes, spoilt_text
 
-from borders.bus_logs import TEXTS, whole_log
 from mtr_operator.car_link.log.read_log import ReadLog
 from mtr_operator.domain.errors import ConnectionFailed
+
+from .bus_logs import TEXTS, whole_log
 
 MF4 = "mf4"
 

@@ -3,7 +3,8 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 from ..events import sentences as events
-from . import can, cars, figures, handle, identity, keeping, learn, limits, logs, pairing, passes
+from . import cars, figures, handle, identity, keeping, learn, limits, pairing, passes
+from .bus import can, logs
 from .keys import phone, relay
 
 SENTENCES = (
