@@ -3846,667 +3846,667 @@
 <context>
     <name>Sentence</name>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>wait for robot and Car</source>
         <translation>čekám na robot a auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>move the key to {} cm</source>
         <translation>klíč jede do výšky {} cm</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>map the Car</source>
         <translation>robot mapuje auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>the robot stands still</source>
         <translation>robot stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>the robot does not confirm that it stands still; without an application it stops by itself</source>
         <translation>robot nepotvrdil, že stojí; bez aplikace se zastaví sám</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>axis {} ({}): go to the start</source>
         <translation>osa {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>approach until the Car unlocks</source>
         <translation>přibližování, dokud se auto neodemkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>retreat until the Car locks</source>
         <translation>couvání, dokud se auto nezamkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>radial {} ({}): go to the start</source>
         <translation>paprsek {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>press at {} m</source>
         <translation>stisk ve vzdálenosti {} m</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car&apos;s lock state is unknown: {}</source>
         <translation>Stav zámků auta není znám: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The bus does not carry it.</source>
         <translation>Sběrnice jej nepřenáší.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car fell silent: {}</source>
         <translation>Auto se odmlčelo: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not start within {} s. {}</source>
         <translation>Robot se do {} s nespustil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not start within {} s.</source>
         <translation>Robot se do {} s nespustil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not find the Car within {} s. {}</source>
         <translation>Robot do {} s nenašel auto. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not find the Car within {} s.</source>
         <translation>Robot do {} s nenašel auto.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot is controlled by another application; end that one, then start again.</source>
         <translation>Robot ovládá jiná aplikace; ukončete ji a začněte znovu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Remote key did not reach the height of {} cm within {} s; it is at {} cm.</source>
         <translation>Klíč nedosáhl výšky {} cm do {} s; je ve výšce {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot refused the waypoint: {}</source>
         <translation>Robot odmítl cílový bod: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not reach the waypoint within {} s. {}</source>
         <translation>Robot nedojel do cílového bodu do {} s. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not reach the waypoint within {} s.</source>
         <translation>Robot nedojel do cílového bodu do {} s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The button could not be pressed: {}</source>
         <translation>Tlačítko nešlo stisknout: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not confirm a button press within {} s.</source>
         <translation>Robot do {} s nepotvrdil stisk tlačítka.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No poses of the robot enclose the instant {} s.</source>
         <translation>Kolem okamžiku {} s nejsou známy polohy robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s pose is unknown for {} s around the instant {} s.</source>
         <translation>Poloha robotu není po dobu {} s kolem okamžiku {} s známa.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The progress file holds {} {}; this test has {}.</source>
         <translation>Soubor průběhu obsahuje číslo {1} ({0}); tento test jich má {2}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car was still unlocked {} s after the robot had reached the starting distance of {} m; lock it with its key, or increase maximum_distance_m if it locks farther away.</source>
         <translation>Auto bylo ještě {} s po dosažení počáteční vzdálenosti {} m odemčené; zamkněte je klíčem, nebo zvětšete počáteční vzdálenost, zamyká-li dále.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs.</source>
         <translation>Robot mlčí {} s; zkontrolujte Wi-Fi a zda běží jeho software.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s. {}</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s.</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot started anew during the test; the measured lines are kept, go on with a continued test.</source>
         <translation>Robot se během testu spustil znovu; změřené přímky zůstaly uloženy, pokračujte v testu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Another application has taken over the control of the robot.</source>
         <translation>Řízení robotu převzala jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The test was interrupted.</source>
         <translation>Test byl přerušen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The link to the robot was interrupted for {} s.</source>
         <translation>Spojení s robotem bylo na {} s přerušeno.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The link to the robot was interrupted: {}</source>
         <translation>Spojení s robotem bylo přerušeno: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot does not know its position relative to the Car.</source>
         <translation>Robot nezná svou polohu vůči autu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot has restarted; the present order was sent to it again.</source>
         <translation>Robot se spustil znovu; současný příkaz mu byl odeslán ještě jednou.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot is not connected.</source>
         <translation>Robot není připojen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; it has to be below {}, {}.</source>
         <translation>Parametr {} je {}; musí být menší než {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; allowed is at most {}, {}.</source>
         <translation>Parametr {} je {}; povoleno je nejvýše {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; allowed is clearance_m, {}, and more.</source>
         <translation>Parametr {} je {}; povolen je odstup, {}, a více.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; allowed is {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; allowed are {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; {}</source>
         <translation>Parametr {} je {}; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is unknown; {}</source>
         <translation>Parametr {} není znám; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>allowed is a number, {}.</source>
         <translation>povoleno je číslo, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>write a decimal point: {}.</source>
         <translation>pište desetinnou tečku: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>did you mean {}?</source>
         <translation>nemá to být {}?</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>known are {}.</source>
         <translation>známé jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter minimum_distance_m is {} m; on the radial of {} degrees that leaves {} m between Remote key and Car, and clearance_m, {} m, has to remain.</source>
         <translation>Nejmenší vzdálenost je {} m; na paprsku {} stupňů tak mezi klíčem a autem zbude {} m, zůstat ale musí odstup {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The test cannot be continued from {}. {}</source>
         <translation>V testu ze souboru {} nelze pokračovat. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It is not a progress file of this application.</source>
         <translation>Není to soubor průběhu této aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It is not a progress file of this application, or of a scenario that it does not know.</source>
         <translation>Není to soubor průběhu této aplikace, nebo patří ke scénáři, který aplikace nezná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It has version {}; this application reads version {}.</source>
         <translation>Má verzi {}; tato aplikace čte verzi {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It belongs to the scenario {}, not to {}.</source>
         <translation>Patří ke scénáři {}, ne k {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It is damaged: the parameters are missing.</source>
         <translation>Je poškozený: chybí parametry.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It is damaged: parts of it are missing or of the wrong kind.</source>
         <translation>Je poškozený: části chybí nebo jsou nesprávného druhu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It was measured with other parameters: {} was {}, now it is {}.</source>
         <translation>Byl změřen s jinými parametry: {} bylo {}, nyní je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It is larger than {} MiB.</source>
         <translation>Je větší než {} MiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It cannot be read: {}.</source>
         <translation>Nelze jej přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>It is truncated or not a JSON file.</source>
         <translation>Je useknutý, nebo to není soubor JSON.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The file {} cannot be written: {}.</source>
         <translation>Soubor {} nelze zapsat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Results cannot be written to the folder {}: {}.</source>
         <translation>Výsledky nelze zapsat do složky {}: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The settings in {} were not used. {}</source>
         <translation>Nastavení v souboru {} nebylo použito. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The settings cannot be kept: {}</source>
         <translation>Nastavení nelze uložit: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>They are of another format or version.</source>
         <translation>Má jiný formát nebo verzi.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>They are damaged.</source>
         <translation>Je poškozené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>They cannot be read.</source>
         <translation>Nelze je přečíst.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The application has a defect: {}: {}</source>
         <translation>Aplikace má chybu: {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Robot address is {}; allowed is an IPv4 address or a host name.</source>
         <translation>Adresa robotu je {}; povolena je adresa IPv4 nebo jméno počítače.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Robot address is {}; an IPv4 address is four numbers from 0 to 255 with dots between them.</source>
         <translation>Adresa robotu je {}; adresa IPv4 jsou čtyři čísla od 0 do 255 oddělená tečkami.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The {} is {}; allowed is a whole number from {} to {}.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo od {} do {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The {} is {}; allowed is a whole number.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Subscriber port and publisher port are both {}; the robot uses two different ones.</source>
         <translation>Port odběratele i vydavatele je {}; robot používá dva různé.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No host of the name {} is known; check the robot&apos;s address.</source>
         <translation>Počítač jménem {} není znám; zkontrolujte adresu robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No answer from {} within {} s; check the address, the Wi-Fi and that the robot is on.</source>
         <translation>{} do {} s neodpovídá; zkontrolujte adresu, Wi-Fi a zda je robot zapnutý.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Nothing listens on {}; check the port and that the robot&apos;s software runs.</source>
         <translation>Na adrese {} nic neposlouchá; zkontrolujte port a zda běží software robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Cannot reach {}: {}.</source>
         <translation>{} není dosažitelný: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN interface is {}; allowed are {}.</source>
         <translation>Rozhraní CAN je {}; povolena jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN channel is empty; give the adapter&apos;s port, e.g. /dev/ttyACM0, can0 or PCAN_USBBUS1.</source>
         <translation>Kanál CAN je prázdný; zadejte port adaptéru, např. /dev/ttyACM0, can0 nebo PCAN_USBBUS1.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN bit rate is {}; allowed is {} to {} bit/s.</source>
         <translation>Přenosová rychlost CAN je {}; povoleno je {} až {} bit/s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>There is no CAN adapter at {}; check the channel and the USB plug.</source>
         <translation>Na {} není adaptér CAN; zkontrolujte kanál a zástrčku USB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>{} is no serial port; give the CAN adapter&apos;s, e.g. /dev/ttyACM0.</source>
         <translation>{} není sériový port; zadejte port adaptéru CAN, např. /dev/ttyACM0.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Cannot open the {} at {} bit/s: {}.</source>
         <translation>Nelze otevřít {} při {} bit/s: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The {} has gone: {}.</source>
         <translation>Zařízení zmizelo ({}): {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The {} sends something else than the slcan protocol; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neposílá protokol slcan; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The {} does not answer; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neodpovídá; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN adapter {} ({})</source>
         <translation>adaptér CAN {} ({})</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>another program uses it</source>
         <translation>používá jej jiný program</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The CAN bus has errors ({} error frames); check bit rate, plug and termination.</source>
         <translation>Na sběrnici CAN jsou chyby (chybových rámců: {}); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car&apos;s CAN bus is not connected.</source>
         <translation>Sběrnice CAN auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není vybrán adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No CAN frame for {} s; check the plug, the bit rate and that the Car is awake.</source>
         <translation>Už {} s nepřišel rámec CAN; zkontrolujte zástrčku, rychlost a zda je auto probuzené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No message {} (id 0x{}) for {} s although the CAN bus is alive; check the car profile.</source>
         <translation>Zpráva {} (id 0x{}) už {} s nepřišla, ačkoli sběrnice CAN žije; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The clock of the CAN frames is not mapped to the robot&apos;s yet; this takes about two seconds.</source>
         <translation>Hodiny rámců CAN ještě nejsou přepočteny na hodiny robotu; trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and termination.</source>
         <translation>Adaptér CAN hlásí chyby na sběrnici, nebo se odpojil (bus-off); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The CAN adapter is error-passive; check bit rate, plug and termination.</source>
         <translation>Adaptér CAN je ve stavu error-passive; zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The CAN adapter has failed: {}.</source>
         <translation>Adaptér CAN selhal: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>There is no car profile {}; shipped are: {}; a path to a YAML file works too.</source>
         <translation>Profil auta {} neexistuje; dodávané jsou: {}; lze zadat i cestu k souboru YAML.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {}: states must name a value for locked and one for unlocked.</source>
         <translation>Profil auta {}: states musí uvést hodnotu pro locked a pro unlocked.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {} is no table of names and values.</source>
         <translation>Profil auta {} není tabulka jmen a hodnot.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {}: source_signal and sources belong together; give both or none.</source>
         <translation>Profil auta {}: source_signal a sources patří k sobě; uveďte obojí, nebo nic.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {}: {} must be a table from raw value to {}.</source>
         <translation>Profil auta {}: {} musí být tabulka, která hodnotám přiřadí {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {} cannot be read: {}.</source>
         <translation>Profil auta {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {}: unknown entry {}; allowed are {}.</source>
         <translation>Profil auta {}: neznámá položka {}; povoleny jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {} lacks the entry {}.</source>
         <translation>V profilu auta {} chybí položka {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {}: {} has {}: {}; allowed is a whole number with {}.</source>
         <translation>Profil auta {}: {} obsahuje {}: {}; povoleno je celé číslo a k němu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Message {} of CAN database {} has no signal {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Message {} of CAN database {} has no signal {}; not all of it could be read: {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}; databázi se nepodařilo přečíst celou: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Message {} of CAN database {} has no signal {}; message {}, line {}, could not be read: {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}; zprávu {} na řádku {} se nepodařilo přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN database {} has no message {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN database {} has no message {}; not all of it could be read: {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}; nepodařilo se ji přečíst celou: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN database {} has no message {}; message {}, line {}, could not be read: {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}; zprávu {} na řádku {} se nepodařilo přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>CAN database {} cannot be read: {}.</source>
         <translation>Databázi CAN {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>A message of {} bytes was ignored; allowed is at most {} bytes.</source>
         <translation>Zpráva o {} bajtech byla ignorována; povoleno je nejvýše {} bajtů.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>A message was ignored: {}</source>
         <translation>Zpráva byla ignorována: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>wait for the robot</source>
         <translation>čekám na robot</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>check where the Car stands</source>
         <translation>robot ověřuje, kde auto stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>warning: the robot&apos;s software is too old to check where the Car stands; it is taken as it is</source>
         <translation>pozor: software robotu je příliš starý na ověření, kde auto stojí; bere se, jak je</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot has not found the Car yet, so there is nothing to check; a test begins with it.</source>
         <translation>Robot ještě nenašel auto, takže není co ověřit; test tím začíná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s software is too old to check where the Car stands.</source>
         <translation>Software robotu je příliš starý na ověření, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not check the Car within {} s. {}</source>
         <translation>Robot auto do {} s neověřil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot did not check the Car within {} s.</source>
         <translation>Robot auto do {} s neověřil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The test does not begin. {}</source>
         <translation>Test nezačne. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car coordinate system was corrected during the measurement.</source>
         <translation>Souřadnicová soustava auta byla během měření opravena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car&apos;s bus is not connected.</source>
         <translation>Sběrnice auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The package mtr_proto, the contract with the robot, is not installed; pip install the folder proto of the project.</source>
         <translation>Balíček mtr_proto, rozhraní k robotu, není nainstalován; nainstalujte složku proto projektu příkazem pip install.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s clock was set; the clock of the CAN frames is mapped to it anew, which takes about two seconds.</source>
         <translation>Hodiny robotu byly přestaveny; hodiny rámců CAN se na ně přepočítávají znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The clock of the CAN adapter jumped; it is mapped to the robot&apos;s anew, which takes about two seconds.</source>
         <translation>Hodiny adaptéru CAN poskočily; přepočítávají se na hodiny robotu znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Frames or messages of the robot are late, or a clock was set; the time at which the locks changed is not known yet.</source>
         <translation>Rámce nebo zprávy robotu se opožďují, nebo byly přestaveny hodiny; čas změny zámků ještě není znám.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The instant of the event is not known.</source>
         <translation>Okamžik události není znám.</translation>
     </message>
@@ -4666,27 +4666,27 @@
         <translation>Jsou větší než {} KiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>the robot stands until you have it go on</source>
         <translation>robot stojí, dokud nedáte pokyn pokračovat</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}</source>
         <translation>Robot mlčí už {} s; zkontrolujte Wi-Fi a zda běží jeho software. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Status {} was ignored: {}</source>
         <translation>Stav {} byl ignorován: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot no longer takes this application&apos;s Commands: another application has controlled it meanwhile, or goodbye was said in this one&apos;s name; connect again, or go on with a continued test.</source>
         <translation>Robot už nepřijímá příkazy této aplikace: mezitím ho ovládala jiná aplikace, nebo se někdo rozloučil jejím jménem; připojte se znovu, nebo v testu pokračujte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {}: {} is {}; allowed is {} to {} s.</source>
         <translation>Profil auta {}: {} je {}; povoleno je {} až {} s.</translation>
     </message>
@@ -5036,22 +5036,22 @@
         <translation>Parametr {} je {}; dovolen je seznam čísel, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>move the key so that it does not sleep</source>
         <translation>pohyb klíčem, aby neusnul</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The key has answered nowhere on {} radials one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
         <translation>Klíč na {} paprscích za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter minimum_distance_m leaves {} m up to the first press at {} m; the method adaptive needs {} m.</source>
         <translation>Parametr minimum_distance_m nechává {} m k prvnímu stisku na {} m; metoda adaptive potřebuje {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Parameter {} is {}; allowed is {} or {}.</source>
         <translation>Parametr {} je {}; povoleno je {} nebo {}.</translation>
     </message>
@@ -5061,17 +5061,17 @@
         <translation>Žádný stisk nefungoval, ani žádný z {} na {} m: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: allow {} presses (attempts_limit), or ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: dovolte {} stisků (attempts_limit), nebo žádejte {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: žádejte {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>zone {} ({})</source>
         <translation>zóna {} ({})</translation>
     </message>
@@ -5261,22 +5261,22 @@
         <translation>U dosahu mezi dvěma místy je bližší nejvzdálenější stisk, který zabral, a druhé nejbližší vzdálenější, který nezabral; dosah nejméně nějaký zabral hned na prvním místě.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The key has answered nowhere in {} zones one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
         <translation>Klíč v {} zónách za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No press worked in this zone, not at its nearest places either: the key sleeps, its battery is empty, or the Car&apos;s range ends nearer; then decrease minimum_distance_m.</source>
         <translation>V této zóně nezabral žádný stisk, ani na jejích nejbližších místech: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: allow {} presses (presses_limit), or ask for {} %.</source>
         <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: povolte {} stisků (presses_limit), nebo žádejte {} %.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: ask for {} %.</source>
         <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: žádejte {} %.</translation>
     </message>
@@ -5436,7 +5436,7 @@
         <translation>Fotografii {} nelze zkopírovat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Without length and width of the Car&apos;s data sheet the distances may be up to {} cm too long: the Car may be wider above the height at which the LiDARs see it. Start the robot with car_file, and map the Car again.</source>
         <translation>Bez délky a šířky z technického listu auta mohou být vzdálenosti až o {} cm delší: nad výškou, ve které auto vidí LiDARy, může být širší. Spusťte robot s car_file a zmapujte auto znovu.</translation>
     </message>
@@ -5481,7 +5481,7 @@
         <translation>Výšky jsou od sebe {} cm; zadejte takové, které jsou od sebe alespoň {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, the robot&apos;s link may be encrypted, or another program listens there.</source>
         <translation>Port {} {} je otevřený, ale nepatří robotu; porty mohou být prohozené, spojení robotu může být šifrované, nebo tam naslouchá jiný program.</translation>
     </message>
@@ -5576,67 +5576,67 @@
         <translation>Tajný klíč v {} mohou číst i jiní; spusťte chmod 600 {}, nebo ho smažte a spárujte znovu.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>the adapter&apos;s clock</source>
         <translation>hodiny adaptéru</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>the kernel&apos;s clock</source>
         <translation>hodiny jádra systému</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>this computer&apos;s clock when they are read</source>
         <translation>hodiny tohoto počítače při čtení</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>CAN FD data bit rate is {}; allowed is {}, the bit rate, to {} bit/s.</source>
         <translation>Rychlost dat CAN FD je {}; povoleno je {}, tedy rychlost sběrnice, až {} bit/s.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>python-can&apos;s driver {} cannot open an adapter so that it only listens; use one of {}, or choose normal mode (--can-normal) for a bench of one node.</source>
         <translation>Ovladač {} knihovny python-can neumí otevřít adaptér tak, aby jen naslouchal; použijte některý z {}, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>python-can&apos;s driver {} has no CAN FD; use one of {}, or leave the data bit rate out for classic CAN.</source>
         <translation>Ovladač {} knihovny python-can nemá CAN FD; použijte některý z {}, nebo pro klasickou CAN rychlost dat vynechejte.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>Whether the CAN interface {} only listens is not known, for the program ip does not tell; see that it is there and up, install iproute2, or choose normal mode (--can-normal) for a bench of one node.</source>
         <translation>Není známo, zda rozhraní CAN {} jen naslouchá, protože program ip to neříká; ověřte, že existuje a je zapnuté, nainstalujte iproute2, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN interface {} takes part in the bus; have it only listen by {}, or choose normal mode (--can-normal) for a bench of one node.</source>
         <translation>Rozhraní CAN {} se účastní sběrnice; nechte ho jen naslouchat pomocí {}, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN interface {} runs at {} bit/s, and {} bit/s is chosen; set one of them as the Car&apos;s bus is.</source>
         <translation>Rozhraní CAN {} běží rychlostí {} bit/s, zvoleno je {} bit/s; nastavte jedno z nich podle sběrnice auta.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN adapter has lost frames: they were not read in time; end other programs, or use an adapter with more room for them.</source>
         <translation>Adaptér CAN ztratil rámce: nebyly přečteny včas; ukončete jiné programy, nebo použijte adaptér s větší pamětí.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The Car&apos;s bus carries CAN FD frames, and the adapter was opened for classic CAN; give the data bit rate of the bus.</source>
         <translation>Na sběrnici auta jsou rámce CAN FD a adaptér byl otevřen pro klasickou CAN; zadejte rychlost dat sběrnice.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN bus brings error frames ({}) and not one frame at {} bit/s: the bit rate is another one, or the bus carries CAN FD.</source>
         <translation>Ze sběrnice CAN přicházejí chybové rámce ({}) a ani jeden rámec při {} bit/s: rychlost je jiná, nebo sběrnice používá CAN FD.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The car&apos;s profile names an output that takes the handle, and the CAN adapter only listens: a person takes it; choose normal mode (--can-normal) to have it switched.</source>
         <translation>Profil auta uvádí výstup, který bere za kliku, a adaptér CAN jen naslouchá: vezme za ni člověk; k ovládání výstupu zvolte normální režim (--can-normal).</translation>
     </message>
@@ -5696,27 +5696,27 @@
         <translation>Profil {} byl zapsán a nerozumí {} z {} rámců, ze kterých se učil; opakujte učení s více výzvami.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>{} is no CAN log: {}</source>
         <translation>{} není záznam CAN: {}</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} names the buses {}, and only names with different numbers, such as can0 and can1, say which is which.</source>
         <translation>Záznam CAN {} uvádí sběrnice {}, a jen názvy s různými čísly, například can0 a can1, říkají, která je která.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>A CAN log of the format {} holds no CAN FD frame; choose blf or asc (--can-log-format).</source>
         <translation>Záznam CAN ve formátu {} neobsáhne rámce CAN FD; zvolte blf nebo asc (--can-log-format).</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} holds no frame that is understood: {}.</source>
         <translation>Záznam CAN {} neobsahuje srozumitelný rámec: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} holds no frame: {}; read are {}.</source>
         <translation>Záznam CAN {} neobsahuje žádný rámec: {}; čtou se {}.</translation>
     </message>
@@ -5801,57 +5801,57 @@
         <translation>není periodická</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>A CAN log of the format mf4 needs the Python package asammdf, which is not installed; install it, or choose blf.</source>
         <translation>Záznam CAN ve formátu mf4 potřebuje balíček Pythonu asammdf, který není nainstalován; nainstalujte ho, nebo zvolte blf.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} cannot be written: {}.</source>
         <translation>Záznam CAN {} nelze zapsat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} cannot be read: {}.</source>
         <translation>Záznam CAN {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} needs the Python package asammdf, which is not installed.</source>
         <translation>Záznam CAN {} potřebuje balíček Pythonu asammdf, který není nainstalován.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} cannot be read: it is damaged or of another format.</source>
         <translation>Záznam CAN {} nelze přečíst: je poškozený nebo v jiném formátu.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} holds no frame.</source>
         <translation>Záznam CAN {} neobsahuje žádný rámec.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} has come to its end.</source>
         <translation>Záznam CAN {} skončil.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log is not open.</source>
         <translation>Záznam CAN není otevřen.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The course {} cannot be read: {}.</source>
         <translation>Průběh {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The course {} is damaged; it is no text.</source>
         <translation>Průběh {} je poškozený; není to text.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The course {} is damaged in line {}, or of another version.</source>
         <translation>Průběh {} je poškozený na řádku {}, nebo v jiné verzi.</translation>
     </message>
@@ -5976,12 +5976,12 @@
         <translation>Stav auta („{}“) způsobilo něco, co profil auta neuvádí ({}), ne {}; během testu nesahejte na dveře ani spínače auta.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN log {} has a gap of {} s after {} frames; a change within it is as uncertain as the gap is long.</source>
         <translation>V záznamu CAN {} je mezera {} s po {} rámcích; změna v ní je nejistá po celou její délku.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The time of the CAN log {} jumps back by {} s after {} frames; what lies about it is not to be believed.</source>
         <translation>Čas záznamu CAN {} skáče zpět o {} s po {} rámcích; údajům kolem tohoto místa nelze věřit.</translation>
     </message>
@@ -6341,17 +6341,17 @@
         <translation>Soubory jsou takové, jak byly podepsány, ale zip kolem nich není takový, jak byl zapsán, od bajtu {} dále: byl zabalen znovu, nebo je změněn bajt mezi soubory.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The laptop slept for {} s, and the robot stood meanwhile.</source>
         <translation>Notebook spal {} s a robot mezitím stál.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The application stood still for {} s, and the robot stood meanwhile.</source>
         <translation>Aplikace {} s neběžela a robot mezitím stál.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>{} The line at hand is measured anew when the test goes on.</source>
         <translation>{} Rozpracovaná přímka se změří znovu, až bude test pokračovat.</translation>
     </message>
@@ -6766,7 +6766,7 @@
         <translation>Přeskočit přímku {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The line was skipped by the Operator.</source>
         <translation>Přímku přeskočila obsluha.</translation>
     </message>
@@ -6786,7 +6786,7 @@
         <translation>O {} přímkách není nic zaznamenáno ({}).</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot had a fault: {}</source>
         <translation>Robot měl poruchu: {}</translation>
     </message>
@@ -7006,22 +7006,22 @@
         <translation>taková databáze nebo uživatel na serveru není</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>There is no test in {}.</source>
         <translation>V {} není žádný test.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The {} does not take the order to listen only; end other programs that use it, take another adapter, or choose normal mode (--can-normal) for a bench of one node.</source>
         <translation>{} nepřijal příkaz jen naslouchat; ukončete jiné programy, které jej používají, vezměte jiný adaptér, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>python-can&apos;s driver {} has no bit rate of {} bit/s; use one of {}.</source>
         <translation>Ovladač {} knihovny python-can nemá přenosovou rychlost {} bit/s; použijte některou z {}.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>python-can&apos;s driver ixxat is for Windows with the vendor&apos;s VCI; on Linux use the kernel&apos;s interface of the adapter (socketcan).</source>
         <translation>Ovladač ixxat knihovny python-can je pro Windows s VCI od výrobce; v Linuxu použijte rozhraní jádra pro tento adaptér (socketcan).</translation>
     </message>
@@ -7031,7 +7031,7 @@
         <translation>Databáze CAN {} tam, kde se stav našel, nemá signál; profil dostane vlastní databázi.</translation>
     </message>
     <message>
-        <location filename="../texts/can.py" line="5"/>
+        <location filename="../texts/bus/can.py" line="5"/>
         <source>The CAN adapter does not take the order to listen only (L of slcan), and stays closed; use another adapter or firmware, or choose normal mode (--can-normal) for a bench of one node.</source>
         <translation>Adaptér CAN nepřijal příkaz jen naslouchat (L protokolu slcan) a zůstává zavřený; použijte jiný adaptér nebo firmware, nebo zvolte normální režim (--can-normal) pro stůl s jedním uzlem.</translation>
     </message>
@@ -7041,22 +7041,22 @@
         <translation>„{title}“</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>Car profile {} has a text of more than {} characters.</source>
         <translation>Profil auta {} obsahuje text delší než {} znaků.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>No test begins, because the robot&apos;s preflight found: {} Mend it, then run `rosrun mtr_bringup preflight` on the robot again.</source>
         <translation>Zkouška nezačne, protože kontrola robotu zjistila: {} Odstraňte to a pak na robotu znovu spusťte `rosrun mtr_bringup preflight`.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s clock is {} ahead of this laptop&apos;s: distances do not depend on it, dates in the robot&apos;s logs do; set the one that is wrong, or have the laptop take the robot&apos;s (docs/robot-setup.md, Clocks).</source>
         <translation>Hodiny robotu jdou o {} napřed před hodinami tohoto notebooku: vzdálenosti na tom nezávisí, data v protokolech robotu ano; seřiďte ty, které jdou špatně, nebo ať notebook převezme čas robotu (docs/robot-setup.md, Clocks).</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s clock is {} behind this laptop&apos;s: distances do not depend on it, dates in the robot&apos;s logs do; set the one that is wrong, or have the laptop take the robot&apos;s (docs/robot-setup.md, Clocks).</source>
         <translation>Hodiny robotu se o {} opožďují za hodinami tohoto notebooku: vzdálenosti na tom nezávisí, data v protokolech robotu ano; seřiďte ty, které jdou špatně, nebo ať notebook převezme čas robotu (docs/robot-setup.md, Clocks).</translation>
     </message>
@@ -7076,7 +7076,7 @@
         <translation>Do {} mohou zapisovat i jiní; spusťte chmod {} {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m. Continue the test at the Car with which it was begun, or begin a new one.</source>
         <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m. Pokračujte v testu u auta, se kterým začal, nebo začněte nový.</translation>
     </message>
@@ -7166,22 +7166,22 @@
         <translation>Jiná aplikace zapisuje balíček s klíčem této stanice; zapište tento, až skončí.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>A test is being measured: stop it first, then open or begin another one.</source>
         <translation>Probíhá měření testu: nejdříve je zastavte, pak otevřete nebo začněte jiný.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The window did not react for {} s, nor would its Stop have: the robot was stopped.</source>
         <translation>Okno {} s nereagovalo a jeho Stop by nezabral: robot byl zastaven.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car&apos;s sides are known to (95 %): {}; distances from them may be wrong by that much. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
         <translation>Strany auta jsou známy na (95 %): {}; o tolik mohou být vzdálenosti od nich chybné. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The Car&apos;s {} is known to {} cm only (95 %); the robot may touch it nearer than {} m. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
         <translation>Strana auta ({}) je známa jen na {} cm (95 %); blíže než {} m se jí robot může dotknout. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
     </message>
@@ -7341,199 +7341,209 @@
         <translation>Profil auta {}: phone_distance uvádí signál {}, jehož měřítko je v databázi 0.</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>The CAN log {} is damaged after {} frames; those are used.</source>
         <translation>Záznam CAN {} je po {} rámcích poškozený; použijí se tyto rámce.</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>The CAN log {} is damaged after {} frames ({}); those are used.</source>
         <translation>Záznam CAN {} je po {} rámcích poškozený ({}); použijí se tyto rámce.</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>The CAN log {} is cut off after {} frames; those are used.</source>
         <translation>Záznam CAN {} po {} rámcích předčasně končí; použijí se tyto rámce.</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>it is damaged or of another format</source>
         <translation>je poškozený nebo v jiném formátu</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>it is cut off before its first frame</source>
         <translation>končí před prvním rámcem</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the next frame {}</source>
         <translation>další rámec {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>has the time {} s, which no clock shows</source>
         <translation>má čas {} s, který žádné hodiny neukazují</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>it is a log of the kind {} that was packed with gzip; unpack it first</source>
         <translation>je to záznam formátu {} zabalený programem gzip; nejprve ho rozbalte</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>its packed data is cut off</source>
         <translation>jeho zabalená data předčasně končí</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>its packed data is cut off or corrupt at its beginning</source>
         <translation>jeho zabalená data hned na začátku předčasně končí nebo jsou poškozená</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>its packed data is corrupt there or before</source>
         <translation>jeho zabalená data jsou v tomto místě nebo před ním poškozená</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>its header is cut off</source>
         <translation>jeho hlavička předčasně končí</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>its header states a length of {} bytes, and has {}</source>
         <translation>jeho hlavička udává délku {} bajtů, a má {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>no object begins at byte {}</source>
         <translation>na bajtu {} nezačíná žádný objekt</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the object at byte {} states {} bytes, more than the file has</source>
         <translation>objekt na bajtu {} udává {} bajtů, více než má soubor</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the object at byte {} is of kind {}, and only containers (10) can be there</source>
         <translation>objekt na bajtu {} je druhu {}, a být tam mohou jen kontejnery (10)</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>an object that begins in the container at byte {} is incomplete</source>
         <translation>objekt, který začíná v kontejneru na bajtu {}, je neúplný</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>in the container at byte {}, {}</source>
         <translation>v kontejneru na bajtu {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>an object is shorter than its kind</source>
         <translation>objekt je kratší, než jeho druh vyžaduje</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>no object begins behind the last one</source>
         <translation>za posledním objektem nezačíná žádný další</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>an object states a length of {} bytes</source>
         <translation>objekt udává délku {} bajtů</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the container at byte {} is shorter than its header</source>
         <translation>kontejner na bajtu {} je kratší než jeho hlavička</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the container at byte {} has the unknown compression method {}</source>
         <translation>kontejner na bajtu {} má neznámý způsob komprese {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the container at byte {} states {} bytes, {}</source>
         <translation>kontejner na bajtu {} udává {} bajtů, {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the container at byte {} states {} inflated bytes, {}</source>
         <translation>kontejner na bajtu {} udává {} rozbalených bajtů, {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>and at most {} MiB are read</source>
         <translation>a čte se nejvýše {} MiB</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the container at byte {} inflates to more than the {} bytes that it states</source>
         <translation>kontejner na bajtu {} se rozbalí na více než {} bajtů, které udává</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the compressed data of the container at byte {} is corrupt</source>
         <translation>komprimovaná data kontejneru na bajtu {} jsou poškozená</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the compressed data of the container at byte {} is incomplete</source>
         <translation>komprimovaná data kontejneru na bajtu {} jsou neúplná</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>the compressed block at byte {} inflates to more than {} MiB</source>
         <translation>komprimovaný blok na bajtu {} se rozbalí na více než {} MiB</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>SQLite reports: {}</source>
         <translation>SQLite hlásí: {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>it has no table {}, as python-can writes it</source>
         <translation>nemá tabulku {}, jakou zapisuje python-can</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>its table {} computes values that it does not store</source>
         <translation>jeho tabulka {} počítá hodnoty, které neobsahuje</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>row {} has values of other types than a frame</source>
         <translation>řádek {} má hodnoty jiných typů než rámec</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>row {} has {} bytes of data, and says {}</source>
         <translation>řádek {} má {} bajtů dat, a udává {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>row {} {}</source>
         <translation>řádek {} {}</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>asammdf reports damage</source>
         <translation>asammdf hlásí poškození</translation>
     </message>
     <message>
-        <location filename="../texts/logs.py" line="5"/>
+        <location filename="../texts/bus/logs.py" line="5"/>
         <source>asammdf crashes</source>
         <translation>asammdf havaruje</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="9"/>
+        <location filename="../texts/application.py" line="10"/>
         <source>The robot&apos;s battery is nearly empty ({} %); charge it, then begin the test.</source>
         <translation>Baterie robota je téměř vybitá ({} %); nabijte ji a pak zahajte test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/bus/can.py" line="5"/>
+        <source>Message {} (id {}) comes only on the bus {}, and the car profile expects it on the bus of the state. Swap the adapters; in a log, number the channels so that the bus of the state is channel 0 and the bus {} is channel {}.</source>
+        <translation>Zpráva {} (id {}) přichází jen na sběrnici {}, a profil auta ji čeká na sběrnici stavu. Prohoďte adaptéry; v záznamu očíslujte kanály tak, aby sběrnice stavu byla kanál 0 a sběrnice {} kanál {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/bus/can.py" line="5"/>
+        <source>Message {} (id {}) comes only on {} of the log, and the car profile expects it on channel 0, because it names further buses (buses). Number the channels of the log so that the bus of the state is channel 0.</source>
+        <translation>Zpráva {} (id {}) přichází jen na {} záznamu, a profil auta ji čeká na kanálu 0, protože uvádí další sběrnice (buses). Očíslujte kanály záznamu tak, aby sběrnice stavu byla kanál 0.</translation>
     </message>
 </context>
 <context>
