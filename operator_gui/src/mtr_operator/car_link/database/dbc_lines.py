@@ -28,6 +28,8 @@ _LONG_NAME = re.compile(r"BA_\s+\"System(?:Message|Signal)LongSymbol\"\s+(?:BO_|
 # Signals that no message has are collected under this name.
 _WITHOUT_MESSAGE = "VECTOR__INDEPENDENT_SIG_MSG"
 _QUOTED = 120
+# Signals of one name in messages of one identifier; more are no list of pages.
+_MAX_SAME = 16
 # Digits of the largest identifier.
 _DIGITS = 10
 
@@ -152,20 +154,20 @@ def _apply(rest: Sequence[Statement], found: Sequence[DbcMessage]) -> None:
     """Apply statements with attributes to the messages and signals that they name."""
     by_name: dict[str, list[DbcSignal]] = {}
     by_number: dict[int, list[DbcMessage]] = {}
+    by_both: dict[tuple[int, str], list[DbcSignal]] = {}
     for message in found:
         by_number.setdefault(message.number, []).append(message)
         for signal in message.signals:
             by_name.setdefault(signal.name, []).append(signal)
+            by_both.setdefault((message.number, signal.name), []).append(signal)
     for statement in rest:
         if statement.bare.startswith(_DECODING):
-            _decode(statement, by_number, by_name)
-    # Long names last: the other statements name signals by their short names.
-    for statement in rest:
-        if statement.bare.startswith("BA_"):
-            _attribute(statement.code, by_number)
+            _decode(statement, by_both, by_name)
+    _name_and_time([each.code for each in rest if each.bare.startswith("BA_")], by_number, by_both)
 
 
-def _decode(statement: Statement, messages: dict[int, list[DbcMessage]], by_name: dict[str, list[DbcSignal]]) -> None:
+def _decode(statement: Statement, by_both: dict[tuple[int, str], list[DbcSignal]],
+            by_name: dict[str, list[DbcSignal]]) -> None:
     """Apply a statement to the signal of which it changes the values; without its message, it makes all of the name
     unusable."""
     text = "".join(statement.bare.partition(";")[:2])
@@ -177,10 +179,13 @@ def _decode(statement: Statement, messages: dict[int, list[DbcMessage]], by_name
                 signal.problem = wrong
         return
     match = None if statement.is_doubtful else (_PAGES if text.startswith("SG_MUL_VAL_") else _FLOAT).match(text)
-    for message in messages.get(int(named[1]), ()):
-        for signal in message.signals:
-            if signal.name == _spelled(named[2]):
-                _extend(signal, match, wrong)
+    same = by_both.get((int(named[1]), _spelled(named[2])), [])
+    is_repeated = len(same) > _MAX_SAME
+    for signal in same:
+        _extend(signal, None if is_repeated else match, wrong)
+    if is_repeated:
+        # They are unusable now; a further statement would cost time for each of them.
+        same.clear()
 
 
 def _extend(signal: DbcSignal, match: re.Match[str] | None, wrong: str) -> None:
@@ -197,19 +202,28 @@ def _extend(signal: DbcSignal, match: re.Match[str] | None, wrong: str) -> None:
         signal.ranges += tuple((int(each[1]), int(each[2])) for each in ranges if each)
 
 
-def _attribute(line: str, messages: dict[int, list[DbcMessage]]) -> None:
-    cycle, long_name = _CYCLE.match(line), _LONG_NAME.match(line)
-    if cycle is not None:
-        for message in messages.get(_number(cycle[1]), ()):
-            message.cycle_ms = int(cycle[2])
-    elif long_name is not None:
-        number, name, new = long_name.groups()
-        for message in messages.get(_number(number), ()):
-            if name is None:
-                message.name = _spelled(new)
-            for signal in message.signals:
-                if name is not None and signal.name == _spelled(name):
-                    signal.name = _spelled(new)
+def _name_and_time(lines: Sequence[str], by_number: dict[int, list[DbcMessage]],
+                   by_both: dict[tuple[int, str], list[DbcSignal]]) -> None:
+    """Apply cycle times and long names; the last one of each counts. Other statements name signals by short names."""
+    cycles: dict[int, int] = {}
+    names: dict[tuple[int, str | None], str] = {}
+    for line in lines:
+        cycle, long_name = _CYCLE.match(line), _LONG_NAME.match(line)
+        if cycle is not None:
+            cycles[_number(cycle[1])] = int(cycle[2])
+        elif long_name is not None:
+            number, name, new = long_name.groups()
+            names[_number(number), None if name is None else _spelled(name)] = _spelled(new)
+    for number, cycle_ms in cycles.items():
+        for message in by_number.get(number, ()):
+            message.cycle_ms = cycle_ms
+    for (number, short), new in names.items():
+        if short is None:
+            for message in by_number.get(number, ()):
+                message.name = new
+        else:
+            for signal in by_both.get((number, short), ()):
+                signal.name = new
 
 
 def _number(digits: str) -> int:
