@@ -15,17 +15,26 @@ from .repeated import REPEATED
 _EXTENDED, _STANDARD_BITS, _EXTENDED_BITS = 0x8000_0000, 11, 29
 # Values of a multiplexer that one signal can have; more are a mistake.
 _MAX_PAGES = 4096
+# The library creates a codec for each page, and for each it visits all signals of the message, with all pages of each.
+_MAX_VISITS, _PAGES_PER_VISIT = 1 << 22, 16
 
 
 def built(lines: Sequence[DbcMessage]) -> list[Any]:
     """The messages without problem, each without its signals that have one; notes on the lines what is wrong."""
     found = []
+    visits = 0
     for message in lines:
-        signals = [each for each in (_signal(line, message) for line in message.signals) if each is not None]
+        names = [each.name for each in message.signals if each.page.endswith("M")]
+        visits += _visits(message, len(names))
+        if names and visits > _MAX_VISITS:
+            message.problem = message.problem or "this message and those before it have too many pages"
+        if message.problem:
+            continue
+        signals = [each for each in (_signal(line, message, names) for line in message.signals) if each is not None]
         identifier = message.number & ~_EXTENDED
         is_extended = bool(message.number & _EXTENDED)
         bits = _EXTENDED_BITS if is_extended else _STANDARD_BITS
-        if not message.problem and identifier >> bits:
+        if identifier >> bits:
             message.problem = (f"the identifier {identifier} has more than {bits} bits" + (
                 "" if is_extended or identifier >> _EXTENDED_BITS else
                 f"; one of 29 bits is written with {_EXTENDED} added to it"))
@@ -35,8 +44,17 @@ def built(lines: Sequence[DbcMessage]) -> list[Any]:
     return found
 
 
-def _signal(line: DbcSignal, message: DbcMessage) -> Signal | None:
-    multiplexer, ids = _pages(line, message)
+def _visits(message: DbcMessage, multiplexers: int) -> int:
+    """Visits of signals by the library, which are quadratic."""
+    paged = sum(each.page not in ("", "M") for each in message.signals)
+    ranges = [(low, high) for each in message.signals for low, high in each.ranges if low <= high]
+    listed = sum(high - low + 1 for low, high in ranges)
+    span = max((high for _, high in ranges), default=-1) - min((low for low, _ in ranges), default=0) + 1
+    return (multiplexers + paged + min(listed, span)) * (len(message.signals) + listed // _PAGES_PER_VISIT)
+
+
+def _signal(line: DbcSignal, message: DbcMessage, multiplexers: Sequence[str]) -> Signal | None:
+    multiplexer, ids = _pages(line, multiplexers)
     if line.problem:
         return None
     try:
@@ -69,11 +87,10 @@ def _is_accepted(signal: Signal, message: DbcMessage) -> bool:
     return True
 
 
-def _pages(line: DbcSignal, message: DbcMessage) -> tuple[str | None, list[int] | None]:
-    """Multiplexer and its values; none for a signal that is sent always."""
+def _pages(line: DbcSignal, names: Sequence[str]) -> tuple[str | None, list[int] | None]:
+    """Multiplexer and its values; none for a signal that is sent always. names: multiplexers of the message."""
     if line.page in ("", "M"):
         return None, None
-    names = [each.name for each in message.signals if each.page.endswith("M")]
     multiplexer = line.multiplexer or (names[0] if len(names) == 1 else "")
     if multiplexer not in names or multiplexer == line.name:
         line.problem = line.problem or "it is a page of a multiplexer that the message does not name"

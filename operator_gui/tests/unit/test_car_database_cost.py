@@ -1,0 +1,59 @@
+"""Databases of strangers that would cost processor time without limit. C6"""
+# SPDX-License-Identifier: Apache-2.0
+import time
+
+import pytest
+from database_kinds import Frame, dbc, written
+
+from mtr_operator.car_link.database.load import load_database
+from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.errors import ConnectionFailed
+
+# Seconds of the processor; without their limits, all of these files take 6 s to hours.
+MAX_S = 4.0
+LOCK = ("LOCK", 0, 2)
+DOORS = Frame("DOORS", 0x321, [LOCK])
+FAULT = "@ no DBC\n"
+
+
+def _loaded_in_time(folder, suffix, text):
+    written(folder, suffix, text)
+    begin = time.process_time()
+    try:
+        return load_database(folder / f"car{suffix}")
+    except ConnectionFailed as error:
+        return str(error)
+    finally:
+        assert time.process_time() - begin < MAX_S
+
+
+def _pages(signals):
+    return "".join(f' SG_ P{number} m0 : 8|8@1+ (1,0) [0|0] "" A\n' for number in range(signals))
+
+
+@pytest.mark.parametrize("text", [
+    dbc([DOORS, Frame("A", 1, [("S", 0, 8)] * 4000)]) + FAULT + "SIG_VALTYPE_ 1 S : 1;\n" * 4000,
+    dbc([DOORS] + [Frame(f"A{i}", 1, [("S", 0, 8)]) for i in range(3000)]) + FAULT + "SIG_VALTYPE_ 1 S : 1;\n" * 3000,
+    dbc([DOORS] + [Frame(f"A{i}", 1, []) for i in range(3000)]) + FAULT
+    + 'BA_ "GenMsgCycleTime" BO_ 1 100;\nBA_ "SystemMessageLongSymbol" BO_ 1 "A";\n' * 3000,
+    dbc([DOORS, Frame("A", 1, [("S", 0, 8)] * 4000)]) + FAULT + 'BA_ "SystemSignalLongSymbol" SG_ 1 Q "L";\n' * 4000,
+    dbc([DOORS]) + "BO_ 1 A: 8 A\n SG_ S M : 0|8@1+ (1,0) [0|0] \"\" A\n" + _pages(1000) + FAULT
+    + "".join(f"SG_MUL_VAL_ 1 P{number} S 0-4000;\n" for number in range(1000)),
+    dbc([DOORS]) + "BO_ 1 A: 8 A\n" + _pages(4000).replace(" m0 ", " M ") + _pages(4000) + FAULT,
+], ids=["one message", "one identifier", "cycle times", "long names", "values", "multiplexers"])
+def test_statements_for_many_signals_take_no_time(tmp_path, text):
+    database = _loaded_in_time(tmp_path, ".dbc", text)
+    assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
+
+
+def test_signals_of_one_name_are_unusable_when_a_statement_of_the_decoding_has_no_single_one(tmp_path):
+    text = dbc([DOORS, Frame("A", 1, [("S", 0, 32)] * 17)]) + FAULT + "SIG_VALTYPE_ 1 S : 1;\n"
+    database = _loaded_in_time(tmp_path, ".dbc", text)
+    with pytest.raises(ConnectionFailed, match="SIG_VALTYPE_ 1 S : 1;"):
+        database.signal(database.message("A"), "S")
+
+
+def test_usual_pages_of_a_faulty_file_are_read(tmp_path):
+    pages = "".join(f' SG_ P{page} m{page} : 8|8@1+ (1,0) [0|0] "" A\n' for page in range(256))
+    text = dbc([DOORS]) + ' SG_ MUX M : 2|8@1+ (1,0) [0|0] "" A\n' + pages + FAULT
+    assert load_profile(written(tmp_path, ".dbc", text)).decode(0x321, False, b"\x01" + bytes(7))
