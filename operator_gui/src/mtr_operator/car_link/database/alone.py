@@ -1,4 +1,4 @@
-"""Messages of a KCD, SYM or ARXML database one by one, so that a faulty one costs no other."""
+"""Messages of a KCD or SYM database one by one, so that a faulty one costs no other."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import Any, Callable, Iterable
 from xml.etree import ElementTree
 
 import cantools
-from cantools.database.can.formats.arxml import SystemLoader  # type: ignore[attr-defined]
 
 from ..further.sizes import size_words, too_large
 from .car_database import Unread, printable
@@ -56,7 +55,7 @@ def kcd_messages(text: str) -> Separated | None:
         document = ElementTree.Element(root.tag)
         part = ElementTree.SubElement(document, bus.tag, bus.attrib)
         part.append(message)
-        unread = Unread(message.get("name", ""), _single(message.get("id", "")), bus.get("name"))
+        unread = Unread(message.get("name", ""), single(message.get("id", "")), bus.get("name"))
         found.add(functools.partial(_loaded_kcd, document, message), "KCD", [unread])
     return found
 
@@ -102,51 +101,7 @@ def with_kcd_lengths(text: str) -> str:
     return ElementTree.tostring(root, "unicode") if is_changed else text
 
 
-def arxml_messages(text: str) -> Separated | None:
-    """Messages of an AUTOSAR system."""
-    loader = _SystemLoader(ElementTree.fromstring(text), False)
-    loader.separated.messages = list(loader.load().messages)
-    return loader.separated
-
-
-class _SystemLoader(SystemLoader):
-    """The library's reader, which skips messages that cannot be read. The file has references from each message to any
-    place, so that its messages cannot be cut out."""
-
-    def __init__(self, root: Any, is_strict: bool):
-        super().__init__(root, is_strict)
-        self.separated = Separated()
-
-    def _load_message(self, bus_name: Any, can_frame_triggering: Any) -> Any:
-        inherited: Any = super()
-
-        def read() -> list[Any]:
-            if _text(can_frame_triggering, "IDENTIFIER") is None:
-                raise ValueError("its identifier is missing")
-            return [inherited._load_message(bus_name, can_frame_triggering)]
-
-        alone = Separated()
-        alone.add(read, "ARXML", [Unread(*_frame(can_frame_triggering), bus_name)])
-        self.separated.faults.update(alone.faults)
-        self.separated.unread += alone.unread
-        return next(iter(alone.messages), None)
-
-    def _load_package_messages(self, package_elem: Any) -> list[Any]:
-        inherited: Any = super()
-        return [each for each in inherited._load_package_messages(package_elem) if each is not None]
-
-
-def _frame(triggering: ElementTree.Element) -> tuple[str, range]:
-    """Name of the frame of a triggering, and its identifier."""
-    reference = _text(triggering, "FRAME-REF") or _text(triggering, "SHORT-NAME") or ""
-    return reference.rpartition("/")[2].strip(), _single(_text(triggering, "IDENTIFIER") or "")
-
-
-def _text(element: ElementTree.Element, tag: str) -> str | None:
-    return next((each.text for each in element if each.tag.rpartition("}")[2] == tag), None)
-
-
-def _single(number: str) -> range:
+def single(number: str) -> range:
     """An identifier, as a range of one; an empty range of an unreadable one."""
     try:
         identifier = int(number, 0)

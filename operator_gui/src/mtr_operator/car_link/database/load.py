@@ -12,7 +12,8 @@ import cantools
 from mtr_operator.domain.errors import ConnectionFailed
 
 from ..further.sizes import size_words, too_large
-from .alone import Separated, arxml_messages, kcd_messages, with_kcd_lengths
+from .alone import Separated, kcd_messages, with_kcd_lengths
+from .arxml_alone import arxml_messages
 from .car_database import CarDatabase, Problems
 from .dbc_lines import dbc_messages
 from .dbc_messages import built, problems
