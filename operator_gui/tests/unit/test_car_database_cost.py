@@ -3,7 +3,7 @@
 import time
 
 import pytest
-from database_kinds import Frame, dbc, written
+from database_kinds import Frame, dbc, kcd, written
 
 from mtr_operator.car_link.database.load import load_database
 from mtr_operator.car_link.profile import load_profile
@@ -57,3 +57,17 @@ def test_usual_pages_of_a_faulty_file_are_read(tmp_path):
     pages = "".join(f' SG_ P{page} m{page} : 8|8@1+ (1,0) [0|0] "" A\n' for page in range(256))
     text = dbc([DOORS]) + ' SG_ MUX M : 2|8@1+ (1,0) [0|0] "" A\n' + pages + FAULT
     assert load_profile(written(tmp_path, ".dbc", text)).decode(0x321, False, b"\x01" + bytes(7))
+
+
+def test_long_name_of_a_bus_is_not_read_once_a_message(tmp_path):
+    text = kcd([Frame(f"A{number}", 1, []) for number in range(4000)]).replace("bus0", "b" * 500_000)
+    assert " cannot be read: KCD: " in _loaded_in_time(tmp_path, ".kcd", text.replace('id="1"', 'id="x"'))
+
+
+def test_deeply_nested_message_costs_no_other_message(tmp_path):
+    text = kcd([DOORS, Frame("DEEP", 1, [])]).replace('name="DEEP" length="8">',
+                                                      f'name="DEEP" length="8">{"<Signal>" * 20_000}{"</Signal>" * 20_000}')
+    database = _loaded_in_time(tmp_path, ".kcd", text)
+    assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
+    with pytest.raises(ConnectionFailed, match="Message DEEP .* cannot be used: it is nested too deeply"):
+        database.message("DEEP")

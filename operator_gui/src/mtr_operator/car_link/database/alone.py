@@ -16,6 +16,8 @@ from .faults import cause, in_words
 
 # Messages that are read one by one; whole cars have some hundred.
 MAX_MESSAGES = 4096
+# Characters of all parts of a file that are read one by one, of each character of the file and besides.
+_PER_CHARACTER, _BESIDES = 2, 512 * 1024
 _MAX_SAID = 300
 # A place in the part of the file that the library reads alone.
 _PLACE = re.compile(r" at line \d+, column \d+")
@@ -50,24 +52,43 @@ def kcd_messages(text: str) -> Separated | None:
     pairs = [(bus, message) for bus in root.iterfind("k:Bus", _KCD) for message in bus.iterfind("k:Message", _KCD)]
     if len(pairs) > MAX_MESSAGES:
         return None
-    found = Separated()
+    found, left = Separated(), max_characters(text)
     for bus, message in pairs:
         document = ElementTree.Element(root.tag)
         part = ElementTree.SubElement(document, bus.tag, bus.attrib)
         part.append(message)
+        alone = _written(document)
+        left -= len(alone)
+        if left < 0:
+            return None
         unread = Unread(message.get("name", ""), single(message.get("id", "")), bus.get("name"))
-        found.add(functools.partial(_loaded_kcd, document, message), "KCD", [unread])
+        found.add(functools.partial(_loaded_kcd, alone, message), "KCD", [unread])
     return found
 
 
-def _loaded_kcd(document: ElementTree.Element, message: ElementTree.Element) -> list[Any]:
+def _written(document: ElementTree.Element) -> str:
+    """A document as text; empty when it is nested too deeply."""
+    try:
+        return ElementTree.tostring(document, "unicode")
+    except RecursionError:
+        return ""
+
+
+def max_characters(text: str) -> int:
+    """Return how many characters the parts of a file may have, which repeat what several messages need."""
+    return _PER_CHARACTER * len(text) + _BESIDES
+
+
+def _loaded_kcd(document: str, message: ElementTree.Element) -> list[Any]:
     """The only message of a document. ValueError states a missing attribute, which the library does not name."""
+    if not document:
+        raise RecursionError
     if message.get("id") is None:
         raise ValueError("its identifier is missing")
     for signal in (*message.iter(f"{{{_KCD['k']}}}Signal"), *message.iter(f"{{{_KCD['k']}}}Multiplex")):
         if signal.get("offset") is None:
             raise ValueError(f"its signal {signal.get('name')} has no offset")
-    return loaded_alone(ElementTree.tostring(document, "unicode"), "kcd")
+    return loaded_alone(document, "kcd")
 
 
 def loaded_alone(text: str, kind: str) -> list[Any]:
