@@ -3,7 +3,7 @@
 import time
 
 import pytest
-from database_kinds import Frame, dbc, kcd, written
+from database_kinds import Frame, dbc, kcd, sym, written
 
 from mtr_operator.car_link.database.load import load_database
 from mtr_operator.car_link.profile import load_profile
@@ -65,9 +65,50 @@ def test_long_name_of_a_bus_is_not_read_once_a_message(tmp_path):
 
 
 def test_deeply_nested_message_costs_no_other_message(tmp_path):
-    text = kcd([DOORS, Frame("DEEP", 1, [])]).replace('name="DEEP" length="8">',
-                                                      f'name="DEEP" length="8">{"<Signal>" * 20_000}{"</Signal>" * 20_000}')
+    nested, name = "<Signal>" * 20_000 + "</Signal>" * 20_000, 'name="DEEP" length="8">'
+    text = kcd([DOORS, Frame("DEEP", 1, [])]).replace(name, name + nested)
     database = _loaded_in_time(tmp_path, ".kcd", text)
     assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
     with pytest.raises(ConnectionFailed, match="Message DEEP .* cannot be used: it is nested too deeply"):
         database.message("DEEP")
+
+
+SYM_BAD = "[BAD]\nID=1h\nVar=A foo 0,8\n"
+
+
+@pytest.mark.parametrize("added", [
+    "[A]\nID=0h-1FFFFFFFh\nVar=X unsigned 0,8\n", "[A]\nID = 000000000000h -1FFFFFFFFFFFFFFFh\n",
+    "[A]\nID=0h 01FFFFFFFh\n", "[A]\nID=0h-00FFFFh\nVar=X unsigned 0,8\n",
+    "".join(f"[A]\nMux=P{page} 0,16 0{page:X}h\nVar=X{page} unsigned 16,8\n" for page in range(3000)) + "ID=1h\n",
+    "".join(f"[A]\nID=1h\nMux=P{page} 0,16 0{page:X}h\nVar=X{page} unsigned 16,8\n" for page in range(500))],
+    ids=["range", "digits", "without minus", "half", "pages", "identifiers of pages"])
+@pytest.mark.parametrize("bad", ["", SYM_BAD])
+def test_ranges_and_pages_of_a_sym_message_cost_nothing_else(tmp_path, added, bad):
+    database = _loaded_in_time(tmp_path, ".sym", sym([DOORS]) + added + bad)
+    if "Mux" in added:
+        assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
+    else:
+        # Its identifier is in the range.
+        with pytest.raises(ConnectionFailed, match="message A, .* has the same identifier 0x321 and could not be read"):
+            database.signal(database.message("DOORS"), "LOCK")
+    with pytest.raises(ConnectionFailed, match="Message A .* cannot be used: (its ranges|a message has too many)"):
+        database.message("A")
+
+
+def test_ranges_of_all_sym_messages_together_are_limited(tmp_path):
+    ranges = "".join(f"[A{number}]\nID=00h-0FFFh\nVar=X unsigned 0,8\n" for number in range(50))
+    assert "repeat more than 16384 signals." in _loaded_in_time(tmp_path, ".sym", sym([DOORS]) + ranges)
+
+
+def test_usual_range_and_pages_of_a_sym_file_are_read(tmp_path):
+    pages = "".join(f"[P]\n{'ID=100h-11Fh' if not page else ''}\nMux=M{page} 0,8 0{page:X}h\nVar=X{page} unsigned 8,8\n"
+                    for page in range(100))
+    database = _loaded_in_time(tmp_path, ".sym", sym([DOORS]) + pages)
+    assert len(database.messages) == 33 and database.signal(database.message("DOORS"), "LOCK") == "LOCK"
+
+
+def test_table_that_all_sym_messages_use_is_not_read_once_a_message(tmp_path):
+    table = "{ENUMS}\nEnum=E(" + ",".join(f'{value}="v{value}"' for value in range(8000)) + ")\n{SENDRECEIVE}"
+    messages = "".join(f"[A{number}]\nID=1h\nVar=X unsigned 0,8 /e:E\n" for number in range(200))
+    text = sym([DOORS]).replace("{SENDRECEIVE}", table) + messages + SYM_BAD
+    assert " cannot be read: SYM: " in _loaded_in_time(tmp_path, ".sym", text)

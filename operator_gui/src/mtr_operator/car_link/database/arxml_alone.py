@@ -35,7 +35,8 @@ def arxml_messages(text: str) -> Separated | None:
     if tags["CAN-FRAME-TRIGGERING"] > MAX_MESSAGES:
         return None
     separated = Separated()
-    messages = list(_loader(SystemLoader, separated, _PER_SIGNAL * tags[_SIGNAL] + _BESIDES)(root, False).load().messages)
+    loader = _loader(SystemLoader, separated, _PER_SIGNAL * tags[_SIGNAL] + _BESIDES)
+    messages = list(loader(root, False).load().messages)
     if len(messages) != len(separated.messages) or {*map(id, messages)} != {*map(id, separated.messages)}:
         # Messages were loaded in another way than by the overridden methods.
         return None

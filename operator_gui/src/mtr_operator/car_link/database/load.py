@@ -21,6 +21,7 @@ from .dbc_statements import without_texts
 from .faults import one_line
 from .repeated import contradictions, join_pages
 from .sym_alone import sym_messages
+from .sym_expansion import expansion
 from .sym_text import sym_problems
 
 # Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
@@ -92,6 +93,9 @@ def _parsed_other(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
     """Read another kind than DBC; after a refusal of the library, its messages one by one."""
     suffix, separated = path.suffix.lower(), Separated()
     text = with_kcd_lengths(text) if suffix == _KCD else text
+    if suffix == _SYM and not refusal:
+        repeated = expansion(text).problem()
+        refusal = f"CAN database {path} cannot be read: {repeated}." if repeated else ""
     try:
         messages = _messages(_loaded(path, text, refusal))
     # As of a DBC.

@@ -5,10 +5,11 @@ from __future__ import annotations
 import collections
 import functools
 import re
-from typing import Iterable, Iterator, Mapping, NamedTuple, Sequence
+from typing import Any, Iterable, Iterator, Mapping, NamedTuple, Sequence
 
-from .alone import MAX_MESSAGES, Separated, loaded_alone
+from .alone import MAX_MESSAGES, Separated, loaded_alone, max_characters
 from .car_database import Unread
+from .sym_expansion import IDENTIFIERS, MAX_REPEATED, expansion
 from .sym_text import NAME, PART, SIGNALS, unquoted
 
 _HEAD = re.compile(r"\s*(?://[^\n]*\n\s*)?FormatVersion\s*=\s*6\.0\s*//")
@@ -18,11 +19,8 @@ _FILE = ('FormatVersion=6.0 // Do not edit this line!\nTitle="x"\n\n{{ENUMS}}\n{
 _TABLE = "/e:"
 _ENUMS, _MESSAGES = "{ENUMS}", ("{SEND}", "{RECEIVE}", "{SENDRECEIVE}")
 _DEFINED = {SIGNALS: "Sig", _ENUMS: "Enum"}
-# Characters of all messages with their definitions; more than one may use a definition.
-_MAX_CHARACTERS = 32 * 1024 * 1024
 # Messages and identifiers in a text, also within a string that has no end.
 _BEGINS = re.compile(r"^[ \t]*\[[ \t]*\"?([^\]\"\n]+?)\"?[ \t]*\]", re.MULTILINE)
-_IDENTIFIERS = re.compile(r"\bID\s*=\s*([0-9A-Fa-f]{1,8})h(?:\s*-\s*([0-9A-Fa-f]{1,8})h)?")
 _WORD = re.compile(r"[^\s=(\]-]+")
 
 
@@ -50,17 +48,26 @@ def sym_messages(text: str) -> Separated | None:
         elif piece.key == _DEFINED.get(piece.section):
             known = definitions[piece.section]
             known[piece.name] = known.get(piece.name, "") + piece.text
-    documents, left = [], _MAX_CHARACTERS
+    repeated = 0
+    documents, left = [], max_characters(text)
     for (section, name), own in messages.items():
         document, body = _document(section, own, definitions)
-        documents.append((name, document, body))
+        size = expansion(document)
+        documents.append((name, document, body, size.problem()))
         left -= len(document)
-        if left < 0 or len(documents) > MAX_MESSAGES:
+        repeated += 0 if size.problem() else size.repeated
+        if left < 0 or repeated > MAX_REPEATED or len(documents) > MAX_MESSAGES:
             return None
     found = Separated()
-    for name, document, body in documents:
-        found.add(functools.partial(loaded_alone, document, "sym"), "SYM", _unread(name, body))
+    for name, document, body, problem in documents:
+        found.add(functools.partial(_loaded, document, problem), "SYM", _unread(name, body))
     return found
+
+
+def _loaded(document: str, problem: str) -> list[Any]:
+    if problem:
+        raise ValueError(problem)
+    return loaded_alone(document, "sym")
 
 
 def _document(section: str, pieces: Sequence[_Piece], definitions: Mapping[str, Mapping[str, str]]) -> tuple[str, str]:
@@ -90,5 +97,5 @@ def _pieces(text: str) -> Iterator[_Piece]:
 def _unread(name: str, text: str) -> Iterable[Unread]:
     """All messages that may be in the text of one that cannot be read; each on any of the identifiers."""
     names = dict.fromkeys([name, *_BEGINS.findall(text)])
-    numbers = [range(int(low, 16), int(high or low, 16) + 1) for low, high in _IDENTIFIERS.findall(text)]
+    numbers = [range(int(low, 16), int(high or low, 16) + 1) for low, high in IDENTIFIERS.findall(text)]
     return [Unread(each, number) for each in names for number in numbers or [range(0)]][:MAX_MESSAGES]

@@ -1,0 +1,61 @@
+"""Signals of a SYM database for which the library uses time and memory: all of a message for each identifier."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import collections
+import re
+from typing import NamedTuple, Sequence
+
+from .sym_text import PART, unquoted
+
+# As the library reads them: the second one of two is the end of a range, with any character before it.
+IDENTIFIERS = re.compile(r"ID\s*=\s*-?(\d[0-9A-Fa-f]*)h(?:\s*-?([0-9A-Fa-f]+)h)?")
+# Signals of all messages for each identifier besides the first one.
+MAX_REPEATED = 1 << 14
+# The library creates a codec for each page, and for each it visits all signals. Visits of one message.
+_MAX_VISITS = 1 << 22
+# Digits of an identifier.
+_DIGITS = 8
+
+
+class Expansion(NamedTuple):
+    """Signals that the library repeats, of all messages; visits: of the message with the most of them."""
+
+    repeated: int
+    visits: int
+
+    def problem(self) -> str:
+        """Return what is wrong with a file that would use too much time or memory; empty when it would not."""
+        if self.repeated > MAX_REPEATED:
+            return f"its ranges of identifiers repeat more than {MAX_REPEATED} signals"
+        return "a message has too many pages" if self.visits > _MAX_VISITS else ""
+
+
+def expansion(text: str) -> Expansion:
+    """Return how much the library would make of a file."""
+    # Also of what may be a text or comment, so that no large range is overlooked.
+    largest = max(map(_count, IDENTIFIERS.findall(text)), default=0)
+    if largest > MAX_REPEATED:
+        return Expansion(largest, 0)
+    counts: dict[tuple[str, str], dict[str, int]] = collections.defaultdict(collections.Counter)
+    section, message = "", ""
+    for part in PART.finditer(text):
+        if part["section"]:
+            section, message = part["section"], ""
+        elif part["message"] is not None:
+            message = unquoted(part["message"])
+        elif part["key"]:
+            found = IDENTIFIERS.match(part[0]) if part["key"] == "ID" else None
+            counts[section, message][part["key"]] += 1 if found is None else _count(found.groups(""))
+    messages = [each for (_, name), each in counts.items() if name]
+    signals = [each["Sig"] + each["Var"] + 1 for each in messages]
+    repeated = sum(max(each["ID"] - 1, 0) * size for each, size in zip(messages, signals))
+    return Expansion(repeated, max((each["Mux"] * size for each, size in zip(messages, signals)), default=0))
+
+
+def _count(ends: Sequence[str]) -> int:
+    """Identifiers of a range."""
+    low, high = (each.lstrip("0") for each in ends)
+    if len(high) > _DIGITS or len(low) > _DIGITS:
+        return MAX_REPEATED + 1 if high else 1
+    return max(1, int(high, 16) - int(low or "0", 16) + 1) if high else 1
