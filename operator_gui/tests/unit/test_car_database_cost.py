@@ -112,3 +112,10 @@ def test_table_that_all_sym_messages_use_is_not_read_once_a_message(tmp_path):
     messages = "".join(f"[A{number}]\nID=1h\nVar=X unsigned 0,8 /e:E\n" for number in range(200))
     text = sym([DOORS]).replace("{SENDRECEIVE}", table) + messages + SYM_BAD
     assert " cannot be read: SYM: " in _loaded_in_time(tmp_path, ".sym", text)
+
+
+@pytest.mark.parametrize("line", ["Var=X unsigned 8,8 /max:{}\n", 'Var=X unsigned 8,8 /u:"{}"\n', "Color={}\n"])
+def test_digits_of_a_sym_message_cost_no_other_message(tmp_path, line):
+    text = sym([DOORS]) + "[A]\nID=1h\n" + line.format("1" * 30_000)
+    database = _loaded_in_time(tmp_path, ".sym", text)
+    assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
