@@ -119,3 +119,14 @@ def test_digits_of_a_sym_message_cost_no_other_message(tmp_path, line):
     text = sym([DOORS]) + "[A]\nID=1h\n" + line.format("1" * 30_000)
     database = _loaded_in_time(tmp_path, ".sym", text)
     assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
+
+
+def test_pages_of_a_kcd_message_cost_no_other_message(tmp_path):
+    pages = "".join(f'<MuxGroup count="{page}"><Signal name="S" offset="16" length="8"/></MuxGroup>'
+                    for page in range(6000))
+    text = kcd([DOORS, Frame("A", 1, [])]).replace(
+        'name="A" length="8">', f'name="A" length="8"><Multiplex name="M" offset="0" length="16">{pages}</Multiplex>')
+    database = _loaded_in_time(tmp_path, ".kcd", text)
+    assert database.signal(database.message("DOORS"), "LOCK") == "LOCK"
+    with pytest.raises(ConnectionFailed, match="Message A .* cannot be used: a message has too many pages"):
+        database.message("A")

@@ -18,6 +18,9 @@ from .faults import cause, in_words
 MAX_MESSAGES = 4096
 # Characters of all parts of a file that are read one by one, of each character of the file and besides.
 _PER_CHARACTER, _BESIDES = 2, 512 * 1024
+# The library creates a codec for each page, and for each it visits all signals. Visits of one message.
+MAX_VISITS = 1 << 22
+TOO_MANY_PAGES = "a message has too many pages"
 _MAX_SAID = 300
 # A place in the part of the file that the library reads alone.
 _PLACE = re.compile(r" at line \d+, column \d+")
@@ -74,6 +77,24 @@ def _written(document: ElementTree.Element) -> str:
         return ""
 
 
+def kcd_problem(text: str) -> str:
+    """Return what is wrong with a KCD file that would cost too much time; empty when it would not."""
+    try:
+        root = ElementTree.fromstring(text)
+    except ElementTree.ParseError:
+        # The library says where.
+        return ""
+    is_large = any(_visits(each) > MAX_VISITS for each in root.iterfind("k:Bus/k:Message", _KCD))
+    return TOO_MANY_PAGES if is_large else ""
+
+
+def _visits(message: ElementTree.Element) -> int:
+    """Visits of signals by the library."""
+    multiplexers, groups, signals = (sum(1 for _ in message.iter(f"{{{_KCD['k']}}}{tag}"))
+                                     for tag in ("Multiplex", "MuxGroup", "Signal"))
+    return (multiplexers + groups) * (multiplexers + signals)
+
+
 def max_characters(text: str) -> int:
     """Return how many characters the parts of a file may have, which repeat what several messages need."""
     return _PER_CHARACTER * len(text) + _BESIDES
@@ -83,6 +104,8 @@ def _loaded_kcd(document: str, message: ElementTree.Element) -> list[Any]:
     """The only message of a document. ValueError states a missing attribute, which the library does not name."""
     if not document:
         raise RecursionError
+    if _visits(message) > MAX_VISITS:
+        raise ValueError(TOO_MANY_PAGES)
     if message.get("id") is None:
         raise ValueError("its identifier is missing")
     for signal in (*message.iter(f"{{{_KCD['k']}}}Signal"), *message.iter(f"{{{_KCD['k']}}}Multiplex")):

@@ -12,7 +12,7 @@ import cantools
 from mtr_operator.domain.errors import ConnectionFailed
 
 from ..further.sizes import size_words, too_large
-from .alone import Separated, kcd_messages, with_kcd_lengths
+from .alone import Separated, kcd_messages, kcd_problem, with_kcd_lengths
 from .arxml_alone import arxml_messages
 from .car_database import CarDatabase, Problems
 from .dbc_lines import dbc_messages
@@ -93,9 +93,9 @@ def _parsed_other(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
     """Read another kind than DBC; after a refusal of the library, its messages one by one."""
     suffix, separated = path.suffix.lower(), Separated()
     text = with_kcd_lengths(text) if suffix == _KCD else text
-    if suffix == _SYM and not refusal:
-        repeated = expansion(text).problem()
-        refusal = f"CAN database {path} cannot be read: {repeated}." if repeated else ""
+    if not refusal:
+        problem = kcd_problem(text) if suffix == _KCD else expansion(text).problem() if suffix == _SYM else ""
+        refusal = f"CAN database {path} cannot be read: {problem}." if problem else ""
     try:
         messages = _messages(_loaded(path, text, refusal))
     # As of a DBC.

@@ -6,14 +6,13 @@ import collections
 import re
 from typing import NamedTuple, Sequence
 
+from .alone import MAX_VISITS, TOO_MANY_PAGES
 from .sym_text import PART, unquoted
 
 # As the library reads them: the second one of two is the end of a range, with any character before it.
 IDENTIFIERS = re.compile(r"ID\s*=\s*-?(\d[0-9A-Fa-f]*)h(?:\s*-?([0-9A-Fa-f]+)h)?")
 # Signals of all messages for each identifier besides the first one.
 MAX_REPEATED = 1 << 14
-# The library creates a codec for each page, and for each it visits all signals. Visits of one message.
-_MAX_VISITS = 1 << 22
 # Digits of an identifier.
 _DIGITS = 8
 
@@ -28,7 +27,7 @@ class Expansion(NamedTuple):
         """Return what is wrong with a file that would use too much time or memory; empty when it would not."""
         if self.repeated > MAX_REPEATED:
             return f"its ranges of identifiers repeat more than {MAX_REPEATED} signals"
-        return "a message has too many pages" if self.visits > _MAX_VISITS else ""
+        return TOO_MANY_PAGES if self.visits > MAX_VISITS else ""
 
 
 def expansion(text: str) -> Expansion:
