@@ -8,8 +8,8 @@ import re
 MAX_SIZE = 8 * 4095
 # Digits of a number in a sentence.
 _MAX_DIGITS = 20
-# Where databases of each kind have them: a signal's first bit and bits, a message's bytes. The library's time for digits
-# of a SYM is quadratic, wherever they are.
+# Where databases of each kind have them: a signal's first bit and bits, a message's bytes.
+# The library's time for digits of a SYM is quadratic, wherever they are.
 _SIZES = {
     ".dbc": re.compile(r"(?<!\d)(\d+)\s*\|\s*(\d+)\s*@|\bBO_\s+\d+\s+\w+\s*:\s*(\d+)"),
     ".kcd": re.compile(r"\b(?:offset|length)\s*=\s*[\"']\s*(\d+)"),
