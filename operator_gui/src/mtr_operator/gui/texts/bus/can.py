@@ -57,9 +57,9 @@ SENTENCES = (
                                   "(--can-log-format)."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} holds no frame that is understood: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The CAN log {} holds no frame: {}; read are {}."),
-    QT_TRANSLATE_NOOP("Sentence", "Message {} (id {}) comes only on the bus {}, and the car profile expects it on the bus "
-                                  "of the state. Swap the adapters; in a log, number the channels so that the bus of "
-                                  "the state is channel 0 and the bus {} is channel {}."),
+    QT_TRANSLATE_NOOP("Sentence", "Message {} (id {}) comes only on the bus {}, and the car profile expects it on the "
+                                  "bus of the state. Swap the adapters; in a log, number the channels so that the bus "
+                                  "of the state is channel 0 and the bus {} is channel {}."),
     QT_TRANSLATE_NOOP("Sentence", "Message {} (id {}) comes only on {} of the log, and the car profile expects it on "
                                   "channel 0, because it names further buses (buses). Number the channels of the log "
                                   "so that the bus of the state is channel 0."),
