@@ -55,7 +55,7 @@ def _loader(inherited: Any, separated: Separated, max_signals: int) -> Any:
 
     signals = 0
 
-    class Loader(inherited):  # type: ignore[misc]
+    class Loader(inherited):
         """See above."""
 
         def _load_message(self, bus_name: Any, can_frame_triggering: Any) -> Any:
