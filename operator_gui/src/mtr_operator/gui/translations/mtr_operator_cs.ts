@@ -7545,6 +7545,11 @@
         <source>Message {} (id {}) comes only on {} of the log, and the car profile expects it on channel 0, because it names further buses (buses). Number the channels of the log so that the bus of the state is channel 0.</source>
         <translation>Zpráva {} (id {}) přichází jen na {} záznamu, a profil auta ji čeká na kanálu 0, protože uvádí další sběrnice (buses). Očíslujte kanály záznamu tak, aby sběrnice stavu byla kanál 0.</translation>
     </message>
+    <message>
+        <location filename="../texts/bus/can.py" line="5"/>
+        <source>several messages refer to the same signals too often</source>
+        <translation>několik zpráv odkazuje příliš často na tytéž signály</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>

@@ -63,4 +63,5 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "Message {} (id {}) comes only on {} of the log, and the car profile expects it on "
                                   "channel 0, because it names further buses (buses). Number the channels of the log "
                                   "so that the bus of the state is channel 0."),
+    QT_TRANSLATE_NOOP("Sentence", "several messages refer to the same signals too often"),
 )
