@@ -118,6 +118,20 @@ def test_record_of_an_mf4_keeps_the_frame(is_fd, length):
         1.5, 0x18FEF100, True, is_fd, 3, data)
 
 
+def test_time_limit_of_an_mf4_does_not_include_who_reads_slowly(tmp_path, monkeypatch):
+    order, stdout = [], mock.Mock()
+    stdout.buffer.write.side_effect = lambda data: order.append(len(data) // mf4_frames.RECORD.size)
+    watch = mock.Mock(dump_traceback_later=lambda *_, **__: order.append("begin"),
+                      cancel_dump_traceback_later=lambda: order.append("end"))
+    frames = [can.Message(timestamp=number, arbitration_id=1, data=b"1") for number in range(5)]
+    monkeypatch.setattr(can, "MF4Reader", lambda _: iter(frames))
+    for name, value in (("_bound_memory", lambda _: None), ("faulthandler", watch), ("_FRAMES_PER_CHECK", 2)):
+        monkeypatch.setattr(mf4_frames, name, value)
+    monkeypatch.setattr("sys.stdout", stdout)
+    assert mf4_frames.main(str(mf4(tmp_path))) == 0
+    assert order == ["begin", "end", 2, "begin", "end", 2, "begin", "end", 1]
+
+
 class Reader:
     """In place of python-can's: frames, and then the error of a damaged log."""
 

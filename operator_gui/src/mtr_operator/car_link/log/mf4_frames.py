@@ -17,10 +17,10 @@ import can
 # than CAN FD has is refused by the reader of logs.
 RECORD = struct.Struct("<dI??iB255s")
 FAILED = 3
-# The package loads a log before its first frame; a log of 1 GB takes half a minute.
+# Time limit for the package to return the next frames; it loads a log of 1 GB in half a minute.
 _PATIENCE_S, _FRAMES_PER_CHECK = 300.0, 10_000
-# Of address space: the package needs 1 GB, and several copies of what it loads.
-_MEMORY_BYTES, _MEMORY_PER_BYTE = 4 * 1024 ** 3, 16
+# Address space beyond that of the loaded packages: the package makes several copies of a log.
+_MEMORY_BYTES, _MEMORY_PER_BYTE = 2 * 1024 ** 3, 16
 
 
 def message(record: bytes) -> can.Message:
@@ -33,30 +33,45 @@ def message(record: bytes) -> can.Message:
 def main(path: str) -> int:
     """Write all frames; the exit status is FAILED when the package raises, whatever it is."""
     _bound_memory(_MEMORY_BYTES + _MEMORY_PER_BYTE * os.path.getsize(path))
+    records: list[bytes] = []
+    # The limit does not include the time of writing: a log may be played at the speed of its bus.
+    faulthandler.dump_traceback_later(_PATIENCE_S, exit=True)
     try:
-        for number, frame in enumerate(can.MF4Reader(path)):
-            if number % _FRAMES_PER_CHECK == 0:
-                faulthandler.dump_traceback_later(_PATIENCE_S, exit=True)
+        for frame in can.MF4Reader(path):
             if not (frame.is_error_frame or frame.is_remote_frame):
-                channel = frame.channel if isinstance(frame.channel, int) else 0
-                data = bytes(frame.data)
-                sys.stdout.buffer.write(RECORD.pack(frame.timestamp, frame.arbitration_id, frame.is_extended_id,
-                                                    frame.is_fd, channel, len(data), data))
+                records.append(_record(frame))
+            if len(records) >= _FRAMES_PER_CHECK:
+                _write(records)
+                faulthandler.dump_traceback_later(_PATIENCE_S, exit=True)
     # It depends on the damage what the package raises.
     except Exception:
         return FAILED
     finally:
-        sys.stdout.buffer.flush()
+        _write(records)
     return 0
 
 
-def _bound_memory(limit_bytes: int) -> None:
-    # Windows has no such limits.
-    with contextlib.suppress(ImportError):
+def _record(frame: can.Message) -> bytes:
+    channel = frame.channel if isinstance(frame.channel, int) else 0
+    return RECORD.pack(frame.timestamp, frame.arbitration_id, frame.is_extended_id, frame.is_fd, channel,
+                       len(frame.data), bytes(frame.data))
+
+
+def _write(records: list[bytes]) -> None:
+    faulthandler.cancel_dump_traceback_later()
+    sys.stdout.buffer.write(b"".join(records))
+    sys.stdout.buffer.flush()
+    records.clear()
+
+
+def _bound_memory(more_bytes: int) -> None:
+    # Only Linux states the present size in this file; other systems read without a limit.
+    with contextlib.suppress(ImportError, OSError):
         import resource
+        with open("/proc/self/statm", encoding="ascii") as file:
+            limit_bytes = int(file.read().split()[0]) * resource.getpagesize() + more_bytes
         resource.setrlimit(resource.RLIMIT_AS, (limit_bytes, limit_bytes))
 
 
 if __name__ == "__main__":
-    faulthandler.dump_traceback_later(_PATIENCE_S, exit=True)
     sys.exit(main(sys.argv[1]))
