@@ -115,7 +115,7 @@ def test_unreadable_message_on_the_identifier_of_the_message_is_refused(tmp_path
 
 def test_bus_of_an_unreadable_message_counts(tmp_path):
     text = kcd([DOORS], [SPEED._replace(identifier=0x321)]).replace('length="16"', 'length="x"')
-    load_profile(written(tmp_path, ".kcd", text))
+    assert load_profile(written(tmp_path, ".kcd", text)).message.name == "DOORS"
 
 
 SYM = """FormatVersion=6.0 // Do not edit this line!

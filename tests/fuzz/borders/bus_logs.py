@@ -30,16 +30,21 @@ def prepare(folder: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
         kind = chance.choice(KINDS)
         path = folder / f"case.{kind}"
         path.write_bytes(spoilt(chance, kind, whole))
-        count = 0
-        try:
-            for frame in ReadLog(path):
-                count += 1
-                if not (math.isfinite(frame.time_s) and 0 <= frame.can_id < 2 ** 29 and len(frame.data) <= 64):
-                    return "taken", f"{kind}: {frame}"
-        except ConnectionFailed as error:
-            return "refused", "" if str(error).endswith(".") else str(error)
-        return "taken", "" if count else f"{kind}: no frame and no sentence"
+        return outcome(path)
     return case
+
+
+def outcome(path: pathlib.Path) -> Tuple[str, str]:
+    """Result of a case: what became of a log, and why that cannot be."""
+    count = 0
+    try:
+        for frame in ReadLog(path):
+            count += 1
+            if not (math.isfinite(frame.time_s) and 0 <= frame.can_id < 2 ** 29 and len(frame.data) <= 64):
+                return "taken", f"{path.name}: {frame}"
+    except ConnectionFailed as error:
+        return "refused", "" if str(error).endswith(".") else str(error)
+    return "taken", "" if count else f"{path.name}: no frame and no sentence"
 
 
 def spoilt(chance: random.Random, kind: str, whole: Dict[str, bytes]) -> bytes:

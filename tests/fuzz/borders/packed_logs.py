@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 import gzip
 import importlib.util
-import math
 import pathlib
 import random
 import warnings
@@ -10,10 +9,7 @@ from typing import Callable, Tuple
 
 from spoiling import spoilt_bytes, spoilt_text
 
-from mtr_operator.car_link.log.read_log import ReadLog
-from mtr_operator.domain.errors import ConnectionFailed
-
-from .bus_logs import TEXTS, whole_log
+from .bus_logs import TEXTS, outcome, whole_log
 
 MF4 = "mf4"
 
@@ -29,15 +25,7 @@ def prepare(folder: pathlib.Path) -> Callable[[random.Random], Tuple[str, str]]:
         kind = chance.choice(sorted(whole))
         path = folder / (f"case.{kind}" if kind == MF4 else f"case.{kind}.gz")
         path.write_bytes(spoilt_bytes(chance, whole[kind]) if kind == MF4 else _packed(chance, whole[kind]))
-        count = 0
-        try:
-            for frame in ReadLog(path):
-                count += 1
-                if not (math.isfinite(frame.time_s) and 0 <= frame.can_id < 2 ** 29 and len(frame.data) <= 64):
-                    return "taken", f"{kind}: {frame}"
-        except ConnectionFailed as error:
-            return "refused", "" if str(error).endswith(".") else str(error)
-        return "taken", "" if count else f"{kind}: no frame and no sentence"
+        return outcome(path)
     return case
 
 
