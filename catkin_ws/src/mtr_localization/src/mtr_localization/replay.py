@@ -57,13 +57,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 class Conversion(NamedTuple):
-    """What a bag became.
+    """Result of converting a bag of another robot.
 
     Attributes:
         topics: of the bag.
-        parameters: of localization, that follow from what the bag lacks.
-        remarks: sentences on what the bag was taken for.
-        comparison: lines on what its sensors show of each other.
+        parameters: parameters of localization that replace missing inputs.
+        remarks: sentences on the inputs that were found.
+        comparison: lines that compare its sensors with each other.
         faults: sentences on inputs that cannot be used.
     """
 

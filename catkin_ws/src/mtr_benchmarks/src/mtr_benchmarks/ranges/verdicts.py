@@ -68,13 +68,16 @@ class LimitDraw(NamedTuple):
 
 
 class Judged(NamedTuple):
-    """Of one line at its limit.
+    """Outcome for one line whose limit is its true distance.
 
     Attributes:
-        verdict: its word; FAIL_BY_HOLE for a fail in whose holes presses truly fail more often than not, which is right
-            although the boundary keeps the limit.
-        looks: at the line. holds: the recorded 95 % interval holds the truth; None without one.
-        judged_holds: the interval by which the last look judges does. half_m: of the 95 % interval. presses: in all.
+        verdict: pass, fail or inconclusive; FAIL_BY_HOLE for a fail at holes where a press truly works with less than
+            50 %. Such a fail is right although the boundary keeps the limit.
+        looks: number of looks at the line.
+        holds: whether the recorded 95 % interval contains the truth; None without an interval.
+        judged_holds: the same for the interval of the last look.
+        half_m: half width of the 95 % interval in m.
+        presses: number of all presses.
     """
 
     verdict: str
@@ -107,7 +110,7 @@ def at_the_limit(draw: LimitDraw) -> List[Judged]:
 
 
 def verdict_of(word: str, result: SearchedResult, radial: Any) -> str:
-    """FAIL_BY_HOLE for a fail whose holes are true ones, else its word; radial: with works(distance_m)."""
+    """Return FAIL_BY_HOLE if the radial truly works with less than 50 % at all holes of a fail, else the word."""
     holes_m = result.holes_nearer_than(radial.d50_m)
     is_by_hole = word == "fail" and holes_m and all(radial.works(hole_m) < 0.5 for hole_m in holes_m)
     return FAIL_BY_HOLE if is_by_hole else word

@@ -38,13 +38,13 @@ EVERY = 500
 
 
 class Found(NamedTuple):
-    """What the bag is taken for.
+    """Inputs that were found in the bag.
 
     Attributes:
         base: the robot's frame; odometry_frame: parent of its odometry.
         mounts: topics with scans -> (frame, base_from_lidar).
-        parameters: of localization, that follow from what is missing.
-        said: sentences for the person.
+        parameters: parameters of localization that replace missing inputs.
+        said: sentences for the user.
         delays: of the odometry.
         faults: sentences on inputs that cannot be used; other advice would mislead.
     """
@@ -122,7 +122,7 @@ def _scan_frame(bag: rosbag.Bag, topic: str) -> str:
 def _samples(bag: rosbag.Bag, odometry: str, base: str, delays: Delays) -> List[Sample]:
     poses = list(_poses(bag, odometry, base, delays))
     if not poses:
-        raise BagUnusable(f"There is no odometry of {base} in the bag; name its topic by --odometry, or the robot's "
+        raise BagUnusable(f"The bag contains no odometry of {base}; give its topic by --odometry, or the robot's "
                           "frame by --base-frame.")
     samples = samples_of(poses)
     if len(samples) < 2:
@@ -218,7 +218,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
 
 
 def _check(scans: List[ScanCheck], imu: Optional[ImuCheck], found: Found, asked: Asked) -> None:
-    """Add to the faults; BagUnusable when no pose could rely on the inputs."""
+    """Compare the inputs with each other and extend the faults; BagUnusable when no pose can rely on the inputs."""
     clock = OdometryClock(TRANSFORMS if found.odometry == TF else found.odometry, found.samples, found.delays)
     if imu is not None:
         check_odometry(scans, imu, clock)

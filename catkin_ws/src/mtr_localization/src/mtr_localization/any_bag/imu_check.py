@@ -12,9 +12,9 @@ from .turn_lag import Rates, rates_of, turn_lag
 REMEDY = "or replay with --imu none"
 # Offsets that are searched: the gyro measures turns so well that even large ones are found.
 MAX_LAG_S = 30.0
-# Shorter gaps are those of a slow IMU, see replay_faults.py; below the share they cost some poses only.
+# A gap is a fault from this length on; a slow IMU has shorter ones. Share of the recording that gaps may cover.
 MIN_GAP_S, MAX_MISSING = 1.0, 0.05
-# Rates at which the robot turns; a gyro that repeats one value shows another one by so much.
+# Least turn rate in rad/s. A frozen gyro differs from the odometry by as much, and by this share of its rate.
 TURNS_RADPS, DIFFERS = 0.1, 0.3
 REPEATS, MAX_FROZEN = 10, 0.1
 # A gyro in degrees per second shows 57.3 times the turn.

@@ -14,7 +14,7 @@ NONE = "none"
 
 @dataclass(frozen=True)
 class Asked:
-    """What the person named, None for what is to be found.
+    """Topics, frames and times that the user gave; None for those that are found in the bag.
 
     Attributes:
         front_scan, rear_scan, odometry, imu: topics; odometry may be TF, rear_scan and imu NONE.

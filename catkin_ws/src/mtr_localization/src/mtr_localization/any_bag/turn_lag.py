@@ -10,9 +10,9 @@ from .motion import Sweep
 
 # Offsets that are searched, and their step.
 MAX_LAG_S, STEP_S = 6.0, 0.05
-# Smaller offsets are those of drivers and networks, and within the accuracy of the method.
+# Drivers and networks cause smaller offsets, and the method is not more accurate.
 MIN_LAG_S = 0.3
-# Both rates must vary by so much, and be compared for so long and for this share of the shorter one.
+# Least standard deviation of both rates, least common time, and its least share of the shorter recording.
 MIN_RATE_RADPS, MIN_OVERLAP_S, MIN_OVERLAP = 0.05, 10.0, 0.5
 # Correlation at the offset; and the factor by which the unexplained variance is larger without the offset.
 MIN_CORRELATION, MIN_GAIN = 0.7, 2.0
@@ -83,7 +83,8 @@ def _resampled(rates: Rates, grid_s: FloatArray) -> FloatArray:
 
 
 def _correlation(ours: FloatArray, theirs: FloatArray, step: int, needed: float) -> float:
-    """Of both for the other's stamps late by so many steps; NaN for fewer common samples than needed, or no turn."""
+    """Correlation of both rates when the other's stamps are late by a number of steps; NaN with fewer common samples
+    than needed, or without a turn."""
     if abs(step) >= len(ours):
         return float("nan")
     one = ours[max(0, -step):len(ours) - max(0, step)]
