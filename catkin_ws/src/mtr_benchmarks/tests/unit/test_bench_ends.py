@@ -12,20 +12,21 @@ import pytest
 from mtr_benchmarks.harness.own_process import OwnProcessError, in_own_process
 
 LIMIT_S = 30.0
-# Instead of roslaunch: it is reachable like a robot, and says how it was ended.
+# Instead of roslaunch: it is reachable like a robot, and leaves a file when it was ended in order.
+# Both programs sleep in steps: a signal that arrives just before pause(2) is only handled after the next one.
 ROBOT = """#!{python}
-import pathlib, signal, socket, sys
+import pathlib, signal, socket, sys, time
 arguments = dict(each.split(":=", 1) for each in sys.argv if ":=" in each)
 folder = pathlib.Path(arguments["truth_dir"])
 ports = [socket.create_server(("127.0.0.1", int(arguments[name]))) for name in ("status_port", "command_port")]
 signal.signal(signal.SIGINT, lambda *_: sys.exit((folder / "ended").write_text("in order")))
 (folder / "can").touch()
 while True:
-    signal.pause()
+    time.sleep(0.05)
 """
 # What needs a robot: in this process, as the soak, or in one of its own, as the matrix.
 BENCHMARK = """
-import contextlib, os, pathlib, signal, sys
+import contextlib, os, pathlib, sys, time
 from mtr_benchmarks.harness.own_process import end_in_order, in_own_process
 from mtr_bringup.stack import Stack, StackOptions
 
@@ -36,7 +37,7 @@ def work(folder):
         (folder / "begun.part").write_text(str(os.getpid()))
         (folder / "begun.part").rename(folder / "begun")
         while True:
-            signal.pause()
+            time.sleep(0.05)
 
 if __name__ == "__main__":
     end_in_order()
