@@ -1,14 +1,14 @@
-"""What a zone will take, before it is started and while others are measured: presses, and its coverage's interval.
+"""Forecast of a zone before and during its measurement: presses, and the interval of its coverage ratio.
 
-Each press is taken to tell as much of the coverage as the others, beside what the prior knows of it:
+Each press is assumed to contribute equally, in addition to the prior:
 
     1 / half_width^2 = 1 / BEFORE^2 + presses / spread
 
-BEFORE: half the width of the 95 % interval of a part of which nothing is known. The spreads are such that 24 presses
-give the medians of docs/accuracy.md for fields that fall from 90 to 10 % within 0.5, 2 and 4 m. On eleven other such
-fields (seeds 101 to 104) the medians after 6 to 24 presses were within 10 % of it; after 64 a sharp field told more
-(0.05 instead of 0.08), a soft one less (0.13 instead of 0.11). Zones that were measured before tell of their neighbours
-as well: then it takes fewer presses, not more.
+BEFORE is half the width of the 95 % interval of an unmeasured part. With the spreads, 24 presses yield the medians of
+docs/lab-notebook/accuracy.md for fields that fall from 90 to 10 % within 0.5, 2 and 4 m. On eleven other such fields
+(seeds 101 to 104) the medians after 6 to 24 presses were within 10 % of the formula. After 64 presses the interval of a
+sharp field was narrower (0.05 instead of 0.08), and of a soft field wider (0.13 instead of 0.11). A zone with measured
+neighbours needs fewer presses, not more.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
