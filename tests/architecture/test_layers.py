@@ -2,9 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 import ast
 import pathlib
-from typing import Iterator
+from typing import AbstractSet, Dict, Iterable, Iterator, List
 
-import pytest
 from project import TOP, imports, package_folder
 
 PACKAGES = TOP / "catkin_ws" / "src"
@@ -41,9 +40,22 @@ def operator_files(folder: pathlib.Path = OPERATOR) -> Iterator[pathlib.Path]:
     yield from sorted(folder.rglob("*.py"))
 
 
-def ids(path: pathlib.Path) -> str:
-    """Path within the project."""
-    return str(path.relative_to(TOP)) if path.is_relative_to(TOP) else str(path)
+def except_within(folder: str, files: Iterable[pathlib.Path]) -> List[pathlib.Path]:
+    """Files that are not below a folder of this name."""
+    return [path for path in files if folder not in path.parts]
+
+
+def core(files: Iterable[pathlib.Path]) -> List[pathlib.Path]:
+    """Files of a robot package without the shell that may import ROS."""
+    return [path for path in files if path.name not in SHELL]
+
+
+def violations(files: Iterable[pathlib.Path], forbidden: AbstractSet[str]) -> Dict[str, List[str]]:
+    """Forbidden imports of each file that has some, by its path in the project; there must be files."""
+    files = list(files)
+    assert files, "The rule applies to no file."
+    found = {str(path.relative_to(TOP)): sorted(imports(path) & forbidden) for path in files}
+    return {path: names for path, names in found.items() if names}
 
 
 def test_there_are_files_to_look_at():
@@ -51,9 +63,8 @@ def test_there_are_files_to_look_at():
     assert len(list(operator_files())) > 10
 
 
-@pytest.mark.parametrize("path", [path for path in robot_files() if path.name not in SHELL], ids=ids)
-def test_robot_core_imports_no_ros(path):
-    assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
+def test_robot_core_imports_no_ros():
+    assert violations(core(robot_files()), ROS | ROS_MESSAGES | ROS_OF_CORE) == {}
 
 
 def preflight_files() -> Iterator[pathlib.Path]:
@@ -88,57 +99,48 @@ def graph_watch_files() -> Iterator[pathlib.Path]:
     yield from (path for path in sorted(files) if path.name != "node.py")
 
 
-@pytest.mark.parametrize("path", [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files(),
-                                  *graph_watch_files()],
-                         ids=ids)
-def test_checks_calibration_and_recording_import_no_ros(path):
-    assert not imports(path) & (ROS | ROS_MESSAGES | ROS_OF_CORE)
+def test_checks_calibration_and_recording_import_no_ros():
+    files = [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files(), *graph_watch_files()]
+    assert violations(files, ROS | ROS_MESSAGES | ROS_OF_CORE) == {}
 
 
-@pytest.mark.parametrize("path", list(robot_files()), ids=ids)
-def test_robot_imports_nothing_of_the_operator(path):
-    assert not imports(path) & (QT | {"mtr_operator"})
+def test_robot_imports_nothing_of_the_operator():
+    assert violations(robot_files(), QT | {"mtr_operator"}) == {}
 
 
-@pytest.mark.parametrize("path", [path for path in robot_files() if "mtr_core" in path.parts
-                                  and path.name not in SHELL], ids=ids)
-def test_shared_core_imports_neither_ros_nor_sockets(path):
-    assert not imports(path) & (ROS | ROS_MESSAGES | SOCKETS | CAN | QT)
+def test_shared_core_imports_neither_ros_nor_sockets():
+    shared = [path for path in core(robot_files()) if "mtr_core" in path.parts]
+    assert violations(shared, ROS | ROS_MESSAGES | SOCKETS | CAN | QT) == {}
 
 
-@pytest.mark.parametrize("path", list(operator_files()), ids=ids)
-def test_operator_imports_no_ros(path):
-    assert not imports(path) & (ROS | ROS_MESSAGES | OWN_ROBOT)
+def test_operator_imports_no_ros():
+    assert violations(operator_files(), ROS | ROS_MESSAGES | OWN_ROBOT) == {}
 
 
-@pytest.mark.parametrize("path", list(operator_files(OPERATOR / "domain")), ids=ids)
-def test_domain_is_pure(path):
-    assert not imports(path) & (QT | SOCKETS | CAN | {"yaml", "tqdm", "matplotlib", "mtr_proto", "google"})
+def test_domain_is_pure():
+    forbidden = QT | SOCKETS | CAN | {"yaml", "tqdm", "matplotlib", "mtr_proto", "google"}
+    assert violations(operator_files(OPERATOR / "domain"), forbidden) == {}
 
 
-@pytest.mark.parametrize("path", [path for path in operator_files() if "gui" not in path.parts], ids=ids)
-def test_only_the_gui_imports_qt(path):
-    assert not imports(path) & QT
+def test_only_the_gui_imports_qt():
+    assert violations(except_within("gui", operator_files()), QT) == {}
 
 
-@pytest.mark.parametrize("path", [path for path in operator_files() if "robot_link" not in path.parts], ids=ids)
-def test_only_the_robot_link_speaks_zeromq_and_protobuf(path):
-    assert not imports(path) & {"zmq", "mtr_proto", "google"}
+def test_only_the_robot_link_speaks_zeromq_and_protobuf():
+    assert violations(except_within("robot_link", operator_files()), {"zmq", "mtr_proto", "google"}) == {}
 
 
-@pytest.mark.parametrize("path", [path for path in operator_files() if "car_link" not in path.parts], ids=ids)
-def test_only_the_car_link_speaks_can(path):
-    assert not imports(path) & CAN
+def test_only_the_car_link_speaks_can():
+    assert violations(except_within("car_link", operator_files()), CAN) == {}
 
 
 # Writes Parquet where the store's package is there, and says so where it is not.
 PARQUET = "parquet.py"
 
 
-@pytest.mark.parametrize("path", list(operator_files()), ids=ids)
-def test_the_application_works_without_the_store_of_results(path):
-    engine = set() if path.name == PARQUET else {"duckdb"}
-    assert not imports(path) & ({"mtr_results", "mtr_campaign", "sqlalchemy", "alembic"} | engine)
+def test_the_application_works_without_the_store_of_results():
+    assert violations(operator_files(), {"mtr_results", "mtr_campaign", "sqlalchemy", "alembic"}) == {}
+    assert violations([path for path in operator_files() if path.name != PARQUET], {"duckdb"}) == {}
 
 
 def test_parquet_is_imported_only_when_it_is_written():
@@ -152,26 +154,24 @@ def test_parquet_is_imported_only_when_it_is_written():
 LIVE = {f"mtr_operator.{folder}" for folder in ("robot_link", "car_link", "station", "gui", "doctor")}
 
 
-@pytest.mark.parametrize("path", list(operator_files(RESULTS)), ids=ids)
-def test_the_store_of_results_knows_neither_ros_nor_qt_nor_links(path):
-    found = imports(path)
-    assert not found & (ROS | ROS_MESSAGES | OWN_ROBOT | QT | CAN | {"zmq", "serial", "mtr_proto"})
-    assert not {name for name in found for folder in LIVE if name == folder or name.startswith(f"{folder}.")}
+def test_the_store_of_results_knows_neither_ros_nor_qt_nor_links():
+    live = {name for path in operator_files(RESULTS) for name in imports(path)
+            for folder in LIVE if name == folder or name.startswith(f"{folder}.")}
+    forbidden = ROS | ROS_MESSAGES | OWN_ROBOT | QT | CAN | {"zmq", "serial", "mtr_proto"} | live
+    assert violations(operator_files(RESULTS), forbidden) == {}
 
 
-@pytest.mark.parametrize("path", list(operator_files(RESULTS)), ids=ids)
-def test_the_store_of_results_works_without_campaigns(path):
-    assert not imports(path) & {"mtr_campaign", "dask", "distributed", "optuna", "SALib"}
+def test_the_store_of_results_works_without_campaigns():
+    assert violations(operator_files(RESULTS), {"mtr_campaign", "dask", "distributed", "optuna", "SALib"}) == {}
 
 
-@pytest.mark.parametrize("path", list(operator_files(CAMPAIGN)), ids=ids)
-def test_campaigns_know_neither_ros_nor_qt_nor_sockets(path):
-    assert not imports(path) & (ROS | ROS_MESSAGES | QT | CAN | SOCKETS | {"mtr_proto"})
+def test_campaigns_know_neither_ros_nor_qt_nor_sockets():
+    assert violations(operator_files(CAMPAIGN), ROS | ROS_MESSAGES | QT | CAN | SOCKETS | {"mtr_proto"}) == {}
 
 
-@pytest.mark.parametrize("path", [path for path in operator_files(CAMPAIGN) if "kernels" not in path.parts], ids=ids)
-def test_only_kernels_know_the_simulation(path):
-    assert not imports(path) & {"mtr_simulation", "mtr_core", "mtr_bringup"}
+def test_only_kernels_know_the_simulation():
+    outside = except_within("kernels", operator_files(CAMPAIGN))
+    assert violations(outside, {"mtr_simulation", "mtr_core", "mtr_bringup"}) == {}
 
 
 def without_databases() -> Iterator[pathlib.Path]:
@@ -180,9 +180,8 @@ def without_databases() -> Iterator[pathlib.Path]:
                 if not {"model", "store", "migrations"} & set(path.parts) and path.name != "export.py")
 
 
-@pytest.mark.parametrize("path", list(without_databases()), ids=ids)
-def test_only_model_and_store_speak_to_databases(path):
-    assert not imports(path) & {"sqlalchemy", "alembic", "duckdb"}
+def test_only_model_and_store_speak_to_databases():
+    assert violations(without_databases(), {"sqlalchemy", "alembic", "duckdb"}) == {}
 
 
 def test_messages_and_proto_depend_on_nothing_local():
