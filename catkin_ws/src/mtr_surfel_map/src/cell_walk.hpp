@@ -1,5 +1,5 @@
 /// @file
-/// Walks the cells of a grid along a line.
+/// Grid traversal along a line.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace mtr_surfel_map {
 
-/// Calls visit(Eigen::Vector2i) for each cell that the line meets, in order; `from` and `to` are in units of cells.
+/// Calls visit(Eigen::Vector2i) for each cell on the line, in order; `from` and `to` are in units of cells.
 ///
 /// J. Amanatides and A. Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987.
 template <typename Visit>
@@ -27,7 +27,7 @@ void walk_cells(const Eigen::Vector2d& from, const Eigen::Vector2d& to, Visit vi
     next[axis] = line[axis] == 0.0 ? stride[axis] : (border - from[axis]) / line[axis];
   }
   visit(cell);
-  // The count bounds the walk against rounding at the last cell's corner.
+  // The number of steps is fixed beforehand, so that rounding at a corner of the last cell cannot extend the walk.
   for (int left = (last - cell).cwiseAbs().sum(); left > 0; --left) {
     const int axis = next[0] < next[1] ? 0 : 1;
     cell[axis] += step[axis];

@@ -1,5 +1,5 @@
 /// @file
-/// Cells of points, and the line through each cell's neighbourhood.
+/// Point cells and the line fit through the neighbourhood of each cell.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_surfel_map/growing_map.hpp"
 
@@ -13,12 +13,12 @@ namespace mtr_surfel_map {
 namespace {
 
 constexpr double kCellM = 0.05;
-// Cells on either side that tell the direction of the surface: 0.1 m, less than a car's rounded corner.
+// Neighbouring cells on either side for the direction of a surface: 0.1 m, less than the rounded corner of a car.
 constexpr int kNeighbours = 2;
 constexpr int kMinCells = 4;
-// Narrower than this share of its length, squared, a neighbourhood is a line.
+// A neighbourhood is a line if its variance ratio (across over along) is below this limit.
 constexpr double kFlatness = 0.15;
-// Sigma of a mean of some beams, and of the pose that they were seen from.
+// 1 sigma of the mean of a few beams, including the pose error.
 constexpr double kSigmaM = 0.01;
 
 std::int64_t key_of(int x, int y) {
@@ -97,7 +97,7 @@ Surfel GrowingMap::surfel_of(const Cell& cell) const {
   }
   mean /= hits;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(square / hits - mean * mean.transpose());
-  // Round a corner, or a post, there is no line: such a cell holds the range of what sees it and nothing else.
+  // At a corner or a post, a line does not fit: the surfel then faces the viewer and constrains the range only.
   const bool is_line = cells >= kMinCells && axes.eigenvalues()[0] < kFlatness * axes.eigenvalues()[1];
   const Eigen::Vector2d towards_viewer = -cell.seen_along.normalized();
   Eigen::Vector2d normal = is_line ? Eigen::Vector2d(axes.eigenvectors().col(0)) : towards_viewer;

@@ -1,5 +1,5 @@
 /// @file
-/// CSV, PGM and YAML.
+/// CSV, PGM and YAML output.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_surfel_map/map_files.hpp"
 
@@ -11,7 +11,7 @@
 namespace mtr_surfel_map {
 namespace {
 
-// Shades of map_server: occupied is black, free is nearly white, unknown in between.
+// Grey levels of map_server: occupied is black, free is nearly white, unknown is between them.
 constexpr char kBlack = 0;
 constexpr char kWhite = static_cast<char>(254);
 constexpr char kGrey = static_cast<char>(205);
@@ -71,7 +71,7 @@ void write_grid(const OccupancyGrid& grid, const std::string& folder) {
   const std::string image_path = folder + "/map.pgm";
   std::ofstream image = open(image_path);
   image << "P5\n" << grid.size.x() << ' ' << grid.size.y() << "\n255\n";
-  // An image begins with its upper row, the grid with its lower one.
+  // Image rows start at the top, grid rows at the bottom.
   for (int row = grid.size.y() - 1; row >= 0; --row) {
     for (int column = 0; column < grid.size.x(); ++column) {
       image.put(shade_of(grid.cells[static_cast<std::size_t>(row) * grid.size.x() + column]));

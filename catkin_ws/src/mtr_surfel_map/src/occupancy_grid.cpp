@@ -13,13 +13,13 @@ namespace mtr_surfel_map {
 namespace {
 
 constexpr double kMarginM = 0.5;
-// A stray return far away must not exhaust the memory.
+// Longer ranges are ignored: a stray return far away must not exhaust the memory.
 constexpr double kMaxM = 60.0;
 constexpr int kMinHits = 2;
-// Some beams pass beside a surface at rest: its cell is wider than it.
+// A stationary surface is narrower than its cell, so some beams pass through the cell without a hit.
 constexpr double kHitShare = 0.25;
 
-/// A beam in map.
+/// Beam from the LiDAR to its return, in map.
 struct Beam {
   Eigen::Vector2d from;
   Eigen::Vector2d to;

@@ -1,5 +1,5 @@
 /// @file
-/// Why there is no map, for the Operator; a test reads this table too.
+/// Messages to the Operator about a failed map; a contract test reads this table, too.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

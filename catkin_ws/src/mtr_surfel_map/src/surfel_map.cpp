@@ -1,5 +1,5 @@
 /// @file
-/// Grid over surface elements.
+/// Grid index of surface elements.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_surfel_map/surfel_map.hpp"
 
@@ -12,15 +12,16 @@
 namespace mtr_surfel_map {
 namespace {
 
-// About the length of a surfel, so that one lies in few cells and a cell holds few.
+// About the length of a surfel, so that a surfel is in few cells and a cell lists few surfels.
 constexpr double kCellM = 0.25;
-// Cells along one side at most: a stray surfel far away must not exhaust the memory.
+// Largest number of cells per side: a stray surfel far away must not exhaust the memory.
 constexpr double kMaxCells = 1500.0;
-// A beam that meets the surface at more than 84 degrees from the normal says nothing about it.
+// A beam at more than 84 degrees from the normal does not measure the surface.
 constexpr double kGrazing = 0.1;
-// Beside its ends a surface goes on: neighbours leave gaps of this size between them.
+// Neighbouring surfels of one surface leave gaps of this size, so a surfel also matches beyond its ends.
 constexpr double kGapM = 0.02;
-// This part of half the length counts as the middle: a line of sight passes an edge unhindered.
+// The middle part of a surfel, as a share of its length: a line of sight that passes an edge does not cross the
+// surface.
 constexpr double kMiddle = 0.6;
 
 Eigen::Vector2d along(const Surfel& surfel) { return {-surfel.normal.y(), surfel.normal.x()}; }
@@ -95,7 +96,7 @@ std::optional<SurfelMatch> SurfelMap::match(const Eigen::Vector2d& point, double
   }
   const Eigen::Array2d radius = Eigen::Array2d::Constant(max_distance_m / cell_m_);
   const Eigen::Array2d middle = in_cells(point).array();
-  // Limited before the conversion: a point far away must not overflow it.
+  // Clamp before the conversion: the cell index of a point far away would overflow.
   const Eigen::Vector2i low = (middle - radius).max(0.0).min(size_.array().cast<double>()).floor().cast<int>();
   const Eigen::Vector2i high = (middle + radius).min(size_.array().cast<double>() - 1.0).max(-1.0).floor().cast<int>();
   std::optional<SurfelMatch> best;

@@ -1,5 +1,5 @@
 /// @file
-/// Surfaces as seen so far, while the robot drives round and maps.
+/// Incremental map of the surfaces seen so far during the mapping drive.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,15 +12,16 @@
 
 namespace mtr_surfel_map {
 
-/// Points of key frames in square cells, and surfels made of neighbouring cells. Good enough to track against for one
-/// way round the Car; the adjusted map takes its place.
+/// Points of key frames in square cells, and surfels fitted to neighbouring cells. It is accurate enough for tracking
+/// during one drive round the Car; the adjusted map replaces it.
 class GrowingMap {
  public:
   void clear();
   void insert(const PoseVector& pose, const ScanPoints& scan);
   bool empty() const { return cells_.empty(); }
 
-  /// Surfels of all cells that more than one beam met; each as its neighbourhood was when a beam met it last.
+  /// Returns the surfels of all cells with more than one hit. Each surfel is fitted when a beam hits its cell, so it
+  /// may lack later returns of neighbouring cells.
   std::vector<Surfel> surfels() const;
 
  private:
@@ -38,7 +39,7 @@ class GrowingMap {
   std::size_t index_at(const Eigen::Vector2d& position);
   Surfel surfel_of(const Cell& cell) const;
 
-  /// In the order in which they were met first, so that nothing depends on a hash.
+  /// Cells in the order of their first hit, so that results do not depend on hash order.
   std::vector<Cell> cells_;
   std::unordered_map<std::int64_t, std::size_t> index_;
 };

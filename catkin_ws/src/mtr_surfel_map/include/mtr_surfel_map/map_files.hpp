@@ -1,5 +1,5 @@
 /// @file
-/// The map as files for other programs.
+/// Writes the map to files for other programs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,15 +10,17 @@
 
 namespace mtr_surfel_map {
 
-/// Each throws std::runtime_error with one sentence when the file cannot be written. Lengths in m, angles in rad.
+/// Each function throws std::runtime_error with one sentence if the file cannot be written. Lengths in m, angles in
+/// rad.
 
-/// One surfel a line: x_m, y_m, normal_rad, length_m, sigma_m, hits.
+/// Writes one surfel per line: x_m, y_m, normal_rad, length_m, sigma_m, hits.
 void write_surfaces(const AdjustedMap& map, const std::string& path);
 
-/// One key frame a line: stamp_s, x_m, y_m, heading_rad, nine numbers of the covariance row by row, returns, standing.
+/// Writes one key frame per line: stamp_s, x_m, y_m, heading_rad, nine covariance entries row by row, returns,
+/// standing.
 void write_key_frames(const AdjustedMap& map, const std::string& path);
 
-/// Image and description as map_server reads and writes them: folder/map.pgm and folder/map.yaml.
+/// Writes image and metadata in the format of map_server: folder/map.pgm and folder/map.yaml.
 void write_grid(const OccupancyGrid& grid, const std::string& folder);
 
 }  // namespace mtr_surfel_map

@@ -11,7 +11,7 @@
 
 namespace mtr_surfel_map {
 
-/// Cells as in nav_msgs/OccupancyGrid: row-major from the corner with the least x and y.
+/// Cells as in nav_msgs/OccupancyGrid: row-major, starting at the corner with the smallest x and y.
 struct OccupancyGrid {
   static constexpr std::int8_t kUnknown = -1;
   static constexpr std::int8_t kFree = 0;
@@ -22,11 +22,12 @@ struct OccupancyGrid {
   Eigen::Vector2i size = Eigen::Vector2i::Zero();
   std::vector<std::int8_t> cells;
 
-  /// Unknown outside the grid.
+  /// Returns the cell value at a point (m, in map), or kUnknown outside the grid.
   std::int8_t at(const Eigen::Vector2d& point) const;
 };
 
-/// Occupied: most beams that came so far ended there. Free: they passed.
+/// Returns the grid of the map. A cell is occupied if enough beams that reached it ended there, and free if they passed
+/// through.
 OccupancyGrid occupancy_of(const AdjustedMap& map);
 
 }  // namespace mtr_surfel_map

@@ -1,5 +1,5 @@
 /// @file
-/// Surface elements with quick answers to "which one is near" and "which ones does this line of sight cross".
+/// Surface elements with fast lookup of the nearest one and of those that a line of sight crosses.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace mtr_surfel_map {
 
-/// The surface element that a point lies on.
+/// Surface element matched to a point.
 struct SurfelMatch {
   const Surfel* surfel;
-  /// Distance of the point from the surface, positive on the side of the normal.
+  /// Signed distance of the point from the surface, positive on the side of the normal.
   double distance_along_normal_m;
 };
 
-/// Fixed set of surfels; answers are found through a grid of cells that lists the surfels in each.
+/// Fixed set of surfels with a grid index that lists the surfels of each cell.
 class SurfelMap {
  public:
   SurfelMap() = default;
@@ -26,13 +26,14 @@ class SurfelMap {
 
   const std::vector<Surfel>& surfels() const { return surfels_; }
 
-  /// The surfel nearest to a point along its normal: one that faces the viewer, beside which the point lies, and not
-  /// farther than max_distance_m. `seen_along` is the unit vector of the beam, away from the LiDAR. All in map.
+  /// Returns the surfel nearest to a point along the surfel normal, or nothing. A match must face the viewer, cover the
+  /// point along its length, and be at most max_distance_m away. `seen_along` is the unit vector of the beam, away from
+  /// the LiDAR. All in map.
   std::optional<SurfelMatch> match(const Eigen::Vector2d& point, double max_distance_m,
                                    const Eigen::Vector2d& seen_along) const;
 
-  /// Appends the indices of the surfels whose middle part lies in the way from one point to the other; one may appear
-  /// more than once.
+  /// Appends the indices of the surfels whose middle part the line from one point to the other crosses; duplicates are
+  /// possible.
   void append_crossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector<int>& indices) const;
 
  private:

@@ -13,23 +13,26 @@
 namespace mtr_surfel_map {
 namespace {
 
-// A way round a Car at 1 m gives some 60 key frames.
+// A drive round a Car at 1 m distance gives about 60 key frames.
 constexpr std::size_t kMinKeyFrames = 10;
 // The Car alone gives 50 to 150 surfels.
 constexpr std::size_t kMinSurfels = 20;
-// Surfels of the last key frame that were seen when the robot was here before: a share, for beside a Car alone
-// a key frame of a noisy LiDAR sees fewer than ten long ones; and enough to hold a pose.
+// Loop closure compares the surfels of the last key frame with the surfels seen earlier at the same place. The limit is
+// a share, because next to a Car alone a noisy LiDAR sees fewer than ten long surfels. The minimum count is enough to
+// constrain a pose.
 constexpr double kSharedShare = 0.4;
 constexpr int kMinSharedSurfels = 3;
-// A return is a path of this many times the closing distance, so that a robot that stands or shuffles has not closed.
+// A closed path must be this many times longer than the closing distance, so that a stationary or manoeuvring robot
+// does not count.
 constexpr double kMinLoop = 4.0;
-// Sizes of differences in sigmas, and share of outliers, that no scene with right sensors has shown.
+// Limits of the residuals in sigmas and of the outlier share. No scene with correctly specified sensors has exceeded
+// them.
 constexpr double kMaxRatio = 3.0;
 constexpr double kMaxMotionRatio = 20.0;
 constexpr double kMaxOutlierShare = 0.3;
-// From one key frame to the next, 0.3 m or 0.25 rad on, wheels that slip and a gyro that scatters are off by less. With
-// ground taken for walls one map had three jumps of 0.2 to 0.6 m and 0.9 to 2.6 deg; ten right ones on the same ground
-// had no motion that was excluded at all.
+// Slipping wheels and a noisy gyro cause smaller errors between key frames, which are 0.3 m or 0.25 rad apart. A map
+// that mistook the ground for walls had three jumps of 0.2 to 0.6 m and 0.9 to 2.6 deg. Ten correct maps on the same
+// ground had no excluded motion.
 constexpr double kMaxJumpM = 0.15;
 constexpr double kMaxJumpRad = 0.015;
 constexpr double kDegPerRad = 180.0 / M_PI;
@@ -54,8 +57,8 @@ int shared(const std::set<int>& a, const std::set<int>& b) {
   return static_cast<int>(std::count_if(a.begin(), a.end(), [&](int surfel) { return b.count(surfel) > 0; }));
 }
 
-/// The path came back to an earlier place and saw the same from there. A LiDAR that does not look everywhere, and looks
-/// another way than before, sees more that is new: of the smaller of both views a share has to be in the other.
+/// Returns true if the path came back to an earlier place and saw the same surfels there. A LiDAR with a limited field
+/// of view sees other surfels under another heading, so the required share refers to the smaller of both views.
 bool is_closed(const std::vector<KeyFrame>& frames, const std::vector<Observation>& observations,
                double closing_distance_m) {
   const int last = static_cast<int>(frames.size()) - 1;

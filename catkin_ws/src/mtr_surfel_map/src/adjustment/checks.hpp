@@ -1,5 +1,5 @@
 /// @file
-/// Whether key frames can give a map, and whether a map can be trusted.
+/// Checks whether key frames can give a map, and whether a map can be trusted.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace mtr_surfel_map {
 
-/// Why no map can be made of the key frames; none when one can.
+/// Returns the reason why the key frames cannot give a map, or an empty problem.
 mtr_core::Problem problem_with(const std::vector<KeyFrame>& key_frames);
 
-/// Why the adjusted map cannot be trusted; none when it can.
+/// Returns the reason why the adjusted map cannot be trusted, or an empty problem.
 mtr_core::Problem problem_with(const Adjustment& state, const std::vector<Observation>& observations, const Fit& fit,
                                const AdjustmentParameters& parameters);
 

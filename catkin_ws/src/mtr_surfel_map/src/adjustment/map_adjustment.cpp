@@ -15,17 +15,17 @@
 namespace mtr_surfel_map {
 namespace {
 
-/// Sizes of one round, in m.
+/// Length limits of one round, in m.
 struct Round {
   double max_surfel_m;
   double min_surfel_m;
-  /// Root mean square distance of points from a surface that still counts as one.
+  /// Largest root mean square distance of the points of a surface from it.
   double thickness_m;
-  /// Distance from a surface up to which a point is taken to lie on it.
+  /// Association gate: largest distance of a return from the surface to which it is assigned.
   double gate_m;
 };
 
-// The first bring together what drifted apart by up to 0.6 m, the last resolves bumpers and wheels.
+// The first rounds remove a drift of up to 0.6 m; the last one resolves bumpers and wheels.
 constexpr std::array<Round, 4> kCoarse{{
     {1.2, 0.6, 0.25, 0.6},
     {0.8, 0.4, 0.12, 0.3},
@@ -34,18 +34,18 @@ constexpr std::array<Round, 4> kCoarse{{
 }};
 constexpr double kMaxFineSurfelM = 0.4;
 constexpr double kMinFineSurfelM = 0.1;
-// Sizes in sigmas of a range: surfaces at rest are no thicker, and returns from them lie no farther off.
+// Limits in multiples of the range sigma. Stationary surfaces are not thicker, and their returns are not farther away.
 constexpr double kFineThickness = 2.0;
 constexpr double kFineGate = 5.0;
 constexpr int kMaxFineRounds = 6;
-// Places that move less in a round are where they belong.
+// Iteration ends when no pose moves by more than this in a round.
 constexpr double kSettledM = 0.0003;
-// Error of the range bias by what looks like one: a tilted plane that meets leaning sides nearer or farther. Measured
-// with 1 degree of tilt and sides that lean by 1 in 5.
+// Lower bound of the bias sigma. A tilted scan plane meets leaning surfaces at a shorter or longer range, which
+// resembles a bias. Measured with 1 degree of tilt and sides that lean by 1 in 5.
 constexpr double kMinBiasSigmaM = 0.003;
-// Error of a surfel's place by its shape, in errors of one view by it: views from all sides share a part of it.
+// Shape error of a surfel as a share of the shape error of one view. Views from all sides have a part of it in common.
 constexpr double kShapeShare = 0.5;
-// Parts of the largest square by which the grid is shifted from round to round: a surface that a border cuts in one
+// Shift of the grid from round to round, as a share of the largest square. A surface cut by a square border in one
 // round is whole in the next.
 constexpr double kShift = 0.38;
 
@@ -64,17 +64,17 @@ std::vector<Observation> observe(const Adjustment& state, double gate_m, const A
   return observe(state.key_frames, state.range_bias, SurfelMap(state.surfels), gate_m, parameters);
 }
 
-/// Returns the largest motion of a place.
+/// Runs one round and returns the largest position change of a pose.
 double do_round(Adjustment& state, const Round& round, int number, const AdjustmentParameters& parameters) {
   state.surfels = surfels_of(state, round, number);
   const std::vector<Observation> observations = observe(state, round.gate_m, parameters);
   const double moved_m = solve(state, observations, parameters);
-  // Wheels that slip more than their parameters say must not bend the map.
+  // Inflate the motion covariance: wheels that slip more than their parameters specify must not bend the map.
   state.motion_factor = std::max(1.0, fit_of(state, observations).motion_ratio);
   return moved_m;
 }
 
-/// Keeps the surfels that were there all the time; sets the beams and the uncertainty of each.
+/// Drops surfels that beams passed through, repeats the association and the adjustment, and returns the observations.
 std::vector<Observation> finish(Adjustment& state, const AdjustmentParameters& parameters) {
   state.surfels = without_seen_through(state.surfels, state.key_frames);
   std::vector<Observation> observations = observe(state, fine_round(parameters).gate_m, parameters);
@@ -82,7 +82,7 @@ std::vector<Observation> finish(Adjustment& state, const AdjustmentParameters& p
   return observations;
 }
 
-/// The surfels with the beams of all views, and the heights at which they met the surfels.
+/// Sets the number of hits and the range of hit heights of each surfel from all views.
 std::vector<Surfel> as_seen(std::vector<Surfel> surfels, const std::vector<Observation>& observations) {
   for (Surfel& surfel : surfels) {
     surfel.hits = 0;
@@ -101,7 +101,7 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
                       const AdjustmentParameters& parameters) {
   const Uncertainty uncertainty = uncertainty_of(state, observations, parameters);
   const Fit fit = fit_of(state, observations);
-  // Views that differ by more than their sigmas say that the sigmas are too small.
+  // Residuals larger than their sigmas show that the sigmas are too small.
   const double factor = std::max(1.0, fit.surface_ratio);
   AdjustedMap map;
   map.key_frames = state.key_frames;
@@ -118,7 +118,7 @@ AdjustedMap result_of(const Adjustment& state, const std::vector<Observation>& o
     }
   }
   map.range_bias = state.range_bias;
-  // What looks like a bias looks so to all LiDARs alike.
+  // Tilt and leaning surfaces affect all LiDARs alike, so this error is fully correlated.
   map.range_bias.covariance = (factor * factor * uncertainty.range_bias).array() + kMinBiasSigmaM * kMinBiasSigmaM;
   map.message = problem_with(state, observations, fit, parameters);
   map.valid = !map.message;

@@ -1,5 +1,5 @@
 /// @file
-/// Schur complement on the joint unknowns.
+/// Schur complement onto the joint unknowns.
 // SPDX-License-Identifier: Apache-2.0
 #include "adjustment/normal_equations.hpp"
 
@@ -9,7 +9,7 @@
 namespace mtr_surfel_map {
 namespace {
 
-// Information that holds a place to less than a nanometre, and leaves the equations well conditioned.
+// Information that fixes an unknown to less than a nanometre and keeps the equations well conditioned.
 constexpr double kFixed = 1e14;
 
 }  // namespace
@@ -28,13 +28,13 @@ void NormalEquations::add_prior(Eigen::Index separate, double value, double sigm
 
 void NormalEquations::fix(Eigen::Index place) { joint_(place, place) += kFixed; }
 
-/// Covariance of a separate pair as if the joint unknowns were known; 0 without any information.
+/// Returns the covariance of a separate pair for known joint unknowns, or 0 without any information.
 Eigen::Matrix2d NormalEquations::own_covariance(Eigen::Index separate) const {
   const Eigen::Matrix2d& information = own_[static_cast<std::size_t>(separate)];
   return information.determinant() > 0.0 ? Eigen::Matrix2d(information.inverse()) : Eigen::Matrix2d::Zero();
 }
 
-/// What the separate unknowns' information tells of the joint ones.
+/// Returns the gain that maps gradients of the separate unknowns to the joint ones in the Schur complement.
 Eigen::MatrixXd NormalEquations::gain() const {
   Eigen::MatrixXd gain(across_.rows(), across_.cols());
   for (Eigen::Index i = 0; i < own_gradient_.cols(); ++i) {
@@ -45,7 +45,7 @@ Eigen::MatrixXd NormalEquations::gain() const {
 
 Eigen::MatrixXd NormalEquations::reduced_information() const {
   Eigen::MatrixXd reduced = joint_;
-  // Eigen 3.4 divides by the number of columns.
+  // Eigen 3.4 divides by the number of columns in rankUpdate().
   if (across_.cols() > 0) {
     Eigen::MatrixXd scaled(across_.rows(), across_.cols());
     for (Eigen::Index i = 0; i < own_gradient_.cols(); ++i) {

@@ -1,5 +1,5 @@
 /// @file
-/// Least squares in which many unknowns meet only a few others.
+/// Sparse least squares: many separate unknowns, each coupled to the few joint unknowns only.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,29 +10,29 @@
 
 namespace mtr_surfel_map {
 
-/// M differences in sigmas, with their derivatives by N of the joint unknowns.
+/// M residuals in sigmas, with their derivatives with respect to N joint unknowns.
 template <int M, int N>
 struct Residual {
   Eigen::Matrix<double, M, 1> value;
   Eigen::Matrix<double, M, N> jacobian;
   std::array<Eigen::Index, N> places;
-  /// Influence, below 1 for what is no longer believed.
+  /// Robust weight, below 1 for outliers.
   double weight = 1.0;
 };
 
-/// Changes of the unknowns; a column for each separate pair.
+/// Update of the unknowns, with one column per separate pair.
 struct Step {
   Eigen::VectorXd joint;
   Eigen::Matrix2Xd separate;
 };
 
-/// Normal equations of residuals that each hold at most one of the separate pairs of unknowns. These are eliminated by
-/// the Schur complement, so that the effort grows with the joint ones only.
+/// Normal equations of residuals that each depend on at most one separate pair of unknowns. The Schur complement
+/// eliminates the pairs, so that the effort grows with the number of joint unknowns only.
 class NormalEquations {
  public:
   NormalEquations(Eigen::Index joint, Eigen::Index separate);
 
-  /// Adds a residual of joint unknowns.
+  /// Adds a residual that depends on joint unknowns only.
   template <int M, int N>
   void add(const Residual<M, N>& residual) {
     const Eigen::Matrix<double, N, M> weighted = residual.weight * residual.jacobian.transpose();
@@ -46,7 +46,8 @@ class NormalEquations {
     }
   }
 
-  /// Adds a residual that also holds a separate pair, by which its derivatives are `by_separate`.
+  /// Adds a residual that also depends on a separate pair; `by_separate` holds the derivatives with respect to the
+  /// pair.
   template <int N>
   void add(const Residual<1, N>& residual, Eigen::Index separate, const Eigen::RowVector2d& by_separate) {
     add(residual);
@@ -58,18 +59,18 @@ class NormalEquations {
     own_gradient_.col(separate) += residual.value[0] * weighted.transpose();
   }
 
-  /// Adds what is known beforehand of the second one of a separate pair, as a value in sigmas.
+  /// Adds a prior with mean 0 for the second unknown of a separate pair; `value` is its current value.
   void add_prior(Eigen::Index separate, double value, double sigma);
 
-  /// Fixes a joint unknown.
+  /// Fixes a joint unknown at its current value.
   void fix(Eigen::Index place);
 
-  /// Change that makes the sum of squares least.
+  /// Returns the update that minimises the sum of squares.
   Step solve() const;
 
-  /// Covariance of the joint unknowns.
+  /// Returns the covariance of the joint unknowns.
   Eigen::MatrixXd joint_covariance() const;
-  /// Variances of the separate unknowns; 0 for pairs that no residual holds.
+  /// Returns the variances of the separate unknowns, or 0 for pairs without a residual.
   Eigen::Matrix2Xd separate_variances(const Eigen::MatrixXd& joint_covariance) const;
 
  private:

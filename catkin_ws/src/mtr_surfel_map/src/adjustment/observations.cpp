@@ -13,10 +13,10 @@
 namespace mtr_surfel_map {
 namespace {
 
-// Distance from the surface, in parts of the gate, at which a return still has a quarter of its weight.
+// Distance from the surface, as a share of the gate, at which a return has a quarter of its weight.
 constexpr double kHalfway = 0.5;
 
-/// Weighted sums over one key frame's returns from one surfel.
+/// Weighted sums over the returns of one key frame from one surfel.
 struct Sums {
   double weight = 0.0;
   double variance = 0.0;
@@ -28,7 +28,7 @@ struct Sums {
   int beams = 0;
 };
 
-/// Variance of one return along the normal, m^2: range and direction of its beam.
+/// Returns the variance of one return along the normal in m^2, from the range and direction errors of its beam.
 double variance_of(const ScanPoint& point, double cosine, double range_noise_m, double bearing_sigma_rad) {
   const double along = range_noise_m * cosine;
   const double across = bearing_sigma_rad * point.range_m * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));

@@ -1,5 +1,5 @@
 /// @file
-/// Which surface element each key frame saw where.
+/// Views: association of the returns of each key frame with surface elements.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,27 +13,27 @@
 
 namespace mtr_surfel_map {
 
-/// One key frame's view of one surfel: the mean of its returns from there, in base_link.
+/// View of one surfel from one key frame: mean of its returns, in base_link.
 struct Observation {
   int key_frame;
   int surfel;
   Eigen::Vector2d position;
-  /// Column by column for each LiDAR its part of the mean of the beams' directions: range errors e of the LiDARs move
-  /// the position by directions * e.
+  /// Share of each LiDAR in the mean beam direction, one column per LiDAR. Range errors e of the LiDARs move the
+  /// position by directions * e.
   Eigen::Matrix<double, 2, kLidars> directions;
   /// 1 sigma of the position along the surfel's normal.
   double sigma_m;
   int beams;
-  /// Mean of the beams' rises, the lowest and the highest one.
+  /// Mean, lowest and highest rise of the beams.
   double rise_m = 0.0;
   double lowest_rise_m = 0.0;
   double highest_rise_m = 0.0;
 };
 
-/// All returns in map, free of range biases.
+/// Returns all returns in map, corrected by the range biases.
 SeenPoints points_in_map(const std::vector<KeyFrame>& key_frames, const RangeBias& range_bias);
 
-/// Views of the surfels by returns that lie within the gate of them.
+/// Returns the views of the surfels; a return belongs to a view if it is within the gate of the surfel.
 std::vector<Observation> observe(const std::vector<KeyFrame>& key_frames, const RangeBias& range_bias,
                                  const SurfelMap& map, double gate_m, const AdjustmentParameters& parameters);
 

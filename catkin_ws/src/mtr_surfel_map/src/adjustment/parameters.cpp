@@ -1,5 +1,5 @@
 /// @file
-/// Check of the parameters of the adjustment.
+/// Range check of the adjustment parameters.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_surfel_map/adjustment/parameters.hpp"
 

@@ -12,12 +12,12 @@ namespace mtr_surfel_map {
 namespace {
 
 constexpr int kMaxSteps = 4;
-// A step that moves no place by more ends the steps: the next association changes more than another step would.
+// Iteration ends when no pose moves by more than this: the next association changes more than another step.
 constexpr double kSettledM = 0.0001;
 constexpr double kOutlierSigmas = 4.0;
-// Beyond so many sigmas, as the key frames say them, wheels and gyro exclude a motion, however they slip.
+// Wheels and gyro exclude a motion with a larger residual, even when they slip. In sigmas of the key frames.
 constexpr double kExcludedSigmas = 10.0;
-// Median over sigma of the size of a normal distribution's values.
+// Median absolute value of a standard normal distribution.
 constexpr double kMedianOfNormal = 0.6745;
 
 Residual<1, 1> prior(double value, double sigma, Eigen::Index place) {
@@ -52,7 +52,7 @@ NormalEquations equations_of(const Adjustment& state, const std::vector<Observat
   return equations;
 }
 
-/// Returns the largest motion of a place.
+/// Applies a step and returns the largest position change of a pose.
 double take(const Step& step, Adjustment& state) {
   const Layout layout = layout_of(state);
   double max_m = 0.0;
@@ -74,7 +74,7 @@ double take(const Step& step, Adjustment& state) {
   return max_m;
 }
 
-/// Of the motion to a key frame; none where it is less than wheels and gyro may be off.
+/// Returns the jump between a key frame and its predecessor, or zero if wheels and gyro do not exclude the motion.
 Jump jump_to(const Adjustment& state, std::size_t key_frame, double size_in_sigmas) {
   if (size_in_sigmas < kExcludedSigmas) {
     return {};

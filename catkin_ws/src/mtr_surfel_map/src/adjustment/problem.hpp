@@ -1,5 +1,6 @@
 /// @file
-/// Least squares over poses, surface offsets, range biases and scales of wheels and gyro for a given association.
+/// Least squares over poses, surface offsets and leans, range biases and scales of wheels and gyro for a given
+/// association.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,43 +13,43 @@
 
 namespace mtr_surfel_map {
 
-/// Distance and angle by which a pose is elsewhere than wheels and gyro have led from the key frame before.
+/// Deviation of a pose from the dead reckoning of wheels and gyro since the previous key frame.
 struct Jump {
   double distance_m = 0.0;
   double angle_rad = 0.0;
 };
 
-/// How well the measurements agree after the adjustment.
+/// Agreement of the measurements after the adjustment.
 struct Fit {
-  /// Size of the differences between surfaces and views in their sigmas: 1 when the sigmas are right. From the median,
-  /// which persons and parked cars that left do not touch.
+  /// Robust residual scale of the views in sigmas: 1 when the sigmas are correct. It comes from the median, which
+  /// persons and parked cars that left do not affect.
   double surface_ratio = 0.0;
-  /// Share of the views that lie more than 4 sigma off.
+  /// Share of the views with a residual of more than 4 sigma.
   double outlier_share = 0.0;
-  /// Root mean square of the differences between wheels and gyro and the poses, in the sigmas that the
-  /// key frames say.
+  /// Root mean square residual of wheels and gyro, in the sigmas of the key frames.
   double motion_ratio = 0.0;
-  /// Largest difference of one motion from one key frame to the next, of those that wheels and gyro exclude.
+  /// Largest excluded deviation of a motion between consecutive key frames.
   Jump jump;
 };
 
 /// Uncertainty of the results.
 struct Uncertainty {
   std::vector<Eigen::Matrix3d> poses;
-  /// 1 sigma along the normal; 0 for a surfel that nobody saw.
+  /// 1 sigma along the normal; 0 for a surfel without views.
   std::vector<double> surfels_m;
-  /// 1 sigma of the surfels' leans.
+  /// 1 sigma of the lean of each surfel.
   std::vector<double> leans;
   Eigen::Matrix<double, kLidars, kLidars> range_bias = Eigen::Matrix<double, kLidars, kLidars>::Zero();
 };
 
-/// Moves poses and surfels to where all views agree best; the first pose stays. Returns the largest motion of a place.
+/// Minimises the residuals over poses and surfels; the first pose is fixed. Returns the largest position change of a
+/// pose.
 double solve(Adjustment& state, const std::vector<Observation>& observations, const AdjustmentParameters& parameters);
 
-/// How well they agree at the solution.
+/// Returns the agreement of the measurements at the solution.
 Fit fit_of(const Adjustment& state, const std::vector<Observation>& observations);
 
-/// Uncertainty at the solution, when the sigmas of the measurements are right.
+/// Returns the uncertainty at the solution, assuming correct sigmas of the measurements.
 Uncertainty uncertainty_of(const Adjustment& state, const std::vector<Observation>& observations,
                            const AdjustmentParameters& parameters);
 

@@ -12,11 +12,10 @@
 namespace mtr_surfel_map {
 namespace {
 
-// Differences in sigmas from which on a measurement loses influence: as in Cauchy's distribution for views, in Huber's
-// for motions.
+// Thresholds of the robust kernels in sigmas: Cauchy for views, Huber for motions.
 constexpr double kSurfaceKernel = 2.0;
 constexpr double kMotionKernel = 3.0;
-// A motion without motion is no surer than this: swinging of the mast, steps of the encoders.
+// Lower bound of the motion sigmas, also at standstill: swinging of the mast and encoder resolution.
 constexpr double kMinMotionSigmaM = 0.0005;
 constexpr double kMinMotionSigmaRad = 0.0002;
 

@@ -9,9 +9,10 @@
 namespace mtr_surfel_map {
 namespace {
 
-// A beam that ends nearer behind a surface may have hit it: noise, tilt, and the next surface behind an edge.
+// A beam that ends within this distance behind a surface may have hit it: noise, tilt, or the next surface behind an
+// edge.
 constexpr double kMarginM = 0.2;
-// Beams that pass, as share of those that hit, from which on a surface was not there all the time.
+// A surface with more passing beams, as a share of its hits, was not there for the whole drive.
 constexpr double kPassingShare = 0.5;
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// Surfaces that were seen through: persons who walked on, cars that left, rain.
+/// Removal of surfaces that were seen through: persons who walked on, cars that left, rain.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace mtr_surfel_map {
 
-/// The surfels without those through which beams passed too often for their number of hits.
+/// Returns the surfels except those with too many passing beams for their number of hits.
 std::vector<Surfel> without_seen_through(const std::vector<Surfel>& surfels, const std::vector<KeyFrame>& key_frames);
 
 }  // namespace mtr_surfel_map

@@ -14,9 +14,10 @@ namespace {
 
 constexpr int kMinPoints = 6;
 constexpr std::size_t kMinKeyFrames = 3;
-// Parts of a line of which each must lie on it.
+// Number of equal parts of a line that are checked separately.
 constexpr std::size_t kParts = 8;
-// Standard errors by which a part must be off: by chance, one of eight parts is in 1 of 2000 lines.
+// Deviation of a part in standard errors that counts as significant: by chance, 1 in 2000 lines has such a part among
+// eight.
 constexpr double kSignificance = 4.0;
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// Straight lines through returns.
+/// Straight-line fits to returns.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace mtr_surfel_map {
 
-/// A return in map.
+/// Return in map.
 struct SeenPoint {
   Eigen::Vector2d position;
   /// Unit vector along the beam, away from the LiDAR.
@@ -21,13 +21,13 @@ struct SeenPoint {
 
 using SeenPoints = std::vector<SeenPoint>;
 
-/// A run of points; all functions take the points of [first, last).
+/// All functions use the points in [first, last).
 using SeenPointIterator = SeenPoints::const_iterator;
 
 /// Line through points.
 struct Line {
   Eigen::Vector2d middle;
-  /// It points to the side from which most points were seen.
+  /// Unit normal on the side from which most points were seen.
   Eigen::Vector2d normal;
   /// Root mean square distance of the points from the middle along the line, and from the line.
   double spread_m;
@@ -36,17 +36,17 @@ struct Line {
   double facing;
 
   Eigen::Vector2d along() const { return {-normal.y(), normal.x()}; }
-  /// Length of a line over which the points are spread evenly.
+  /// Returns the length of a line with evenly distributed points and this spread.
   double length_m() const;
 };
 
-/// There must be a point.
+/// Fits a line. The range must not be empty.
 Line line_through(SeenPointIterator first, SeenPointIterator last);
 
-/// How far parts of the points lie off the line on average, beyond what their number explains: bow, step or bend.
+/// Returns the largest mean deviation of a part of the points from the line, beyond chance: bow, step or bend.
 double unevenness_m(SeenPointIterator first, SeenPointIterator last, const Line& line);
 
-/// Enough points from enough places, so that they are neither rain nor a person who walks by.
+/// Returns true if enough points from enough places support a surface; rain and persons who walk by do not.
 bool is_enough(SeenPointIterator first, SeenPointIterator last);
 
 }  // namespace mtr_surfel_map

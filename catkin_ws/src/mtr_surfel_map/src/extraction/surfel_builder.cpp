@@ -1,5 +1,5 @@
 /// @file
-/// Search for surfels and repair of what the borders of the search's squares cut.
+/// Surfel search, and repair of surfaces that the square borders of the search cut.
 // SPDX-License-Identifier: Apache-2.0
 #include "extraction/surfel_builder.hpp"
 
@@ -14,10 +14,10 @@ namespace {
 
 // Cosine of the angle up to which two surfels may be one surface: 30 degrees.
 constexpr double kSameDirection = 0.87;
-// Distance of a surface's points from it, in largest root mean squares.
+// Association gate in multiples of the largest root mean square thickness.
 constexpr double kGate = 2.5;
-// Distance between the two parts of a surface along which a border runs, in the same unit: what the border cuts off of
-// a normal distribution has its mean within 4 sigma of the rest's, and a surface is 2 sigma thick at most.
+// Distance between two parts of a surface along which a border runs, in the same unit. The border cuts a normal
+// distribution into parts whose means are at most 4 sigma apart, and a surface is at most 2 sigma thick.
 constexpr double kApart = 2.0;
 
 bool is_double_of(const Surfel& surfel, const Surfel& other, double apart_m) {
@@ -27,7 +27,7 @@ bool is_double_of(const Surfel& surfel, const Surfel& other, double apart_m) {
          std::abs(along.dot(offset)) < other.length_m / 2.0;
 }
 
-/// Keeps of surfels that lie on each other, as where a square's border runs along a surface, the one with most points.
+/// Removes duplicates, which a square border along a surface causes, and keeps the surfel with the most points.
 std::vector<Surfel> without_doubles(std::vector<Surfel> surfels, double apart_m) {
   std::stable_sort(surfels.begin(), surfels.end(), [](const Surfel& a, const Surfel& b) { return a.hits > b.hits; });
   std::vector<Surfel> kept;
@@ -40,7 +40,7 @@ std::vector<Surfel> without_doubles(std::vector<Surfel> surfels, double apart_m)
   return kept;
 }
 
-/// The surfels through all points near them, also through those in the next square.
+/// Fits each surfel again to all points near it, including points of neighbouring squares.
 std::vector<Surfel> refitted(const std::vector<Surfel>& surfels, const SeenPoints& points, double gate_m) {
   const SurfelMap map(surfels);
   std::vector<SeenPoints> near(surfels.size());

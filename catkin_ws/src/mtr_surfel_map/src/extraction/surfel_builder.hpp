@@ -1,5 +1,5 @@
 /// @file
-/// Makes surface elements of points that were seen from several places.
+/// Extracts surface elements from points seen from several places.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace mtr_surfel_map {
 
-/// Straight pieces of surface, each seen from at least three key frames and fitted to all points near it.
+/// Returns straight pieces of surface, each seen from at least three key frames and fitted to all nearby points.
 std::vector<Surfel> build_surfels(const SeenPoints& points, const SurfelShape& shape);
 
 }  // namespace mtr_surfel_map

@@ -12,23 +12,23 @@ namespace {
 
 using Iterator = SeenPoints::iterator;
 
-// Length over thickness of the points, as root mean squares, from which on their direction counts as known.
+// Elongation (length over thickness, as root mean squares) from which on the direction of the points is well defined.
 constexpr double kElongation = 2.0;
-// Standard error of that direction at most, as the points scatter.
+// Largest standard error of the direction, from the scatter of the points.
 constexpr double kDirectionErrorRad = 0.1;
-// What is seen at more than 75 degrees from its normal on average is the smeared edge of something.
+// Points seen at more than 75 degrees from the normal on average are the smeared edge of an object.
 constexpr double kMinFacing = 0.25;
-// By how much parts of a line may be off: beyond, views of one end and of the other disagree by more than
+// Largest deviation of a part of a line. A larger one makes views of both ends disagree by more than
 // AdjustmentParameters::surface_sigma_m.
 constexpr double kMaxUnevennessM = 0.003;
 
-/// The points as one surface element, or why not.
+/// Result of the fit in one square: divide it again, or a surfel, or nothing.
 struct SquareFit {
   bool divide = false;
   std::optional<Surfel> surfel;
 };
 
-/// Divides squares until the points in each lie on a line, or are too few.
+/// Divides squares until the points of each are on a line or are too few.
 class Search {
  public:
   Search(const SurfelShape& shape, std::vector<Surfel>& found) : shape_(shape), found_(found) {}
@@ -37,7 +37,7 @@ class Search {
     if (!is_enough(first, last)) {
       return;
     }
-    // Two sides of a thin thing are two surfaces.
+    // The two sides of a thin object are two surfaces.
     const Line line = line_through(first, last);
     const Iterator turned =
         std::partition(first, last, [&](const SeenPoint& point) { return line.normal.dot(point.direction) < 0.0; });

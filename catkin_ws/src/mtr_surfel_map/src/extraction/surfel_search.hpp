@@ -1,5 +1,5 @@
 /// @file
-/// Finds straight pieces of surface among points.
+/// Search for straight pieces of surface among points.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,22 +12,22 @@
 
 namespace mtr_surfel_map {
 
-/// What counts as a surface element.
+/// Criteria of a surface element.
 struct SurfelShape {
-  /// Side of the largest and smallest square that is searched for one.
+  /// Side of the largest and of the smallest square in the search.
   double max_m;
   double min_m;
-  /// Root mean square distance of its points from it at most.
+  /// Largest root mean square distance of the points from the surface.
   double thickness_m;
-  /// Where the grid of squares begins: another choice cuts surfaces elsewhere.
+  /// Origin of the grid of squares; another origin cuts surfaces at other places.
   Eigen::Vector2d origin;
 };
 
-/// The surfel along a line, unless its points say too little about its direction.
+/// Returns the surfel along a line, or nothing if the points do not determine its direction.
 std::optional<Surfel> surfel_along(const Line& line, int hits);
 
-/// Pieces that lie in one square each. A square in which the points do not lie on one line is divided in four, as are
-/// the adaptive voxels of Z. Liu and F. Zhang, "BALM: Bundle Adjustment for Lidar Mapping", IEEE Robotics and
+/// Returns the pieces of surface, each within one square. A square whose points are not on one line is divided in four,
+/// like the adaptive voxels of Z. Liu and F. Zhang, "BALM: Bundle Adjustment for Lidar Mapping", IEEE Robotics and
 /// Automation Letters 6(2), 2021.
 std::vector<Surfel> search_surfels(SeenPoints points, const SurfelShape& shape);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Key frames of a robot that drives round the Car in a synthetic scene, with the true poses.
+/// Key frames of a drive round the Car in a synthetic scene, with the true poses.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,33 +15,33 @@
 
 namespace mtr_surfel_map::synthetic {
 
-/// What the drive and the sensors are like.
+/// Properties of the drive and the sensors.
 struct LoopOptions {
   std::string scene = "lot";
   unsigned seed = 1;
   double range_noise_m = 0.01;
   double range_bias_m = 0.0;
-  /// Added to the ranges of the front LiDAR, taken off those of the rear one.
+  /// Added to the ranges of the front LiDAR, subtracted from the ranges of the rear one.
   double opposed_bias_m = 0.0;
-  /// Of the wheels: true distance over theirs, less 1.
+  /// True distance over wheel distance, less 1.
   double wheel_scale = 0.003;
-  /// Of the gyro: true turn over its turn, less 1.
+  /// True turn over gyro turn, less 1.
   double gyro_scale = 0.0;
-  /// Noise of wheels and gyro against what the key frames claim.
+  /// Noise of wheels and gyro relative to the covariances of the key frames.
   double motion_noise_factor = 1.0;
-  /// Of the LiDAR's plane on uneven ground, 1 sigma at each place; the Car's sides lean inwards by 1 in 5.
+  /// Tilt of the scan plane on uneven ground, 1 sigma at each place; the sides of the Car lean inwards by 1 in 5.
   double tilt_sigma_rad = 0.0;
-  /// Part of the way round that is driven.
+  /// Driven part of a full circuit.
   double turns = 1.05;
-  /// It is driven to and fro: round three sides, for something stands at the fourth, and back to where it began.
+  /// Drives round three sides of the Car, because the fourth is blocked, and back to the start.
   bool to_and_fro = false;
-  /// Without it the robot sees nothing behind itself.
+  /// Without it, the robot does not see backwards.
   bool rear_lidar = true;
-  /// A person walks past in a straight line while the robot drives.
+  /// A person walks past in a straight line during the drive.
   bool person = false;
-  /// Drops of rain per sweep.
+  /// Rain drops per sweep.
   int drops = 0;
-  /// Distance of the way from the Car.
+  /// Distance of the path from the Car.
   double clearance_m = 1.6;
 };
 
@@ -51,7 +51,7 @@ struct Loop {
   std::vector<PoseVector> truth;
 };
 
-/// Poses every 0.25 m on a rounded rectangle round the Car, counterclockwise, the robot's nose ahead.
+/// Returns poses every 0.25 m on a rounded rectangle round the Car, counterclockwise, heading along the path.
 inline std::vector<PoseVector> way_round(double clearance_m, double turns) {
   std::vector<PoseVector> way;
   const double a = 2.2 + clearance_m;
@@ -74,7 +74,7 @@ inline std::vector<PoseVector> way_round(double clearance_m, double turns) {
   return way;
 }
 
-/// The same way, a turn on the spot at its end, and the way back.
+/// Returns the path, a turn on the spot at its end, and the way back.
 inline std::vector<PoseVector> there_and_back(std::vector<PoseVector> way) {
   constexpr int kTurnSteps = 12;
   const std::vector<PoseVector> there = way;
@@ -87,12 +87,12 @@ inline std::vector<PoseVector> there_and_back(std::vector<PoseVector> way) {
   return way;
 }
 
-// Noise of wheels and gyro as localization expects it.
+// Noise of wheels and gyro that localization assumes.
 inline constexpr double kSlipMPerSqrtM = mtr_core::sensor_figures::kAssumedSlipMPerSqrtM.value;
 inline constexpr double kTurnSlipMPerSqrtRad = mtr_core::sensor_figures::kAssumedTurnSlipMPerSqrtRad.value;
 inline constexpr double kGyroNoiseRadpsPerSqrtHz = mtr_core::sensor_figures::kAssumedGyroNoiseRadpsPerSqrtHz.value;
 
-/// Drives and sees.
+/// Simulation of one drive and its scans.
 class Drive {
  public:
   explicit Drive(const LoopOptions& options) : options_(options), random_(options.seed) {}
@@ -189,7 +189,7 @@ class Drive {
 
 inline Loop drive(const LoopOptions& options) { return Drive(options).run(); }
 
-/// Largest and root mean square distance of poses from the truth, in m and rad.
+/// Largest and root mean square position error, in m, and root mean square heading error, in rad.
 struct PoseErrors {
   double rms_m = 0.0;
   double max_m = 0.0;

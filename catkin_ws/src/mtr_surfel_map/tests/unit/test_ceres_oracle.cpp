@@ -1,5 +1,5 @@
 /// @file
-/// The adjustment against Ceres: the same problem, written down a second time, has the same solution and covariance.
+/// Comparison of the adjustment with an independent Ceres implementation: same solution and same covariance.
 // SPDX-License-Identifier: Apache-2.0
 #include <ceres/ceres.h>
 #include <gtest/gtest.h>
@@ -19,20 +19,20 @@
 namespace mtr_surfel_map {
 namespace {
 
-// Derivatives are Ceres' own (automatic ones), and so are kernels, elimination and covariance. Of the code under test
-// the oracle takes only the observations. Figures below are those of residuals.cpp, stated again.
+// The oracle uses the automatic derivatives, kernels, elimination and covariance of Ceres. It shares only the
+// observations with the code under test. The figures below are repeated from residuals.cpp.
 constexpr double kSurfaceKernel = 2.0;
 constexpr double kMotionKernel = 3.0;
 const Eigen::Vector3d kMinMotionSigma(0.0005, 0.0005, 0.0002);
 
-// Places and sigmas of places agree within a micrometre, shares and angles as closely, covariances within a share.
+// Tolerances: positions and their sigmas to a micrometre, scales and angles equally closely, covariances by ratio.
 constexpr double kSameM = 1e-6;
 constexpr double kSameShare = 1e-6;
 constexpr double kSameCovariance = 1e-4;
-// The solver under test linearises anew four times a call, and its kernels converge by a share each time.
+// Each call of the solver under test linearises four times; its kernels converge gradually.
 constexpr int kCalls = 60;
 
-/// How far a view lies off its surface, in sigmas.
+/// Distance of a view from its surface, in sigmas.
 struct SurfaceCost {
   Observation seen;
   Surfel surfel;
@@ -56,7 +56,7 @@ struct SurfaceCost {
   }
 };
 
-/// How far two poses contradict wheels and gyro between them, in sigmas.
+/// Deviation of the motion between two poses from wheels and gyro, in sigmas.
 struct MotionCost {
   KeyFrame frame;
   Eigen::Matrix3d whitening;
@@ -77,7 +77,7 @@ struct MotionCost {
   }
 };
 
-/// What is known of one of a block's numbers beforehand.
+/// Prior of one number of a block.
 template <int N>
 struct PriorCost {
   int place;
@@ -96,7 +96,7 @@ ceres::CostFunction* prior(int place, double mean, double sigma) {
   return new ceres::AutoDiffCostFunction<PriorCost<N>, 1, N>(new PriorCost<N>{place, mean, sigma});
 }
 
-/// The adjustment as Ceres has it.
+/// The same adjustment problem in Ceres.
 class Oracle {
  public:
   Oracle(const Adjustment& start, const std::vector<Observation>& observations, const AdjustmentParameters& parameters)
@@ -189,7 +189,7 @@ class Oracle {
     return found;
   }
 
-  // Blocks of unknowns, which must not move in memory: change of each surfel's offset and lean from the start.
+  // Blocks of unknowns; Ceres stores pointers to them. For each surfel: change of offset and lean from the start.
   std::vector<std::array<double, 3>> poses_;
   std::vector<std::array<double, 2>> surfels_;
   std::array<double, kLidars> bias_{};
@@ -206,7 +206,7 @@ class CeresOracleTest : public testing::TestWithParam<const char*> {
     options.opposed_bias_m = 0.01;
     options.gyro_scale = 0.002;
     state_.key_frames = synthetic::drive(options).key_frames;
-    // Heights at which the beams met the surfaces, so that leans are told, too.
+    // Vary the heights of the hits, so that leans are observable.
     for (std::size_t i = 0; i < state_.key_frames.size(); ++i) {
       for (ScanPoint& point : state_.key_frames[i].scan.points) {
         point.rise_m = 0.02 * std::sin(1.7 * static_cast<double>(i)) * point.range_m;
@@ -217,7 +217,7 @@ class CeresOracleTest : public testing::TestWithParam<const char*> {
     observations_ = observe(state_.key_frames, state_.range_bias, SurfelMap(state_.surfels), 0.15, parameters_);
   }
 
-  /// Adjusts until nothing moves any more.
+  /// Repeats the adjustment until it converges.
   void adjust() {
     ASSERT_GT(observations_.size(), 500U);
     ASSERT_GT(solve(state_, observations_, parameters_), 0.001) << "there is nothing to adjust";

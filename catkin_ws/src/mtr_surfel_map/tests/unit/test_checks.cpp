@@ -1,5 +1,5 @@
 /// @file
-/// Key frames of which no map can be made, or none that can be trusted.
+/// Rejection of key frames and of maps that cannot be trusted.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -81,7 +81,7 @@ TEST(MapVerdict, OneMotionThatWheelsAndGyroExcludeIsNoMap) {
     KeyFrame& jumping = frames[frames.size() / 3];
     jumping.motion += jump;
     expect_refused(frames, "wheels and gyro exclude");
-    // A way that nobody saw excludes nothing.
+    // An unknown motion does not exclude anything.
     jumping.motion_covariance = Eigen::Matrix3d::Identity();
     EXPECT_TRUE(adjust(frames, AdjustmentParameters{}).valid);
   }

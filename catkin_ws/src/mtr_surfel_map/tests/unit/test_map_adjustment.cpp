@@ -1,5 +1,5 @@
 /// @file
-/// The map of synthetic ways round the Car.
+/// Maps of synthetic drives round the Car.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -28,7 +28,7 @@ LoopOptions in(const std::string& scene) {
   return options;
 }
 
-/// Largest error of a pose after the adjustment of a drive, m; infinite without a valid map.
+/// Returns the largest position error after the adjustment of a drive in m, or infinity without a valid map.
 double largest_error_m(const LoopOptions& options) {
   const Loop loop = drive(options);
   const AdjustedMap map = map_of(loop);
@@ -36,7 +36,7 @@ double largest_error_m(const LoopOptions& options) {
   return map.valid ? errors_of(map.key_frames, loop.truth).max_m : std::numeric_limits<double>::infinity();
 }
 
-/// Mean of squared errors over their variances, per degree of freedom.
+/// Returns the mean of squared errors over their variances, per degree of freedom.
 double nees_of(const AdjustedMap& map, const std::vector<PoseVector>& truth) {
   double sum = 0.0;
   for (std::size_t i = 1; i < truth.size(); ++i) {
@@ -69,7 +69,7 @@ TEST(MapAdjustment, SurfacesLieOnTheTrueOnes) {
   const double count = static_cast<double>(map.surfels.size());
   EXPECT_GT(count, 150.0);
   EXPECT_LT(std::sqrt(squares / count), 0.005);
-  // Errors and their sigmas agree; 9 at most each, for corners have no line to lie on.
+  // Errors and sigmas agree; each ratio is limited to 9, because a line does not fit at corners.
   EXPECT_LT(ratios / count, 1.5);
   EXPECT_GT(ratios / count, 0.1);
 }
@@ -84,8 +84,9 @@ TEST(MapAdjustment, PoseErrorsOfManyDrivesAgreeWithTheirCovariances) {
       const Loop loop = drive(options);
       sum += nees_of(map_of(loop), loop.truth) / kDrives;
     }
-    // Poses of one drive err together: 5 drives are some 15 independent numbers, whose mean is within 0.7 of 1 when the
-    // covariances are right. They are on the safe side, for surfaces are wrong by less than surface_sigma_m here.
+    // Errors within one drive are correlated: 5 drives are about 15 independent numbers, whose mean is within 0.7 of 1
+    // for correct covariances. The covariances are conservative, because the surfaces here have a smaller error than
+    // surface_sigma_m.
     EXPECT_LT(sum, 1.7) << scene;
     EXPECT_GT(sum, 0.2) << scene;
   }
@@ -109,7 +110,7 @@ TEST(MapAdjustment, RangeBiasIsFoundAndTakenOff) {
     }
     std::sort(off_m.begin(), off_m.end());
     EXPECT_LT(off_m[off_m.size() * 95 / 100], 0.01);
-    // The farthest are single short ones at a corner.
+    // The largest errors belong to single short surfels at corners.
     EXPECT_LT(off_m.back(), 0.025);
   }
 }
@@ -137,7 +138,7 @@ TEST(MapAdjustment, GyroThatTurnsTooLittleBendsNoMap) {
     LoopOptions options = in("open");
     options.seed = seed;
     right += largest_error_m(options);
-    // As by a data sheet, not compared with full turns: 2 degrees in a way round.
+    // Gyro scale error by the data sheet, without a comparison with full turns: 2 degrees per circuit.
     options.gyro_scale = 0.006;
     wrong += largest_error_m(options);
   }

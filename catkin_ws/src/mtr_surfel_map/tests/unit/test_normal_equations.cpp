@@ -1,5 +1,5 @@
 /// @file
-/// Normal equations and residuals against plain linear algebra and differences.
+/// Comparison of normal equations and residuals with dense linear algebra and finite differences.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ constexpr Eigen::Index kJoint = 6;
 constexpr Eigen::Index kSeparate = 5;
 constexpr Eigen::Index kUnknowns = kJoint + 2 * kSeparate;
 
-/// Random residuals, in the equations and as one dense system.
+/// Random residuals as sparse equations and as one dense system.
 struct RandomSystem {
   RandomSystem() {
     std::srand(4);
@@ -49,10 +49,10 @@ struct RandomSystem {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(kUnknowns);
 };
 
-/// All but the last separate pair, which no residual holds.
+/// All unknowns except the last separate pair, which has no residual.
 constexpr Eigen::Index kFixed = kUnknowns - 2;
 
-/// The same of the separate pairs, one below the other.
+/// Returns the separate pairs as one vector, without the last pair.
 Eigen::VectorXd fixed(const Eigen::Matrix2Xd& separate) {
   return Eigen::Map<const Eigen::VectorXd>(separate.data(), kFixed - kJoint);
 }
@@ -96,7 +96,7 @@ Adjustment some_state() {
   return state;
 }
 
-/// The state with one of the joint unknowns changed.
+/// Returns the state with one joint unknown changed.
 Adjustment changed(Adjustment state, Eigen::Index place, double change) {
   const Layout layout = layout_of(state);
   if (place >= layout.range_bias() && place < layout.range_bias() + kLidars) {
@@ -116,7 +116,7 @@ constexpr double kStep = 1e-6;
 TEST(AdjustmentResiduals, DerivativesOfAViewAreItsDifferences) {
   const Adjustment state = some_state();
   Observation seen{1, 0, {-2.2, 1.9}, {}, 0.005, 4};
-  // Two thirds of the beams came from the front LiDAR.
+  // Two thirds of the beams belong to the front LiDAR.
   seen.directions << -0.53, -0.3, 0.4, 0.1;
   const Residual<1, 3 + kLidars> residual = surface_residual(state, seen);
   for (std::size_t i = 0; i < residual.places.size(); ++i) {

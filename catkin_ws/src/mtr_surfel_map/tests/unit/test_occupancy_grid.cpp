@@ -1,5 +1,5 @@
 /// @file
-/// Grid and files of a map, and surfaces that were seen through.
+/// Occupancy grid, map files and removal of surfaces that were seen through.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@
 namespace mtr_surfel_map {
 namespace {
 
-/// A fan of beams to the left of the robot, which stands at x and looks along y, that end at the given range.
+/// Returns a fan of beams that end at a wall with y = range_m; the robot is at x_m and faces along y.
 KeyFrame fan(double x_m, double range_m) {
   KeyFrame frame;
   frame.pose = {x_m, 0.0, M_PI_2};

@@ -1,5 +1,5 @@
 /// @file
-/// Surface elements of points on known surfaces.
+/// Surface elements from points on known surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ const SurfelShape kShape{0.4, 0.1, 0.03, {0.0, 0.0}};
 /// Points on surfaces, seen from ten places.
 class Points {
  public:
-  /// On a line from one point to another, seen along a direction.
+  /// Adds points on a line between two positions, seen along a direction.
   void add_line(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Eigen::Vector2d& direction) {
     const int count = static_cast<int>((to - from).norm() * 500.0);
     for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 /// @file
-/// Nearest surfel and surfels in the way.
+/// Nearest surfel, and surfels that a line of sight crosses.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 const Eigen::Vector2d kDown(0.0, -1.0);
 
-/// A surface along x at the height y, seen from above.
+/// Returns a surface along x at height y_m, visible from above.
 Surfel flat(double x_m, double y_m, double length_m = 0.4) { return {{x_m, y_m}, {0.0, 1.0}, length_m, 0.002, 20}; }
 
 std::vector<int> crossed(const SurfelMap& map, const Eigen::Vector2d& from, const Eigen::Vector2d& to) {

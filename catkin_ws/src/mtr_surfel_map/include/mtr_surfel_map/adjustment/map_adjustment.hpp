@@ -1,5 +1,5 @@
 /// @file
-/// Makes one map of all key frames of a way round the Car.
+/// Adjusts all key frames of a drive round the Car to one map.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace mtr_surfel_map {
 
-/// Poses of all key frames, surfaces, the LiDAR's range bias and the scales of wheels and gyro, adjusted together;
-/// the first key frame stays where it was.
+/// Adjusts the poses of all key frames, the surfaces, the range bias of the LiDARs and the scales of wheels and gyro
+/// together. The first key frame keeps its pose.
 ///
-/// In rounds from coarse to fine: surfaces are made of all returns, each view is assigned to a surface, and poses and
-/// surfaces move to where all agree best. Takes one core; the same input gives the same result.
+/// Rounds run from coarse to fine. Each round extracts surfels from all returns, assigns each view to a surfel, and
+/// minimises the weighted residuals. Runs on one core; the same input gives the same result.
 AdjustedMap adjust(const std::vector<KeyFrame>& key_frames, const AdjustmentParameters& parameters);
 
 }  // namespace mtr_surfel_map

@@ -1,5 +1,5 @@
 /// @file
-/// Parameters of the adjustment of key frames: how far each measurement is trusted and what a map must show, SI units.
+/// Parameters of the adjustment of key frames in SI units: measurement uncertainties and the loop-closure distance.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,27 +10,27 @@
 
 namespace mtr_surfel_map {
 
-/// Sigmas are 1 standard deviation; the sensors' are in mtr_core/sensor_figures.py, with sources.
+/// Standard deviations (1 sigma). The figures of the sensors, with their sources, are in mtr_core/sensor_figures.py.
 struct AdjustmentParameters {
   /// Random error of one range.
   double range_noise_m = mtr_core::sensor_figures::kAssumedRangeNoiseM.value;
-  /// Constant error of all ranges before it is estimated.
+  /// Prior of the constant range error, 1 sigma.
   double range_bias_sigma_m = mtr_core::sensor_figures::kAssumedRangeBiasM.value;
-  /// Error of a beam's direction, mounting and motion within the sweep included.
+  /// Direction error of a beam, including mounting and motion distortion within the sweep.
   double bearing_sigma_rad = mtr_core::sensor_figures::kAssumedViewDirectionRad.value;
-  /// How far one view of a surface element is off by its shape: curvature, edges, tilt of the LiDAR's plane.
+  /// Error of one view caused by the shape of the surface: curvature, edges and tilt of the scan plane.
   double surface_sigma_m = 0.004;
-  /// Common error of the wheels' distances in the key frames' motions.
+  /// Prior of the scale error of the wheel distances in the motions of the key frames.
   double wheel_scale_sigma = mtr_core::sensor_figures::kAssumedWheelScale.value;
-  /// The same of the gyro's turns.
+  /// Prior of the scale error of the gyro turns in the motions of the key frames.
   double gyro_scale_sigma = mtr_core::sensor_figures::kAssumedGyroScale.value;
-  /// The path must come back to where it has been before, within this distance.
+  /// The path must end within this distance of an earlier part of itself.
   double closing_distance_m = 1.5;
 };
 
 using AdjustmentRow = mtr_core::ParameterRow<AdjustmentParameters>;
 
-/// Range and unit of each parameter.
+/// Name, range and unit of each parameter.
 inline constexpr std::array<AdjustmentRow, 7> kAdjustmentRows{{
     mtr_core::row_of("range_noise_m", &AdjustmentParameters::range_noise_m,
                      mtr_core::sensor_figures::kAssumedRangeNoiseM),
@@ -46,7 +46,7 @@ inline constexpr std::array<AdjustmentRow, 7> kAdjustmentRows{{
     {"closing_distance_m", &AdjustmentParameters::closing_distance_m, 0.2, 5.0, "m"},
 }};
 
-/// Throws ConfigurationError unless each value is in its range.
+/// Throws ConfigurationError if a value is outside its range.
 void check(const AdjustmentParameters& parameters);
 
 }  // namespace mtr_surfel_map

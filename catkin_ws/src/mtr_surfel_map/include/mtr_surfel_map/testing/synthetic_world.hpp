@@ -1,5 +1,5 @@
 /// @file
-/// Scenes made of straight segments, as a LiDAR sees them; frame of the Car: origin in its centre, x to its front.
+/// Scenes of straight segments, as a LiDAR sees them. Frame of the Car: origin at its centre, x to its front.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,7 +35,8 @@ inline void add_post(World& world, double x_m, double y_m, double radius_m) {
   add_polygon(world, corners, {x_m, y_m, 0.0});
 }
 
-/// Outline of a car of 4.4 m by 1.8 m at bumper height: bowed ends, round corners, sills inboard of the wheels.
+/// Returns the outline of a car of 4.4 m by 1.8 m at bumper height: curved ends, round corners, sills inboard of the
+/// wheels.
 inline std::vector<Eigen::Vector2d> car_outline() {
   std::vector<Eigen::Vector2d> right;
   for (int i = 0; i <= 12; ++i) {
@@ -62,8 +63,8 @@ inline std::vector<Eigen::Vector2d> car_outline() {
   return outline;
 }
 
-/// "open": the Car alone; "cones": and four posts; "beside": and another car and a wall on its right; "lot": and walls,
-/// posts and another car.
+/// Returns a scene. "open": the Car alone; "cones": the Car and four posts; "beside": the Car, another car and a wall
+/// on its right; "lot": the Car, walls, posts and another car.
 inline World world_of(const std::string& scene) {
   World world;
   add_polygon(world, car_outline(), {0.0, 0.0, 0.0});
@@ -89,7 +90,7 @@ inline World world_of(const std::string& scene) {
   return world;
 }
 
-/// Distance to the nearest segment along a ray, or a negative number.
+/// Returns the distance to the nearest segment along a ray, or a negative number if the ray hits none.
 inline double cast(const World& world, const Eigen::Vector2d& from, const Eigen::Vector2d& direction) {
   double nearest = -1.0;
   for (const Segment& segment : world) {
@@ -108,7 +109,7 @@ inline double cast(const World& world, const Eigen::Vector2d& from, const Eigen:
   return nearest;
 }
 
-/// Distance of a point from the nearest segment.
+/// Returns the distance of a point from the nearest segment.
 inline double distance_from(const World& world, const Eigen::Vector2d& point) {
   double nearest = 1e9;
   for (const Segment& segment : world) {
