@@ -1,2 +1,2 @@
-"""A laboratory's memory: tests of the Operator's application in a store, compared with each other and reported."""
+"""Results database: stores tests of the Operator's application, compares them and writes reports."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""python -m mtr_results is the command mtr-results."""
+"""Entry point of python -m mtr_results, the same as the command mtr-results."""
 # SPDX-License-Identifier: Apache-2.0
 import sys
 

@@ -1,20 +1,20 @@
-"""Errors of the store; each text is a sentence for a person, as those of the application.
+"""Errors of the store; each text is a sentence for a person, as in the application.
 
 StoreError
-├── StoreAway        nobody answers, or it is locked or full: tests wait in the spool
-└── OtherContents    a test is there already, with other contents
+├── StoreAway        unreachable, locked or full: tests wait in the spool
+└── OtherContents    the store has this test with other contents
 """
 # SPDX-License-Identifier: Apache-2.0
 from mtr_operator.domain.errors import OperatorError
 
 
 class StoreError(OperatorError):
-    """The store cannot do what was asked for."""
+    """The store cannot execute the request."""
 
 
 class StoreAway(StoreError):
-    """The store cannot be reached or written now; later it may be."""
+    """The store cannot be reached or written at present; it may be later."""
 
 
 class OtherContents(StoreError):
-    """Something else is known under the name of this test."""
+    """The store has other contents under the key of this test."""

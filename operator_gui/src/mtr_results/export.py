@@ -1,4 +1,4 @@
-"""Tables as Parquet files, and SQL over them by DuckDB: for analyses that a store need not know of."""
+"""Export of the tables to Parquet files, and SQL queries over them with DuckDB."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,19 +17,19 @@ from .model.tables import EXPORTED
 from .store.text_order import ordering
 
 SUFFIX = ".parquet"
-# Rows that are in memory at once.
+# Number of rows in memory at a time.
 _CHUNK = 10_000
 _TYPES = ((Boolean, "BOOLEAN"), (Integer, "BIGINT"), (Float, "DOUBLE"))
-# No extension is fetched from anywhere.
+# DuckDB must not download extensions.
 _SETTINGS = {"autoinstall_known_extensions": "false", "autoload_known_extensions": "false"}
 _FAILURES = (duckdb.Error, OSError)
 
 
 def export_tables(connection: Connection, folder: pathlib.Path) -> dict[str, int]:
-    """Write each table into a file of its own; names and rows. StoreError when that fails; files are whole, or
-    as they were.
+    """Write each table to its own file; return the number of rows by table name.
 
-    What was recorded as a document stays in the store: the tables hold what it says.
+    Raises StoreError on failure; a file is either complete or unchanged. Documents are not exported: the tables hold
+    their contents.
     """
     counts = {}
     with _told(folder):
@@ -49,7 +49,10 @@ def export_tables(connection: Connection, folder: pathlib.Path) -> dict[str, int
 
 
 def query_tables(folder: pathlib.Path, sql: str) -> tuple[list[str], list[tuple[Any, ...]]]:
-    """Headings and rows of a query over exported tables, by their names; StoreError says what is wrong with it."""
+    """Return headings and rows of a query over exported tables, which have their usual names.
+
+    Raises StoreError with the reason if the query fails.
+    """
     files = sorted(folder.glob(f"*{SUFFIX}"))
     if not files:
         raise StoreError(f"The folder {folder} holds no exported tables; mtr-results export makes them.")

@@ -1,4 +1,4 @@
-"""The store as the application's history shows it: a list of tests, and each of them as a file again."""
+"""The store as a source of the application's history: a list of tests, and export of each test to files."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,39 +20,39 @@ from .store import reading
 from .store.database import Database
 from .store.place import ADDRESS_VARIABLE, Place, default_address, default_file
 
-# Of a store's row, the columns that an entry has under the same name.
+# Columns of a store row with the same name in a TestEntry.
 _SAME = ("entries", "started", "scenario", "car", "key", "operator", "place", "done", "total", "invalid", "is_complete",
          "verdict", "words")
 
 
 def open_laboratory() -> ResultsLaboratory | None:
-    """The store that the environment names, else the usual one, None while nobody has kept a test in that."""
+    """Return the store from the environment variable or the default one; None if the default store does not exist."""
     is_named = bool(os.environ.get(ADDRESS_VARIABLE))
     return ResultsLaboratory(Place(default_address())) if is_named or default_file().is_file() else None
 
 
 class ResultsLaboratory:
-    """See mtr_operator.history.laboratory. A store is read, and never made or changed."""
+    """Read-only store; see mtr_operator.history.laboratory."""
 
     def __init__(self, place: Place):
         self._place = place
         self.where = place.shown
 
     def entries(self) -> list[TestEntry]:
-        """See Laboratory. What parameters a test has is known when it is fetched: it is not in the tables."""
+        """See Laboratory. Parameters are not in the tables; they are known after fetch()."""
         with self._opened() as database, database.reading() as connection:
             found = reading.find(connection, reading.Search(limit=0), ("entries", "words"))
         return [self._entry(row) for row in found]
 
     def fetch(self, entry: TestEntry, path: pathlib.Path) -> None:
-        """See Laboratory: record, and journal and photos where their contents are kept."""
+        """See Laboratory. Restores the record, and the journal and photos if their contents are stored."""
         number = int(entry.path)
         with self._opened() as database, database.reading() as connection:
             has_journal = reading.test_row(connection, number)["has_journal"]
             progress, files = reading.side(connection, number).progress, reading.files(connection, number)
         for name, target in _belongings(path, progress, files, has_journal).items():
             self._fetch_content(files[name], target)
-        # Last: with it the test is there.
+        # The record is written last, because it makes the test visible.
         save_progress(path, progress)
 
     def _entry(self, row: Mapping[str, Any]) -> TestEntry:
@@ -69,7 +69,7 @@ class ResultsLaboratory:
 
     def _fetch_content(self, sha256: str, target: pathlib.Path) -> None:
         kept = self._place.kept_files()
-        # What was measured is in the database as well; a lost content is no reason to keep that away.
+        # The measurements are in the database, too; a missing file must not prevent the export.
         with contextlib.suppress(StoreError):
             if kept is not None:
                 content = kept.read(sha256)
@@ -79,8 +79,10 @@ class ResultsLaboratory:
 
 def _belongings(path: pathlib.Path, progress: Progress, files: Mapping[str, str],
                 has_journal: bool) -> dict[str, pathlib.Path]:
-    """Where each file of a test that belongs to its record goes, by its name in the store. has_journal: the one that is
-    there is this test's."""
+    """Return the target path of each file that belongs to the record of a test, by its name in the store.
+
+    has_journal: the stored journal belongs to this test.
+    """
     found = {name: journal_path(path) for name in files if has_journal and name.endswith(SUFFIX)}
     photos = {photo.sha256: photo.name for photo in progress.identity.photos} if progress.identity else {}
     folder = photo_folder(path)

@@ -1,4 +1,4 @@
-"""The arguments of all commands."""
+"""Arguments of all commands."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,7 +23,10 @@ from .serving import serve
 
 
 def parser() -> argparse.ArgumentParser:
-    """Of mtr-results; what it parses has `run`, which takes it and returns the exit code."""
+    """Return the parser of mtr-results.
+
+    Parsed arguments have a `run` function, which accepts them and returns the exit code.
+    """
     made = argparse.ArgumentParser(prog="mtr-results", description="Tests of the Operator's application in a store: "
                                    "imported, searched, compared, reported.")
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -146,7 +149,7 @@ def _exporting(commands: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 
 def plain_help(text: object) -> str:
-    """A text of this computer as argparse shows it: a percent sign begins a field there."""
+    """Escape percent signs in a text for the help of argparse, which formats them as fields."""
     return str(text).replace("%", "%%")
 
 
@@ -162,7 +165,7 @@ def _of_store() -> argparse.ArgumentParser:
 
 
 def of_search() -> argparse.ArgumentParser:
-    """Arguments by which tests are searched."""
+    """Return a parent parser with the search arguments."""
     common = argparse.ArgumentParser(add_help=False)
     common.add_argument("words", nargs="*", metavar="WORD", help="all have to occur in what is known of a test")
     for name, meaning in FILTERS.items():

@@ -1,4 +1,4 @@
-"""The commands that set tests against each other."""
+"""Commands that compare tests."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ _HEADINGS = ("", "first", "second", "second - first", "95 %", "chance of all", "
 
 
 def compare(options: argparse.Namespace) -> int:
-    """Print how the second set differs from the first."""
+    """Print the differences between the first set and the second one."""
     with place_of(options).open().reading() as connection:
         first, second = (read_set(connection, text) for text in (options.first, options.second))
     found = compare_sets(first.sides, second.sides)
@@ -54,7 +54,7 @@ def compare(options: argparse.Namespace) -> int:
 
 
 def spread(options: argparse.Namespace) -> int:
-    """Print where the spread of each distance comes from."""
+    """Print the sources of spread of each distance."""
     tests, chosen = _read(options)
     factors = {name: chosen.values(name) for name in options.by.split(",") if name}
     found = [(name, distance_spread(tests, line, word, factors))
@@ -117,7 +117,7 @@ def show_trend(options: argparse.Namespace) -> int:
 
 
 def _say_differing(tests: Tests) -> None:
-    """What else may move the distances of a set."""
+    """Print the properties in which the tests of a set differ, because they may shift the distances."""
     names = differing_names(tests.sides)
     if names:
         show(f"The tests differ in: {', '.join(names)}.")
@@ -130,7 +130,7 @@ def _read(options: argparse.Namespace) -> tuple[Tests, TestSet]:
 
 
 def _distances(tests: Tests, line: int, word: str) -> Iterator[tuple[LineResult, str, str]]:
-    """Line, word and name; line 0 and an empty word stand for all."""
+    """Yield line, word and name of each distance; line 0 and an empty word select all."""
     for result in tests.first.progress.results:
         if line in (0, result.number):
             yield from ((result, each, line_name(tests.first.scenario, result)) for each in tests.words

@@ -1,4 +1,4 @@
-"""The command line: what runs first, and what every error comes to."""
+"""Entry point of the command line, with one handler for every error."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from mtr_operator.terminal import show_error
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command; the exit code."""
+    """Run a command and return the exit code."""
     try:
         from .commands import parser
         options = parser().parse_args(arguments)
@@ -22,7 +22,7 @@ def main(arguments: list[str] | None = None) -> int:
         print("Interrupted.", file=sys.stderr)
         return EXIT_INTERRUPTED
     except BrokenPipeError:
-        # Whoever read the output has seen enough.
+        # The reader closed the pipe, for example `head`.
         sys.stderr.close()
         return EXIT_ERROR
     except ModuleNotFoundError as error:

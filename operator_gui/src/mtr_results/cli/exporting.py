@@ -1,4 +1,4 @@
-"""The commands that hand the tables to other programs."""
+"""Commands that export the tables to other programs."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def export(options: argparse.Namespace) -> int:
 
 
 def query(options: argparse.Namespace) -> int:
-    """Print what a query over exported tables finds."""
+    """Print the result of an SQL query over exported tables."""
     from ..export import query_tables
     headings, rows = query_tables(options.folder, options.sql)
     if options.json:

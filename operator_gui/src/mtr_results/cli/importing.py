@@ -1,4 +1,4 @@
-"""The commands that put tests into the store."""
+"""Commands that import tests into the store."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from .output import print_json
 
 
 def import_tests(options: argparse.Namespace) -> int:
-    """Import what waits, then what is named; the exit code says whether all of it is in the store or waits for it."""
+    """Import waiting tests, then the given paths; exit code 0 if each test is stored or waits in the spool."""
     door = place_of(options).door(frozenset(options.station))
     found = []
     for intake in _taken(door, options):
@@ -45,7 +45,7 @@ def _taken(door: Door, options: argparse.Namespace) -> Iterator[Intake]:
 
 
 def list_waiting(options: argparse.Namespace) -> int:
-    """List the tests that wait on this computer, and for which store."""
+    """List the tests in the spool of this computer, with their stores."""
     spool = Spool(options.spool or default_spool())
     rows = [{"path": str(place), "store": spool.store_of(place), "campaign": spool.campaign_of(place)}
             for place in spool.all_waiting()]
@@ -57,7 +57,7 @@ def list_waiting(options: argparse.Namespace) -> int:
 
 
 def upgrade(options: argparse.Namespace) -> int:
-    """Bring a store to this version."""
+    """Migrate a store to the version of this program."""
     database = Database(engine_of(options.store))
     database.make_ready(may_upgrade=True)
     if options.json:

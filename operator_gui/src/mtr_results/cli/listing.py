@@ -1,4 +1,4 @@
-"""The commands that show what is in the store."""
+"""Commands that show the contents of the store."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _TRIED = ("line", "number", "attempt", "word", "status", "distance_m", "x_m", "y
 
 
 def list_tests(options: argparse.Namespace) -> int:
-    """Print the tests that fit."""
+    """Print the tests that match the search."""
     search = search_of(options)
     with place_of(options).open().reading() as connection:
         found, total = reading.find(connection, search), reading.count(connection, search)
@@ -37,7 +37,7 @@ def list_tests(options: argparse.Namespace) -> int:
 
 
 def show_test(options: argparse.Namespace) -> int:
-    """Print one test: what it is, each distance that counts, verdicts and files."""
+    """Print one test: properties, current distances, verdicts and files."""
     with place_of(options).open().reading() as connection:
         number = reading.number_of(connection, options.test)
         test, parts = reading.test_row(connection, number), reading.parts(connection, number)

@@ -1,4 +1,4 @@
-"""Which store and which tests a person means by the arguments of a command."""
+"""Store and search selected by the arguments of a command."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import argparse
 from ..store.place import Place
 from ..store.reading import Search
 
-# More tests than any store holds; databases take no larger number.
+# More tests than any store has; databases do not accept a larger limit.
 _MOST = 10 ** 9
-# Name of the argument, and of the attribute of Search -> what it means.
+# Name of the argument and attribute of Search -> help text.
 FILTERS = {"scenario": "its name: autolock, key_press, zone_map, handle_request, digital_key, sleep_time, "
                         "relay_resistance",
            "car": "model and VIN, as listed",
@@ -19,11 +19,11 @@ FILTERS = {"scenario": "its name: autolock, key_press, zone_map, handle_request,
 
 
 def place_of(options: argparse.Namespace) -> Place:
-    """The store."""
+    """Return the selected store."""
     return Place(options.store, options.files, getattr(options, "spool", None))
 
 
 def search_of(options: argparse.Namespace) -> Search:
-    """The tests."""
+    """Return the search of the selected tests."""
     return Search(" ".join(options.words), limit=min(max(0, options.limit), _MOST),
                   **{name: getattr(options, name) for name in FILTERS})

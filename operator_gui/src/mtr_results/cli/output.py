@@ -1,4 +1,4 @@
-"""What commands print: tables for a person, JSON for a program."""
+"""Output of commands: tables for a person, JSON for a program."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ _GAP = "  "
 
 
 def print_json(document: Any) -> None:
-    """One document, as it is, and at once: a program waits for the address of a server."""
+    """Print one document and flush it, because a program may wait for the address of a server."""
     print(json.dumps(document, indent=1, ensure_ascii=False), flush=True)
 
 
 def print_table(headings: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
-    """Columns as wide as they must be; numbers stand on the right."""
+    """Print left-aligned columns; columns of numbers are right-aligned."""
     texts = [list(map(str, headings)), *([cell(value) for value in row] for row in rows)]
     widths = [max(len(text[column]) for text in texts) for column in range(len(headings))]
     numeric = [all(isinstance(row[column], (int, float)) or row[column] is None for row in rows) and bool(rows)
@@ -28,7 +28,7 @@ def print_table(headings: Sequence[str], rows: Sequence[Sequence[Any]]) -> None:
 
 
 def cell(value: Any) -> str:
-    """As it stands in a table: m to the millimetre, nothing as a dash."""
+    """Return the text of a table cell: m to the millimetre, a dash for an empty value."""
     if value is None or value == "":
         return "-"
     if isinstance(value, bool):

@@ -1,4 +1,4 @@
-"""The command that writes pages as files."""
+"""Command that writes pages to files."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .output import print_json
 
 
 def report(options: argparse.Namespace) -> int:
-    """Write the report of a test, or of two sets beside each other."""
+    """Write the report of one test or of a comparison of two sets."""
     from ..report.pages import page_of_comparison, page_of_test
     with place_of(options).open().reading() as connection:
         if options.second is None:

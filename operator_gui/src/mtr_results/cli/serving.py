@@ -1,4 +1,4 @@
-"""The command that shows the store in a browser."""
+"""Command that serves the store to a browser."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def serve(options: argparse.Namespace) -> int:
     database = place.open()
     live = LivePages(Watch(Followed(options.follow), database))
     server, listening = make_server(Pages(database, place.kept_files()), live, access)
-    # With port 0 the system chooses.
+    # With port 0, the operating system chooses the port.
     address = dataclasses.replace(access, port=listening.getsockname()[1]).address
     if options.json:
         print_json({"address": address})

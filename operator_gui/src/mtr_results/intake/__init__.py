@@ -1,2 +1,2 @@
-"""Tests in files, read as rows of the store's tables."""
+"""Conversion of test files to rows of the store."""
 # SPDX-License-Identifier: Apache-2.0

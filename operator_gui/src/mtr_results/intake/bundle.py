@@ -1,4 +1,4 @@
-"""Bundles: a test with all its evidence in one signed file, which is verified before anything of it is believed."""
+"""Bundles: a test with all its evidence in one signed file, which is verified before it is read."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from ..errors import StoreAway, StoreError
 
 @contextlib.contextmanager
 def unpacked(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pathlib.Path]:
-    """Context with a folder that holds the files of a bundle; see source.opened."""
+    """Context with a folder of the unpacked files of a bundle; see source.opened."""
     _verify(path, stations)
     from mtr_operator.evidence.container import unpack
     with tempfile.TemporaryDirectory(prefix="mtr_bundle_") as folder:
@@ -32,12 +32,12 @@ def unpacked(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pat
         try:
             yield place
         except ProgressFileError as error:
-            # The folder is gone when somebody reads this; the bundle is what that person has.
+            # The temporary folder no longer exists when the message is shown, so the message names the bundle.
             raise ProgressFileError(str(error).replace(str(place / FILE_NAME), str(path))) from None
 
 
 def _verify(path: pathlib.Path, stations: Collection[str]) -> None:
-    # Needs a package of its own, which only bundles need.
+    # Requires a package that only bundles need.
     from mtr_operator.evidence.verification import is_newer, verify_bundle
     found = verify_bundle(path)
     if found.manifest is None and is_newer(path):

@@ -1,4 +1,4 @@
-"""Lines, their distances in all revisions, and the verdicts on them, as rows."""
+"""Rows of lines, of their distances in all revisions, and of verdicts."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,12 +19,15 @@ _OF_BUDGET = ("own_sigma_m", "common_sigma_m", "expanded_m")
 
 
 def assessment_of(side: Side) -> Assessment | None:
-    """None before the Car was mapped: nothing has been measured then."""
+    """Return the assessment, or None before the Car was mapped, because nothing has been measured then."""
     return None if side.progress.car is None else assess(side.scenario, side.parameters, side.progress)
 
 
 def line_rows(side: Side, tried: AbstractSet[int]) -> Iterator[Row]:
-    """One for each line that has a result. tried: numbers of lines that have a point, which may be all they have."""
+    """Yield a row for each line with a result or a point.
+
+    tried: numbers of lines that have at least one point; such a line may not have a result.
+    """
     results = {result.number: result for result in side.progress.results}
     if side.progress.car is None:
         return
@@ -38,8 +41,11 @@ def line_rows(side: Side, tried: AbstractSet[int]) -> Iterator[Row]:
 
 
 def measurement_rows(side: Side, assessment: Assessment | None, entries: Sequence[Entry]) -> list[Row]:
-    """Each distance of each result that a line ever had. What counts is the result in the progress; a revision that
-    says the same is that one."""
+    """Return a row for each distance of each result revision.
+
+    The current distance is the one in the progress. A revision with the same values is not duplicated; it is marked as
+    current.
+    """
     current = {result.number: result for result in side.progress.results}
     if not current:
         return []
@@ -75,7 +81,7 @@ def _finite(end_m: float) -> float | None:
 
 
 def verdict_rows(assessment: Assessment | None) -> Iterator[Row]:
-    """The test's first, then one for each limit and line; none without limits."""
+    """Yield the verdict of the test, then one row for each limit and line; none without limits."""
     judgement = None if assessment is None else assessment.judgement
     if judgement is None:
         return

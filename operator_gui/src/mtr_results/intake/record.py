@@ -1,4 +1,4 @@
-"""One test as rows of the store's tables."""
+"""Conversion of one test to rows of the store."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from .same_content import own_document
 from .source import files_of
 from .trials import Row, trials_of
 
-# Of tests with the same journal, the one that reaches farther is the newer one.
+# For copies with the same journal, the larger reach is the newer copy.
 Reach = tuple[int, bool]
 
 
@@ -37,11 +37,12 @@ class TestRecord:
     """Rows of one test, without its number in the store.
 
     Attributes:
-        test: columns of its own. car, key, equipment: whom and what it names. files: where each file lies, by name.
-        own: what its file states itself, without the defaults of this version of the program.
+        test: columns of the test itself. car, key, equipment: rows that the test refers to. files: path of each file,
+        by name.
+        own: contents of the test's file, without the defaults of this version of the program.
     """
 
-    # The name would make pytest collect it.
+    # Without this, pytest would collect the class because of its name.
     __test__ = False
 
     test: Row
@@ -57,16 +58,16 @@ class TestRecord:
 
     @property
     def reach(self) -> Reach:
-        """How far the test came in this copy, and whether the copy has each point."""
+        """Return the number of journal entries of this copy, and whether it includes the journal."""
         return self.test["entries"], self.test["has_journal"]
 
 
 def read_record(path: pathlib.Path) -> TestRecord:
-    """The test in a progress file or journal; OperatorError says why there is none."""
+    """Read the test from a progress file or journal; OperatorError with the reason if there is none."""
     side = open_side(path)
     try:
         journal = journal_of(progress_path(path))
-        # A journal that does not fit is not what the progress was taken from.
+        # Ignore a journal that does not belong to this progress.
         fits = side.progress.kept is not None and journal.mark is not None and journal.mark.id == side.progress.kept.id
         own = own_document(path, side.progress) or side.progress.to_document()
         return _record(entry_of(path, side), side, journal.entries if fits else (), files_of(path), own)
@@ -107,7 +108,7 @@ def _equipment(identity: Identity) -> list[Row]:
 
 
 def side_of(document: bytes) -> Side:
-    """The test in a compressed document, as it was when it was imported."""
+    """Restore the test from a compressed document, as it was at the import."""
     try:
         stored: dict[str, Any] = json.loads(_decompressed(document))
         scenario = SCENARIOS[stored["scenario"]]
@@ -119,7 +120,7 @@ def side_of(document: bytes) -> Side:
 
 
 def _decompressed(document: bytes) -> bytes:
-    """ValueError for more than a progress file may hold: a few bytes can expand to gigabytes."""
+    """Decompress a document; ValueError above the limit of a progress file: a few bytes can expand to gigabytes."""
     content = zlib.decompressobj().decompress(document, MAX_BYTES + 1)
     if len(content) > MAX_BYTES:
         raise ValueError("too long")

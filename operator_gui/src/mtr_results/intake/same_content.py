@@ -1,4 +1,4 @@
-"""Comparison of two documents of one test: a later version of the program writes more fields, and other defaults."""
+"""Comparison of two documents of one test. A later version of the program writes more fields and other defaults."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from mtr_operator.storage.recovery import progress_path
 
 
 def own_document(path: pathlib.Path, progress: Progress) -> Mapping[str, Any] | None:
-    """Return what the progress file at a path states itself; None when the test reaches farther than the file.
+    """Return the contents of the progress file at a path, or None if the test reaches farther than the file.
 
-    Fields that the program fills with its defaults are not in it.
+    Fields that the program fills with its defaults are not included.
     """
     with contextlib.suppress(OSError, ValueError, LookupError, TypeError, AttributeError):
         document: Any = json.loads(progress_path(path).read_bytes())
@@ -26,10 +26,10 @@ def own_document(path: pathlib.Path, progress: Progress) -> Mapping[str, Any] | 
 
 
 def states_the_same(own: Mapping[str, Any], stored: bytes) -> bool:
-    """True when a document and the compressed one of the store agree in every field that both have.
+    """Return True if a document and the compressed one of the store agree in every field that both have.
 
-    A field of one alone is a default of the version that wrote it; lists have to be equally long. The record of the
-    session has no defaults.
+    A field that only one document has is a default of the version that wrote it. Lists must have the same length. The
+    record of the session has no defaults.
     """
     there = json.loads(zlib.decompress(stored))
     return own.get("session") == there.get("session") and _agree(own, there)

@@ -1,4 +1,4 @@
-"""Where tests lie: progress files, folders with them, and bundles, which are tests in one file each."""
+"""Sources of tests: progress files, folders with them, and bundles, each of which is a test in one file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,8 +21,11 @@ BUNDLE_SUFFIX = ".mtr.zip"
 
 
 def tests_in(path: pathlib.Path) -> list[pathlib.Path]:
-    """Files of the tests at a path, sorted: the file itself, the test in a folder, or those in the folders within it;
-    StoreError when there is none."""
+    """Return the sorted files of the tests at a path: the file itself, the test in a folder, or the tests in its
+    subfolders.
+
+    Raises StoreError if there is none.
+    """
     if not path.is_dir():
         if not path.exists():
             raise StoreError(f"There is no {path}; name a progress file, a bundle or a folder with tests.")
@@ -38,10 +41,10 @@ def tests_in(path: pathlib.Path) -> list[pathlib.Path]:
 
 @contextlib.contextmanager
 def opened(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pathlib.Path]:
-    """Context with the progress file of the test in a file; a bundle is verified, then unpacked meanwhile.
+    """Context with the progress file of a test; a bundle is verified and unpacked for the duration of the context.
 
-    stations: keys of those whose bundles are taken, none for any. StoreError for a bundle that is not as it was signed,
-    or signed by another station.
+    stations: keys of the stations whose bundles are accepted; empty accepts all. Raises StoreError if the signature of
+    a bundle is not valid or belongs to another station.
     """
     if not path.name.endswith(BUNDLE_SUFFIX):
         yield path
@@ -51,9 +54,11 @@ def opened(path: pathlib.Path, stations: Collection[str] = ()) -> Iterator[pathl
 
 
 def files_of(path: pathlib.Path) -> dict[str, pathlib.Path]:
-    """Files of the test with this progress file, by their names: all of its folder when it has one of its own, else
-    those that bear its name; photos included. Hidden files, names that are refused (see inside) and links that lead out
-    of the folder are left out."""
+    """Return the files of the test with this progress file by name, including photos.
+
+    A test in its own folder has all files of that folder, any other test the files that share its name. Hidden files,
+    rejected names (see inside) and links out of the folder are excluded.
+    """
     record = progress_path(path)
     beside = ([*record.parent.iterdir()] if record.name == FILE_NAME else [record, record.with_suffix(SUFFIX)])
     photos = photo_folder(record)

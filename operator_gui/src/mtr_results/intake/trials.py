@@ -1,4 +1,4 @@
-"""Every point of every attempt: from the journal, or from what the result of a line tells of them."""
+"""Points of all attempts, from the journal or from the results of the lines."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ Row = dict[str, Any]
 NOTHING: Row = {"attempt": 1, "distance_m": None, "sigma_m": None, "x_m": None, "y_m": None, "height_m": None,
                 "speed_mps": None, "robot_time_s": None, "cause": ""}
 WORKED, FAILED = LineStatus.OK.value, LineStatus.NOT_REACHED.value
-# Name in the journal -> column.
+# Field in the journal -> column.
 _FIELDS = {"distance_m": "distance_m", "uncertainty_m": "sigma_m", "key_height_m": "height_m",
            "speed_mps": "speed_mps", "robot_time_s": "robot_time_s"}
 
 
 def trials_of(entries: Sequence[Entry], results: Sequence[LineResult]) -> list[Row]:
-    """Trials of all lines, numbered line by line; of a line of which the journal has no point, those in its result."""
+    """Return the trials of all lines, numbered per line; a line without points in the journal uses its result."""
     found = _journalled(entries, results)
     for result in results:
         if result.number not in found:
@@ -31,8 +31,7 @@ def trials_of(entries: Sequence[Entry], results: Sequence[LineResult]) -> list[R
 
 
 def revisions_of(entries: Sequence[Entry]) -> Iterator[Any]:
-    """Documents of all results that lines had, in their order; also those with which the journal, or a part of it,
-    began."""
+    """Yield the documents of all line results in order, including the initial ones of the journal or of a part."""
     told: list[Any] = []
     for entry in entries:
         if entry.kind in (LINE, REVISED):
@@ -51,13 +50,13 @@ def _journalled(entries: Sequence[Entry], results: Sequence[LineResult]) -> dict
     for entry in entries:
         if entry.kind == BEGUN:
             for result in _begun_with(entry, results):
-                # What was measured before the journal is one attempt, as far as its result tells of it.
+                # Results from before the journal count as one attempt, with the points that they contain.
                 if result.number not in found:
                     found[result.number] = [{**NOTHING, **row} for row in recorded(result)]
                     begun[result.number] = 1
         elif entry.kind in (LINE_BEGUN, LINE_RESUMED, FURTHER):
             line = int(entry.values["line"])
-            # Whatever goes on with a line belongs to the attempt that it goes on with.
+            # Resumed and additional measurements belong to the attempt that they continue.
             begun[line] = begun.get(line, 0) + 1 if entry.kind == LINE_BEGUN else begun.get(line, 1)
         elif entry.kind == POINT and line is not None:
             found.setdefault(line, []).append({**_point(entry), "attempt": begun[line]})
@@ -76,7 +75,7 @@ def _point(entry: Entry) -> Row:
 
 
 def recorded(result: LineResult) -> Iterator[Row]:
-    """Points that a result tells of, as far as it does; what worked comes first."""
+    """Yield the points that a result contains; points with a reaction come first."""
     word = result.distances[0].word
     if isinstance(result, ZoneMapResult):
         for status, places in ((WORKED, result.worked), (FAILED, result.failed)):

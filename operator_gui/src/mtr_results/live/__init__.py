@@ -1,2 +1,2 @@
-"""Tests that are being measured, from the files that the application writes anyway: nothing is asked of it."""
+"""Tests in progress, read from the files that the application writes; the application itself is not queried."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The tests in folders that somebody follows, and when their files have changed."""
+"""Tests in followed folders, and the changes of their files."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from mtr_operator.storage.recovery import progress_path
 
 from ..errors import StoreError
 
-# An application that measures writes several times a second; so long after that it stands, or was killed.
+# A measuring application writes several times a second. After this silence it is paused or was killed.
 SILENT_S = 30.0
 _NAME_LETTERS = 12
 Stamp = tuple[int, int]
@@ -25,7 +25,7 @@ _NOTHING = (0, 0)
 
 @dataclass(frozen=True)
 class FollowedTest:
-    """Attributes: name: in addresses, which tell no paths. path: of the progress file or journal."""
+    """Attributes: name: identifier in addresses, which do not reveal paths. path: of the progress file or journal."""
 
     name: str
     path: pathlib.Path
@@ -33,11 +33,11 @@ class FollowedTest:
 
 @dataclass(frozen=True)
 class Seen:
-    """What a look at the files of a test has found; times and sizes, not contents.
+    """File state of a test: times and sizes, not contents.
 
     Attributes:
-        test: stamps of progress file and journal. course: the newest one, None without. of_course: its stamp.
-        is_held: an application writes the test, or was killed doing so. silent_s: since something was written.
+        test: stamps of progress file and journal. course: newest status recording, or None. of_course: its stamp.
+        is_held: an application has the test open, or was killed while it had. silent_s: time since the last write.
     """
 
     test: tuple[Stamp, Stamp]
@@ -48,23 +48,23 @@ class Seen:
 
     @property
     def is_measured(self) -> bool:
-        """Just now."""
+        """True if an application is writing the test now."""
         return self.is_held and self.silent_s < SILENT_S
 
 
 class Followed:
-    """Looks into folders when it is asked; takes no lock and writes nothing."""
+    """Scans folders on request, without locks and without writing."""
 
     def __init__(self, folders: Sequence[pathlib.Path]):
         self.folders = tuple(folders)
 
     def tests(self) -> list[FollowedTest]:
-        """All tests in the folders, the one that was written last first."""
+        """Return all tests in the folders, the most recently written one first."""
         found = sorted(stamps(self.folders).items(), key=lambda item: max(item[1][0], item[1][2]), reverse=True)
         return [FollowedTest(_name_of(path), pathlib.Path(path)) for path, _ in found]
 
     def test(self, name: str) -> FollowedTest:
-        """By its name; StoreError when there is none."""
+        """Return a test by its name; StoreError if there is none."""
         for test in self.tests():
             if test.name == name:
                 return test
@@ -72,7 +72,7 @@ class Followed:
 
 
 def look(path: pathlib.Path) -> Seen:
-    """At the files of a test."""
+    """Return the state of the files of a test."""
     record = progress_path(path)
     runs = recorded_runs(recording_folder(record))
     course = runs[-1].course if runs else None

@@ -1,4 +1,4 @@
-"""How far a test has come and how long it may still take, from what its journal says."""
+"""Progress and remaining time of a test, from its journal."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,11 +13,14 @@ from mtr_operator.storage.journal.journal_file import Entry
 
 @dataclass(frozen=True)
 class CourseOfTest:
-    """Attributes:
-        action: what the robot was told to do last; empty before. line: number of the line at hand, None between lines.
-        heard_s: robot time of that, NaN before. line_s: robot time that a line took, median: a break between two runs
-            is none. NaN before one.
-        since_s: robot time at which the last line ended, or the run began.
+    """Progress of a test.
+
+    Attributes:
+        action: last decision for the robot; empty before. line: number of the current line, None between lines.
+        heard_s: robot time of that decision, NaN before. line_s: median robot time per line, without breaks between
+        runs;
+            NaN before the first line ends.
+        since_s: robot time of the end of the last line, or of the start of the run.
     """
 
     action: str = ""
@@ -27,16 +30,16 @@ class CourseOfTest:
     since_s: float = math.nan
 
     def left_s(self, lines: int, now_s: float) -> float | None:
-        """For so many lines more, at the pace so far; None when nothing is known. now_s: robot time."""
+        """Return the remaining time for a number of lines at the median pace; None if unknown. now_s: robot time."""
         if not lines or math.isnan(self.line_s):
             return None
-        # A line that takes longer than the others shortens nothing of what comes after it.
+        # An overlong current line does not shorten the estimate of the following lines.
         gone_s = max(0.0, now_s - self.since_s) if now_s >= self.since_s else 0.0
         return max(0.0, self.line_s - gone_s) + (lines - 1) * self.line_s
 
 
 def course_of(entries: Sequence[Entry]) -> CourseOfTest:
-    """As far as the journal reaches."""
+    """Evaluate the journal up to its last entry."""
     action, line, heard_s, since_s = "", None, math.nan, math.nan
     took_s: list[float] = []
     has_ended = False
@@ -48,7 +51,7 @@ def course_of(entries: Sequence[Entry]) -> CourseOfTest:
         elif entry.kind == DECISION:
             action, at_s = str(entry.values["action"]), float(entry.values["robot_time_s"])
             if at_s < heard_s:
-                # Another start of the robot: its clock tells nothing of the times before.
+                # The robot was restarted: earlier times belong to another clock.
                 took_s, since_s, has_ended = [], at_s, False
             if math.isnan(since_s):
                 since_s = at_s

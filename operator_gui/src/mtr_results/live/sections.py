@@ -1,4 +1,4 @@
-"""A test that is being measured, as the sections of its page."""
+"""Sections of the page of a test in progress."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ _SECONDS_A_MINUTE = 60.0
 
 @dataclass(frozen=True)
 class MeasuredSoFar:
-    """What progress file and journal of a test say.
+    """Contents of the progress file and journal of a test.
 
     Attributes:
-        distances, points: rows as they are shown, the newest point first.
+        distances, points: formatted rows, the newest point first.
     """
 
     side: Side
@@ -44,7 +44,7 @@ class MeasuredSoFar:
 
 
 def read_so_far(path: pathlib.Path) -> MeasuredSoFar:
-    """OperatorError when the files hold no test."""
+    """Read a test in progress; OperatorError if the files do not contain a test."""
     side = open_side(path)
     entries = journal_of(progress_path(path)).entries
     trials = trials_of(entries, side.progress.results)
@@ -55,7 +55,7 @@ def read_so_far(path: pathlib.Path) -> MeasuredSoFar:
 
 
 def sections(measured: MeasuredSoFar, seen: Seen, number: int | None) -> Mapping[str, str]:
-    """HTML by id. number: of the test in the store, None when it is not there."""
+    """Return the HTML of each section by its id. number: of the test in the store, None if it is not stored."""
     status = None if seen.course is None or not seen.is_held else _status(seen.course)
     pose = Pose(status.x, status.y, status.heading) if status is not None and status.pose_valid else None
     return {NOW: render_part("live_now.html", **_now(measured, seen, status), number=number),
@@ -95,6 +95,6 @@ def _time(seconds: float) -> str:
 
 
 def _newest_first(trials: list[Row]) -> list[Row]:
-    """By the time at which the robot was there; what tells none comes last, line by line."""
+    """Sort by robot time, newest first; points without a time come last, line by line."""
     return sorted(trials, key=lambda row: -math.inf if row["robot_time_s"] is None else row["robot_time_s"],
                   reverse=True)

@@ -1,4 +1,4 @@
-"""The sections of followed tests for any number of browsers: files are read once for each change, whoever asks."""
+"""Shared cache of the sections of followed tests: files are read once per change, for any number of browsers."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from ..store.database import Database
 from .followed import Followed, FollowedTest, Stamp, look
 from .sections import NOW, MeasuredSoFar, read_so_far, sections
 
-# So many tests are remembered; who follows more reads files more often.
+# Number of cached tests; with more followed tests, files are read more often.
 _REMEMBERED = 8
 Read = tuple[tuple[Stamp, Stamp], MeasuredSoFar]
 
 
 class Watch:
-    """Of the tests in some folders. Each browser asks as often as it can show something."""
+    """Sections of the tests in some folders. Each browser polls at its own rate."""
 
     def __init__(self, followed: Followed, database: Database):
         self._followed = followed
@@ -34,7 +34,7 @@ class Watch:
 
     @property
     def is_following(self) -> bool:
-        """There are folders."""
+        """True if folders are followed."""
         return bool(self._followed.folders)
 
     def test(self, name: str) -> FollowedTest:
@@ -42,7 +42,7 @@ class Watch:
         return self._followed.test(name)
 
     def sections(self, test: FollowedTest) -> Mapping[str, str]:
-        """HTML by id; where the files cannot be read just now, the reason."""
+        """Return the HTML by section id, or the reason if the files cannot be read at present."""
         try:
             seen = look(test.path)
             with self._lock:
@@ -53,7 +53,7 @@ class Watch:
             return {NOW: render_part("live_problem.html", sentence=said)}
 
     def so_far(self, test: FollowedTest) -> MeasuredSoFar:
-        """What its files say; OperatorError when they hold no test."""
+        """Return the contents of the test's files; OperatorError if they do not contain a test."""
         with self._lock:
             return self._measured(test, look(test.path).test)
 
@@ -67,7 +67,7 @@ class Watch:
         return known[1]
 
     def _number(self, test_id: str) -> int | None:
-        """Of the test in the store; a store that is away has none, and the page goes on."""
+        """Return the number of the test in the store; None if it is unavailable, so that the page still works."""
         try:
             with self._database.reading() as connection:
                 return reading.number_by_key(connection, test_id)

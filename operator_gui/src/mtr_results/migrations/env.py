@@ -1,4 +1,4 @@
-"""Read by Alembic when it runs a migration, within the transaction of whoever asked for it."""
+"""Migration environment. Alembic runs it within the transaction of the caller."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

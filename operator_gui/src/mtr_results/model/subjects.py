@@ -1,4 +1,4 @@
-"""What is tested and with what: cars, keys, equipment, campaigns. Each is one row, however many tests name it."""
+"""Tested objects and equipment: cars, keys, equipment, campaigns. Each has one row, shared by all its tests."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .base import Base
 
 
 class Campaign(Base):
-    """Tests that belong together, by the name that a person gave them."""
+    """Tests that belong together, under a name chosen by a person."""
 
     __tablename__ = "campaign"
     id: Mapped[int] = mapped_column(primary_key=True)
@@ -17,7 +17,7 @@ class Campaign(Base):
 
 
 class Car(Base):
-    """A Car with its software: the same Car after an update is another row. Empty is what nobody said."""
+    """A Car with its software; the same Car after an update is another row. Unspecified fields are empty."""
 
     __tablename__ = "car"
     __table_args__ = (UniqueConstraint("vin", "model", "software"),)
@@ -38,7 +38,7 @@ class Key(Base):
 
 
 class Equipment(Base):
-    """An instrument as it was calibrated at the time; days are ISO dates, empty where there is none."""
+    """An instrument with its calibration at the time of the test; days are ISO dates, or empty."""
 
     __tablename__ = "equipment"
     __table_args__ = (UniqueConstraint("name", "serial", "calibrated", "valid_until"),)
@@ -50,7 +50,7 @@ class Equipment(Base):
 
 
 class TestEquipment(Base):
-    """Which instrument a test was measured with."""
+    """Assignment of instruments to tests."""
 
     __tablename__ = "test_equipment"
     __table_args__ = {"sqlite_with_rowid": False}

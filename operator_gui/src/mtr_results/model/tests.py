@@ -1,4 +1,4 @@
-"""A test and what it measured, in SI units and the Car coordinate system, angles as in results.csv."""
+"""A test and its measurements, in SI units and the Car coordinate system; angles as in results.csv."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,26 +9,26 @@ from sqlalchemy.orm import Mapped, deferred, mapped_column
 
 from .base import Base
 
-# On Python 3.9 the mapping reads its annotations when it is made: X | None is not understood there.
+# On Python 3.9, the mapping evaluates annotations at run time, which does not support X | None.
 Number = Optional[float]
 Reference = Optional[int]
-# A table whose rows lie in the order of their key takes half the room.
+# A table stored in the order of its key requires half the space.
 DENSE = {"sqlite_with_rowid": False}
 
 
 class Test(Base):
-    """One test, as far as it was measured when it was imported.
+    """One test, as far as it was measured at the time of the import.
 
     Attributes:
-        test_key: the same in each copy of the test. entries, has_journal: how far the imported copy reaches.
-        digest: SHA-256 of what was measured, by which another content under the same key is noticed.
-        started: as in the record; started_utc: ISO, in UTC, by which tests are ordered and searched.
-        done, total, invalid: lines. verdict: word of the test's verdict, empty without limits.
-        words: all that a search looks at, in small letters.
-        document: the progress document as compressed JSON: nothing that was recorded is lost, whatever the tables hold.
+        test_key: identical in each copy of the test. entries, has_journal: reach of the imported copy.
+        digest: SHA-256 of the measurements; it detects other contents under the same key.
+        started: as in the record; started_utc: ISO, in UTC, for sorting and searching.
+        done, total, invalid: numbers of lines. verdict: of the test, empty without limits.
+        words: lower-case text for the search.
+        document: progress document as compressed JSON, so that no recorded data is lost, whatever the tables hold.
     """
 
-    # The name would make pytest collect it.
+    # Without this, pytest would collect the class because of its name.
     __test__ = False
     __tablename__ = "test"
     id: Mapped[int] = mapped_column(primary_key=True)
@@ -64,7 +64,7 @@ class Test(Base):
 
 
 class Line(Base):
-    """One line: where it lies, and what became of it. height_m: of the key on a line that has one of its own."""
+    """Geometry and result of one line. height_m: of the key, if the line has its own height."""
 
     __tablename__ = "line"
     __table_args__ = DENSE
@@ -81,15 +81,15 @@ class Line(Base):
 
 
 class Measurement(Base):
-    """One distance of a line as one attempt measured it; is_current marks the one that counts.
+    """One distance of a line in one revision of its result; is_current marks the valid one.
 
     Attributes:
-        revision: from 1, in the order in which the results of the line came: an attempt, then what all lines together
-            made of it.
-        kind, first_m, second_m: what may be said of it, see Figure. low_m, high_m: 95 % interval of the boundary with
-            all its errors, NULL where an end is open; has_interval: the method gives one.
-        own_sigma_m, common_sigma_m, expanded_m: of the budget, of what counts alone.
-        coverage: part of a zone's area where at least half of the attempts work, with its 95 % interval.
+        revision: from 1, in the order of the results of the line: first an attempt, then its revision by the joint
+            evaluation of all lines.
+        kind, first_m, second_m: reported value, see Figure. low_m, high_m: 95 % interval of the boundary with all
+            errors, NULL for an open end; has_interval: the method provides one.
+        own_sigma_m, common_sigma_m, expanded_m: uncertainty budget, for the current distance only.
+        coverage: share of a zone's area in which at least half of the attempts succeed, with its 95 % interval.
     """
 
     __tablename__ = "measurement"
@@ -117,11 +117,12 @@ class Measurement(Base):
 
 
 class Trial(Base):
-    """One point: a press, a pass or a request, in the order in which they were made; none is left out.
+    """One point (a press, a pass or a request), in the order of the test; all points are stored.
 
     Attributes:
-        attempt: how often the line had been begun. status: ok when the Car reacted. x_m, y_m: where the key was, where
-            only that is recorded. cause: what the Car says made it react.
+        attempt: number of the attempt on the line. status: ok if the Car reacted. x_m, y_m: position of the key, if
+        only
+            the position is recorded. cause: reason of the reaction, as reported by the Car.
     """
 
     __tablename__ = "trial"
@@ -144,7 +145,7 @@ class Trial(Base):
 
 
 class Verdict(Base):
-    """What a limit says of a line; line is 0 for the whole test."""
+    """Verdict of a limit on a line; line is 0 for the whole test."""
 
     __tablename__ = "verdict"
     __table_args__ = DENSE
@@ -157,7 +158,7 @@ class Verdict(Base):
 
 
 class File(Base):
-    """A file of a test; its content lies in the store's folder of files under its check sum."""
+    """A file of a test; its content is stored in the file folder of the store, under its check sum."""
 
     __tablename__ = "file"
     __table_args__ = DENSE

@@ -1,2 +1,2 @@
-"""Pages about tests: pictures as SVG, and HTML from one set of templates, for files and for the browser."""
+"""Pages about tests: SVG pictures, and HTML templates for files and for the browser."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Shapes in m, x to the right and y up, as an SVG of its own: no script, nothing from elsewhere."""
+"""Shapes in m, x to the right and y up, as a self-contained SVG without scripts and external content."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,34 +6,34 @@ from html import escape
 from typing import Sequence
 
 Point = tuple[float, float]
-# Px of a drawing's longer side; a browser shrinks it to the page.
+# Longer side of a drawing in px; browsers scale it down to the page.
 _SIZE = 640.0
 _MARGIN = 46.0
 
 
 class Drawing:
-    """Collects shapes, then draws them as large as they fit. The classes are those of style.css."""
+    """Collects shapes and scales them to the drawing. Kinds are classes of style.css."""
 
     def __init__(self, title: str, is_stretched: bool = False):
-        """is_stretched: x and y have scales of their own, as in a chart."""
+        """Create an empty drawing. is_stretched: x and y have independent scales, as in a chart."""
         self._title = title
         self._is_stretched = is_stretched
         self._shapes: list[tuple[str, tuple[Point, ...], str]] = []
 
     def line(self, points: Sequence[Point], kind: str, is_closed: bool = False, title: str = "") -> None:
-        """Through points. title: what a person reads who points at it."""
+        """Add a line through points. title: tooltip."""
         self._shapes.append(("polygon" if is_closed else "polyline", tuple(points), _class(kind) + _titled(title)))
 
     def dot(self, point: Point, kind: str, title: str = "") -> None:
-        """A point."""
+        """Add a point."""
         self._shapes.append(("circle", (point,), _class(kind) + _titled(title)))
 
     def text(self, point: Point, words: str, kind: str = "label") -> None:
-        """Words around a point."""
+        """Add a text centred at a point."""
         self._shapes.append(("text", (point,), f"{_class(kind)}>{escape(words)}</text>"))
 
     def svg(self) -> str:
-        """All of it."""
+        """Return the SVG of all shapes."""
         points = [point for _, shape, _ in self._shapes for point in shape] or [(0.0, 0.0)]
         left, bottom = min(x for x, _ in points), min(y for _, y in points)
         width, height = max(x for x, _ in points) - left or 1.0, max(y for _, y in points) - bottom or 1.0

@@ -1,4 +1,4 @@
-"""HTML of one test and of a comparison: the same for a file and for the browser, whole in itself."""
+"""Self-contained HTML of one test and of a comparison, for files and for the browser."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -40,25 +40,25 @@ def _style() -> str:
 
 
 def template_text(name: str) -> str:
-    """A file beside the templates, as it is."""
+    """Return the text of a file next to the templates."""
     return (_TEMPLATES / name).read_text(encoding="utf-8")
 
 
 def render_part(template: str, **values: Any) -> str:
-    """A part of a page that is changed while the page is shown."""
+    """Render a part of a page that is updated while the page is shown."""
     return _environment().get_template(template).render(**values)
 
 
 def render(template: str, title: str, served: bool = False, **values: Any) -> str:
-    """A page by its template. served: it is in the browser, with links to others; else it stands alone."""
-    # The style is the project's own text, and goes in as it is.
+    """Render a page from its template. served: for the browser, with links to other pages; otherwise without links."""
+    # The style sheet is trusted, so it is not escaped.
     return _environment().get_template(template).render(title=title, served=served,
                                                         style=markupsafe.Markup(_style()), **values)
 
 
 def page_of_test(test: Row, parts: Mapping[str, Sequence[Row]], side: Side, served: bool = False,
               kept: frozenset[str] = frozenset()) -> str:
-    """Page of one test. kept: check sums of files that can be had."""
+    """Return the page of one test. kept: check sums of the available files."""
     names = names_of(side)
     distances = distance_texts(side, parts["lines"], parts["measurements"])
     facts = [(title, test[name]) for name, title in _FACTS.items() if test[name] not in ("", None)]
@@ -75,12 +75,12 @@ def page_of_test(test: Row, parts: Mapping[str, Sequence[Row]], side: Side, serv
 
 
 def names_of(side: Side) -> dict[int, str]:
-    """Of the lines that have a result."""
+    """Return the names of the lines that have a result, by number."""
     return {result.number: line_name(side.scenario, result) for result in side.progress.results}
 
 
 def distance_texts(side: Side, lines: Sequence[Row], measurements: Sequence[Row]) -> list[dict[str, str]]:
-    """The distances that count, line by line, as they are shown."""
+    """Return the formatted current distances, line by line."""
     names, reasons = names_of(side), {line["number"]: line["reason"] for line in lines}
     words = {word: number for number, word in enumerate(side.scenario.distance_words)}
     current = sorted((row for row in measurements if row["is_current"]),
@@ -91,13 +91,13 @@ def distance_texts(side: Side, lines: Sequence[Row], measurements: Sequence[Row]
 
 
 def trial_texts(trials: Sequence[Row]) -> list[dict[str, Any]]:
-    """Points with their places as they are shown."""
+    """Return points with formatted places."""
     return [{**row, "place": _place(row)} for row in trials]
 
 
 def page_of_comparison(first: Sequence[Side], second: Sequence[Side], texts: tuple[str, str],
                        served: bool = False) -> str:
-    """Page of two sets. texts: how a person named them."""
+    """Return the page of a comparison of two sets. texts: the sets as a person specified them."""
     comparison = compare_sets(first, second)
     pictures = [{"word": word, "overlay": overlay_picture(comparison, word),
                  "differences": difference_picture(comparison, word)} for word in comparison.tests.words]

@@ -1,4 +1,4 @@
-"""The pictures of pages: one test around its Car, two sets over each other, differences, and a distance over time."""
+"""Pictures of pages: a test around its Car, overlay of two sets, differences, and a distance over time."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,22 +19,22 @@ from ..statistics.texts import estimate_text, interval_text
 from ..statistics.trend import Trend
 from .drawing import Drawing, Point
 
-# A label stands so far beyond the end of its line, in m.
+# Distance of a label from the end of its line, in m.
 _LABEL_M = 0.35
 # Length of the robot, in m.
 ROBOT_M = 0.51
-# A side takes the room of so many lines.
+# Width of a side in a chart, in lines.
 _ROOM_OF_SIDE = 1.8
-# The figures of control limits stand beside the chart, by its width.
+# Position of the limit labels next to the chart, as a share of its width.
 _BESIDE = 1.06
-# Of more tests the numbers would lie on each other.
+# Test numbers are omitted for more tests, because they would overlap.
 _MAX_NAMED = 24
 _SIDES = ("first", "second")
 _KINDS = {FARTHER: "farther", NEARER: "nearer"}
 
 
 def around_car(side: Side) -> str:
-    """What the protocol of a test shows, the Car's front on top; empty before the Car was mapped."""
+    """Return the picture of the test report, with the Car's front up; empty before the Car was mapped."""
     if side.progress.car is None:
         return ""
     drawing = Drawing(f"{side.scenario.title}: points around the Car")
@@ -43,9 +43,11 @@ def around_car(side: Side) -> str:
 
 
 def around_car_so_far(side: Side, points: Sequence[Mapping[str, Any]], robot: Pose | None) -> str:
-    """The same of a test that is being measured, with the lines that are still to come, so that the picture stays as
-    large as it is. points: rows of trials, of which those of lines without a result are drawn. robot: base_link in the
-    Car coordinate system, None where nobody knows it."""
+    """Return the picture of a test in progress, including future lines so that the scale does not change.
+
+    points: rows of trials; only lines without a result are drawn. robot: base_link in the Car coordinate system, or
+    None if unknown.
+    """
     car = side.progress.car
     if car is None:
         return ""
@@ -67,7 +69,7 @@ def around_car_so_far(side: Side, points: Sequence[Mapping[str, Any]], robot: Po
 
 
 def _place_of(row: Mapping[str, Any], rays: Mapping[int, Ray]) -> Point | None:
-    """Of a trial; None where the key's place is not told."""
+    """Return the place of a trial; None if the place of the key is unknown."""
     if row["x_m"] is not None and row["y_m"] is not None:
         return float(row["x_m"]), float(row["y_m"])
     if row["distance_m"] is None or row["line"] not in rays:
@@ -85,7 +87,7 @@ def _draw_test(drawing: Drawing, side: Side, car: CarDimensions) -> None:
 
 
 def _draw_robot(drawing: Drawing, robot: Pose) -> None:
-    """A triangle that points where the robot looks."""
+    """Draw a triangle that points along the heading of the robot."""
     ahead, beside = ROBOT_M / 2.0, ROBOT_M / 2.5
     corners = [robot.apply(corner) for corner in ((ahead, 0.0), (-ahead, beside), (-ahead, -beside))]
     drawing.line([_up(corner) for corner in corners], "robot", is_closed=True, title="Robot")
@@ -93,7 +95,7 @@ def _draw_robot(drawing: Drawing, robot: Pose) -> None:
 
 
 def _up(point: Point) -> Point:
-    """The Car coordinate system has x to the front; on the page the front is up, and left is left."""
+    """Rotate a point for the page: x of the Car coordinate system (front) is up, left stays left."""
     return -point[1], point[0]
 
 
@@ -126,7 +128,7 @@ def _draw_set(drawing: Drawing, points: PointSet) -> None:
 
 
 def overlay_picture(comparison: Comparison, word: str) -> str:
-    """Both sets around the Car: intervals along each line, an outline through what has a value."""
+    """Return both sets around the Car: intervals along each line, and an outline through the values."""
     first = comparison.tests.first
     lines = {line.number: line for line in first.scenario.lines(first.parameters, first.progress.measured_car)}
     drawing = Drawing(f"{word}: both sides around the Car")
@@ -152,7 +154,7 @@ def overlay_picture(comparison: Comparison, word: str) -> str:
 
 
 def _shown_ends(found: Estimate) -> tuple[float, float] | None:
-    """Of an interval, as far as it is known; an open one ends where its known end is."""
+    """Return the finite ends of an interval; an open interval collapses to its known end."""
     ends = [end for end in (found.low, found.high) if math.isfinite(end)]
     return (min(ends), max(ends)) if ends else None
 
@@ -163,8 +165,7 @@ def _titled(row: Row, name: str) -> str:
 
 
 def difference_picture(comparison: Comparison, word: str) -> str:
-    """The difference of each line and of each side with its interval, zero drawn through; an open end goes to the
-    edge."""
+    """Return the differences of lines and sides with their intervals and a zero line; open ends reach the edge."""
     rows = [row for row in comparison.rows if row.quantity in (DISTANCE, SIDE) and row.word == word
             and not row.change.reason]
     ends = [end for row in rows for end in (row.change.low, row.change.high) if math.isfinite(end)]
@@ -186,7 +187,7 @@ def difference_picture(comparison: Comparison, word: str) -> str:
 
 
 def _places_of(rows: Sequence[Row]) -> list[float]:
-    """Lines one beside the other; sides, which have names, with more room."""
+    """Return the positions of lines and sides; sides have more space, because they have names."""
     places: list[float] = []
     for row in rows:
         places.append((places[-1] if places else -1.0) + (_ROOM_OF_SIDE if row.quantity == SIDE else 1.0))
@@ -194,7 +195,10 @@ def _places_of(rows: Sequence[Row]) -> list[float]:
 
 
 def trend_picture(trend: Trend, names: Sequence[str]) -> str:
-    """A distance in tests in the order of time, with control limits. names: of the tests, beginning with "test 17"."""
+    """Return the chart of a distance over the tests in order of time, with control limits.
+
+    names: of the tests, such as "test 17".
+    """
     drawing = Drawing("Distance over time with control limits", is_stretched=True)
     last = max(len(trend.points) - 1, 1)
     limits = [(height, kind) for height, kind in ((trend.centre, "axis"), (trend.low, "limit"), (trend.high, "limit"))
@@ -219,5 +223,5 @@ def trend_picture(trend: Trend, names: Sequence[str]) -> str:
 
 
 def _ends_of(known: Known | None) -> list[float]:
-    """Of what a test knows, as far as they are finite."""
+    """Return the finite ends of a known distance."""
     return [] if known is None else [end for end in (known.ends or (known.low, known.high)) if math.isfinite(end)]

@@ -1,2 +1,2 @@
-"""What tests say of each other. Pure: no database, no files."""
+"""Statistical comparison of tests. Pure: no database, no files."""
 # SPDX-License-Identifier: Apache-2.0

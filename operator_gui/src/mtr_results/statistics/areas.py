@@ -1,8 +1,8 @@
-"""The area that the distances around a Car enclose, in m2, with what is known of it.
+"""Area that the distances around a Car enclose, in m2, with its uncertainty.
 
-The area is not linear in the distances, and those of one test go together by the errors that they share; so it is drawn
-(JCGM 101): each distance within its 95 % interval, the coherent part once for all lines of a draw. Between lines the
-outline is straight. Where a distance has an open end the area has one, too.
+The area is not linear in the distances, and distances of one test are correlated by common errors. So a Monte Carlo
+method is used (JCGM 101): each distance is drawn within its 95 % interval, the coherent part once for all lines of a
+draw. Between lines the outline is straight. If a distance has an open end, the area has one, too.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,15 +19,15 @@ from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.history.estimate import Known
 
 Floats = npt.NDArray[np.float64]
-# The ends of an interval change by 3 % of its width from one seed to another.
+# With this number, the ends of an interval vary by 3 % of its width between seeds.
 DRAWS = 2000
 _SEED = 20
-# Lines farther apart, as the Car's centre sees them, do not enclose it.
+# Lines with a larger gap, as seen from the Car's centre, do not enclose the Car.
 _WIDEST_GAP_RAD = math.radians(120.0)
 
 
 def rings(lines: Sequence[Any]) -> Iterator[tuple[float | None, list[Any]]]:
-    """Lines that go around the Car, by the height that is their own; lines that do not are in none."""
+    """Yield the groups of lines that go around the Car, by their key height; other lines are excluded."""
     heights = sorted({getattr(line, "height_m", None) for line in lines}, key=lambda height: height or 0.0)
     for height in heights:
         ring = sorted((line for line in lines if getattr(line, "height_m", None) == height), key=_bearing)
@@ -38,13 +38,13 @@ def rings(lines: Sequence[Any]) -> Iterator[tuple[float | None, list[Any]]]:
 
 
 def _bearing(line: Any) -> float:
-    # Where the line is a little away from its origin: an axis begins on the outline, a radial in the centre.
+    # A point 1 m along the line: an axis starts on the outline, a radial line in the centre.
     x, y = line.ray.point(1.0)
     return math.atan2(y, x)
 
 
 def area(ring: Sequence[Any], known: Mapping[int, Known]) -> Known | None:
-    """Of the distances on a ring, by number of the line; None where one of them is not known at all."""
+    """Return the area within a ring from the distances by line number; None if a distance is unknown."""
     if any(line.number not in known for line in ring):
         return None
     rays, distances = [line.ray for line in ring], [known[line.number] for line in ring]
@@ -65,7 +65,7 @@ def _ends(rays: Sequence[Ray], distances: Sequence[Known], coherent: float) -> t
     if all(map(math.isfinite, (end for pair in ends for end in pair))):
         found = interval_of_draws(_drawn(rays, distances, ends, coherent))
         return found.low_m, found.high_m
-    # Nothing is drawn where an end is not known: the ends of all distances together are the safe ones.
+    # If an end is unknown, do not draw: combining the ends of all distances is conservative.
     low, high = (_enclosed(rays, [max(0.0, pair[side]) for pair in ends]) for side in (0, 1))
     return low, high
 
@@ -82,7 +82,7 @@ def _drawn(rays: Sequence[Ray], distances: Sequence[Known], ends: Sequence[tuple
 
 
 def _gradient(rays: Sequence[Ray], distances: Sequence[Known]) -> float:
-    """By how many m2 the area grows when all known distances grow by 1 m."""
+    """Return the growth of the area in m2 per metre by which all known distances grow."""
     middle = np.array([each.value if each.value is not None else each.low if math.isfinite(each.low) else
                        each.high if math.isfinite(each.high) else 0.0 for each in distances])
     step = 0.01
@@ -97,8 +97,11 @@ def _enclosed(rays: Sequence[Ray], distances: Sequence[float]) -> float:
 
 
 def _areas(rays: Sequence[Ray], distances: Floats) -> Floats:
-    """Shoelace formula, for each row of distances: with o and d the origins and directions of the rays, a line and the
-    next one (') add (o + r d) x (o' + r' d'), of which all but the distances r is the same for each row."""
+    """Return the area of each row of distances by the shoelace formula.
+
+    With o and d the origins and directions of the rays, a line and the next one (') add (o + r d) x (o' + r' d').
+    Everything except the distances r is the same for each row.
+    """
     origins = np.array([(ray.origin_x, ray.origin_y) for ray in rays])
     directions = np.array([(ray.direction_x, ray.direction_y) for ray in rays])
     next_origins, next_directions = np.roll(origins, -1, axis=0), np.roll(directions, -1, axis=0)

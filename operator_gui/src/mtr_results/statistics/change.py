@@ -1,9 +1,9 @@
-"""The difference of a quantity between two sides of a comparison, each a test or a set of tests.
+"""Difference of a quantity between two sides of a comparison, each a test or a set of tests.
 
-Errors that both sides of a comparison have alike cancel in their difference: by so much the intervals of both are
-narrowed before it is taken. Tests of the same Car have its outline in common, and what passes cannot tell of its
-timing. The latter sets alone may take out, whose spread shows each line's own noise: a single test says of all lines
-the same, and where the field falls slowly that is too little.
+Errors that are common to both sides cancel in the difference, so the intervals of both sides are narrowed first. Tests
+of the same Car have the error of its outline in common, and the part of its timing that passes cannot resolve. The
+timing part is removed only for sets, whose spread shows the noise of each line. A single test has one estimate for all
+lines, which is too small if the field decays slowly.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .multiplicity import chance
 
 @dataclass(frozen=True)
 class Change:
-    """Of one quantity, second less first. chance: see multiplicity; 1 where nothing is known."""
+    """Difference of one quantity, second less first. chance: see multiplicity; 1 if unknown."""
 
     value: float | None
     low: float
@@ -30,7 +30,7 @@ class Change:
 
 
 def change(first: Estimate, second: Estimate) -> Change:
-    """The difference of two estimates, with the interval that follows from both (MOVER)."""
+    """Return the difference of two estimates with its interval, by MOVER."""
     value = None if first.value is None or second.value is None else second.value - first.value
     for number, each in ((1, first), (2, second)):
         if each.reason:
@@ -41,7 +41,7 @@ def change(first: Estimate, second: Estimate) -> Change:
 
 
 def _narrowed(each: Estimate, sigma: float) -> tuple[float, float]:
-    """Its interval without an independent error; an end that is not known, or of no value, stays as it is."""
+    """Return the interval without an independent error; open intervals or those without a value do not change."""
     if each.value is None or sigma == 0.0:
         return each.low, each.high
     below, above = (math.sqrt(max(reach ** 2 - (SIGMAS_OF_LEVEL * sigma) ** 2, 0.0))

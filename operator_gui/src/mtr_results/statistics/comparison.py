@@ -1,10 +1,12 @@
-"""Two sets of tests beside each other, a set being one test or repetitions: distances, sides, areas, verdicts.
+"""Comparison of two sets of tests: distances, sides, areas, verdicts. A set is one test or repetitions of it.
 
-A quantity is called different only where the whole 95 % interval of its difference lies on one side of zero, and
-different among all only where it also remains after Holm's correction. All quantities of a comparison are one family:
-where nothing differs, nothing is called different in at least 95 % of the comparisons. What an antenna moves it moves
-on lines beside each other, so that three fifths of the 5 % belong to them where all tests have passes at the same
-speeds (neighbours.py); elsewhere half of it belongs to the few means over the lines of a side, all words together.
+A quantity is different if the whole 95 % interval of its difference is on one side of zero. It is different among all
+if it also passes Holm's correction. All quantities of a comparison are one family: without a true difference, at least
+95 % of the comparisons report none.
+
+An antenna moves adjacent lines together. If all tests have passes at the same speeds, three fifths of the 5 % are
+therefore assigned to runs of adjacent lines (neighbours.py). Otherwise half of it is assigned to the few means over the
+lines of a side, with all words together.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -26,7 +28,7 @@ from .multiplicity import ALPHA, holm
 from .side_means import neighbours, side_mean
 from .sides import SideLines, sides_of
 
-# Of the 5 % of a family the part that belongs to neighbouring lines where they are known, and to means of sides else.
+# Share of the 5 % of a family for runs of adjacent lines if they can be evaluated, otherwise for means of sides.
 _NEIGHBOURS_SHARE, _SIDES_SHARE = 0.6, 0.5
 FARTHER, NEARER, NOT_SHOWN, NOT_KNOWN = "farther", "nearer", "no difference shown", "not known"
 DISTANCE, NEIGHBOURS, SIDE, AREA, COVERAGE = "distance", "neighbours", "side", "area", "coverage"
@@ -39,8 +41,8 @@ class Row:
 
     Attributes:
         quantity: DISTANCE, SIDE, AREA or COVERAGE. line: number in the first test, None for several. name: for a
-            person. word: what the distance is called; of a mean over all of them it names all. is_leading: one of the
-            means to which most of the family's chance belongs. adjusted: the chance of the difference among all rows.
+            person. word: name of the distance; a mean over several distances has all their names. is_leading: one of
+            the means with the larger share of the error rate. adjusted: p-value of the difference among all rows.
     """
 
     quantity: str
@@ -55,7 +57,7 @@ class Row:
 
     @property
     def verdict(self) -> str:
-        """What may be said of it alone."""
+        """Return the result for this row alone."""
         if self.change.reason or (self.first.is_open and self.second.is_open and self.change.chance > ALPHA
                                   and self.change.value is None):
             return NOT_KNOWN
@@ -65,15 +67,18 @@ class Row:
 
     @property
     def is_different(self) -> bool:
-        """Also among all rows."""
+        """True if the row also differs among all rows."""
         return self.verdict in (FARTHER, NEARER) and self.adjusted <= ALPHA
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """Attributes: tests: both sets, one after the other. split: how many are the first. rows: distances line by line,
-    then areas and coverage. holes: places of holes of each set, by line; only where there is one. verdicts: of the
-    tests of each set, with how many. only_first, only_second: names of lines that no test of the other set has."""
+    """Result of a comparison.
+
+    Attributes: tests: both sets, one after the other. split: number of tests in the first set. rows: distances line by
+    line, then areas and coverage. holes: places of holes of each set, only for lines that have one. verdicts: counts of
+    verdicts in each set. only_first, only_second: names of lines that no test of the other set has.
+    """
 
     tests: Tests
     split: int
@@ -85,26 +90,26 @@ class Comparison:
 
     @property
     def is_different(self) -> bool:
-        """A distance, an area or a coverage differs, and not by the number of comparisons."""
+        """True if a distance, an area or a coverage differs after the correction for the number of comparisons."""
         return any(row.is_different for row in self.rows)
 
     def counts(self) -> dict[str, int]:
-        """How many distances came to what."""
+        """Return the number of distances per verdict."""
         return dict(collections.Counter(row.verdict for row in self.rows if row.quantity == DISTANCE))
 
     @property
     def reasons(self) -> list[str]:
-        """Why nothing can be said of some quantities, each sentence once."""
+        """Return the reasons why some quantities cannot be compared, each sentence once."""
         return list(dict.fromkeys(row.change.reason for row in self.rows if row.change.reason))
 
     @property
     def differing(self) -> list[Circumstance]:
-        """In what the tests differ, within the sets and between them."""
+        """Return the circumstances in which the tests differ, within the sets and between them."""
         return circumstances_of_sets(self.tests.sides[:self.split], self.tests.sides[self.split:])
 
     @property
     def summary(self) -> str:
-        """One sentence."""
+        """Return the result as one sentence."""
         counts = ", ".join(f"{number} {verdict}" for verdict, number in self.counts().items()) or "no line in common"
         remaining = [row for row in self.rows if row.is_different]
         if not remaining:
@@ -115,7 +120,7 @@ class Comparison:
 
 
 def compare_sets(first: Sequence[Side], second: Sequence[Side]) -> Comparison:
-    """Compare; OperatorError for tests that cannot be."""
+    """Compare two sets; OperatorError if they cannot be compared."""
     if not first or not second:
         raise OperatorError("A side of the comparison has no test; mtr-results list shows what there is.")
     tests = Tests([*first, *second])
@@ -168,7 +173,7 @@ def _coverages(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
 
 
 def _sides(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
-    """Means over the lines of each side: of all words together, and of each one."""
+    """Return the means over the lines of each side: of all words together, and of each word."""
     sides = list(sides_of(lines, tests.first.progress.measured_car))
     rows = _neighbours(tests, split, sides)
     is_leading = not rows
@@ -184,7 +189,7 @@ def _sides(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
 
 
 def _neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> list[Row]:
-    """Lines beside each other that have moved together most; none where not all tests have the same passes."""
+    """Return the run of adjacent lines with the largest common change; empty unless all tests have the same passes."""
     found = neighbours(tests, split, sides)
     if found is None:
         return []
@@ -195,7 +200,7 @@ def _neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> list[Ro
 
 
 def _adjusted(rows: Sequence[Row]) -> list[Row]:
-    """Much of the family's chance belongs to the leading rows, if there are any and others."""
+    """Apply Holm's correction; leading rows, if any, get their share of the error rate."""
     known = [row for row in rows if not row.change.reason]
     numbers = collections.Counter(row.is_leading for row in known)
     leading = _NEIGHBOURS_SHARE if any(row.quantity == NEIGHBOURS for row in known) else _SIDES_SHARE
@@ -209,7 +214,7 @@ def _adjusted(rows: Sequence[Row]) -> list[Row]:
 def _name(tests: Tests, line: int) -> str:
     result = next(results[line] for results in tests.results if line in results)
     word = tests.first.scenario.line_word
-    # The number is that of the first test, whoever the result is of.
+    # The line number is the one of the first test, also if the result belongs to another test.
     return line_name(tests.first.scenario, result) if line == result.number else f"{word} {line} ({result.place})"
 
 
@@ -233,6 +238,6 @@ def _alone(tests: Tests, split: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
     first, second = ({line for results in side for line in results}
                      for side in (tests.results[:split], tests.results[split:]))
     only_first = tuple(_name(tests, line) for line in sorted(first - second))
-    # Lines at places that the very first test has not are known by their names alone.
+    # Lines at places that the first test does not have are identified by their names only.
     elsewhere = dict.fromkeys(name for alone in tests.alone[split:] for name in alone)
     return only_first, (*(_name(tests, line) for line in sorted(second - first)), *elsewhere)

@@ -1,4 +1,4 @@
-"""What was found as plain values, for JSON and for pages; null where an end is open."""
+"""Results as plain values for JSON and pages; an open end is null."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Document = dict[str, Any]
 
 
 def finite(number: float | None) -> float | None:
-    """None for what is not known."""
+    """Return None for a value that is not finite."""
     return number if number is not None and math.isfinite(number) else None
 
 
 def comparison_document(comparison: Comparison) -> Document:
-    """All rows, and what is not comparable."""
+    """Return all rows, and everything that is not comparable."""
     return {"scenario": comparison.tests.first.scenario.name, "summary": comparison.summary,
             "is_different": comparison.is_different, "rows": [row_document(row) for row in comparison.rows],
             "holes": [{"line": name, "first": first, "second": second} for name, first, second in comparison.holes],
@@ -31,7 +31,7 @@ def comparison_document(comparison: Comparison) -> Document:
 
 
 def row_document(row: Row) -> Document:
-    """One quantity in both sets."""
+    """Return one quantity of both sets."""
     return {"quantity": row.quantity, "unit": UNITS[row.quantity], "line": row.line, "name": row.name, "what": row.word,
             "first": estimate_document(row.first), "second": estimate_document(row.second),
             "difference": row.change.value, "low": finite(row.change.low), "high": finite(row.change.high),
@@ -40,13 +40,13 @@ def row_document(row: Row) -> Document:
 
 
 def estimate_document(estimate: Estimate) -> Document:
-    """Value and interval."""
+    """Return value and interval."""
     return {"value": estimate.value, "low": finite(estimate.low), "high": finite(estimate.high),
             "tests": estimate.count, "spread": estimate.spread}
 
 
 def spread_document(spread: Spread) -> Document:
-    """Components with intervals."""
+    """Return the components with their intervals."""
     return {"tests": spread.count, "mean_m": finite(spread.mean), "reason": spread.reason,
             "components": [_component(component) for component in spread.components],
             "repeatability_m": finite(spread.repeatability), "reproducibility_m": finite(spread.reproducibility),
@@ -54,7 +54,7 @@ def spread_document(spread: Spread) -> Document:
 
 
 def capability_document(found: Capability | None) -> Document:
-    """Both indices; nothing where none can be told."""
+    """Return both indices, or an empty document if they are unknown."""
     if found is None:
         return {}
     return {"cpk": _index(found.within), "ppk": _index(found.overall)}
@@ -70,7 +70,7 @@ def _component(component: Component) -> Document:
 
 
 def trend_document(trend: Trend) -> Document:
-    """Points in their order, and the limits."""
+    """Return the points in their order, and the limits."""
     return {"centre_m": finite(trend.centre), "low_m": finite(trend.low), "high_m": finite(trend.high),
             "reason": trend.reason, "unlike": trend.unlike,
             "points": [{**_known(point.known), "is_beyond": point.is_beyond} for point in trend.points]}

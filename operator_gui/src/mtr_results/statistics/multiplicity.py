@@ -1,8 +1,8 @@
-"""Many differences at once: how likely each is by chance, and which remain when all of them are judged together.
+"""Multiple comparisons: p-value of each difference, and the differences that remain after a joint correction.
 
-Of 40 intervals of 95 % two miss zero by chance. Holm (1979, Scandinavian Journal of Statistics 6, 65) keeps the chance
-that any difference is called one at 5 %, however the distances depend on each other; with weights (his section 4) some
-get a larger part of these 5 % than others.
+Of 40 intervals of 95 %, two exclude zero by chance. Holm (1979, Scandinavian Journal of Statistics 6, 65) limits the
+probability of any false difference to 5 %, for any dependence between the distances. With weights (his section 4), some
+get a larger share of these 5 % than others.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,9 +19,9 @@ ALPHA = 1.0 - LEVEL
 
 
 def chance(value: float | None, low: float, high: float, freedom: float = math.inf) -> float:
-    """Two-sided probability of such a difference where there is none, from the 95 % interval of the difference.
+    """Return the two-sided p-value of a difference, from its 95 % interval.
 
-    Where only an end of the interval is known nothing more is: 0.05 when that end is beyond zero, else 1.
+    If only one end of the interval is known, it is 0.05 when that end excludes zero, otherwise 1.
     """
     end = low if (low + high if value is None else value) > 0.0 else high
     if value is None or not math.isfinite(end):
@@ -34,7 +34,7 @@ def chance(value: float | None, low: float, high: float, freedom: float = math.i
 
 
 def holm(chances: Sequence[float], weights: Sequence[float] | None = None) -> list[float]:
-    """Adjusted: what is at most 0.05 is a difference among all. weights: positive; all alike where not given."""
+    """Return adjusted p-values; at most 0.05 is a difference among all. weights: positive, equal by default."""
     given = [1.0] * len(chances) if weights is None else weights
     order = sorted(range(len(chances)), key=lambda index: chances[index] / given[index])
     adjusted = [1.0] * len(chances)

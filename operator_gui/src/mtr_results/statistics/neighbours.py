@@ -1,15 +1,15 @@
-"""Neighbouring lines that have moved together: what an antenna moves, and chance does not.
+"""Adjacent lines that have moved together, as by an antenna and not by chance.
 
-An antenna reaches some lines beside each other and not a whole side. So each run of two neighbouring lines of a side or
-more, and all lines together, is looked at where all tests have passes at the same speeds (same_passes.py): the mean of
-its differences over its sigma, T. The largest T is judged by how often the largest of all runs is as large where
-nothing has moved, which draws tell, as runs have lines in common (Westfall and Young 1993, Resampling-Based Multiple
-Testing, 2.3: one step, the maximum). Its interval is that of all runs at once.
+An antenna affects some adjacent lines and not a whole side. So each run of at least two adjacent lines of a side, and
+all lines together, are tested if all tests have passes at the same speeds (same_passes.py). The statistic T is the mean
+of the differences of a run over its sigma. Runs share lines, so the largest T is compared with the distribution of the
+maximum over all runs without a change, from random draws (Westfall and Young 1993, Resampling-Based Multiple Testing,
+2.3: single step, maximum). Its interval is simultaneous for all runs.
 
-The noise of a pass is told by all lines together, for each word: lines of one side alone tell it so badly that much of
-what can be found is lost to Student's t. A word counts by the inverse of its variance. What a test has alike for all
-lines counts beside it; where several tests of a set are farther apart in the mean of all lines than the noise allows
-(F-test at 5 %), that is their spread.
+The noise of a pass is estimated from all lines together, for each word. Lines of a single side have so few degrees of
+freedom that Student's t would hide much of what can be found. Words are weighted by their inverse variance. An error
+common to all lines of a test is added. If the means over all lines of several tests of a set differ more than the noise
+allows (F-test at 5 %), this spread is used.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -29,15 +29,15 @@ from .multiplicity import ALPHA
 from .same_passes import Events, Floats, estimate_of, spread_of, summed
 
 _MIN_LINES = 2
-# Draws tell a chance of 5 % to 0.3 %; their seed is always the same, so that a comparison is repeatable.
+# With this number, a probability of 5 % is accurate to 0.3 %. The seed is fixed, so that comparisons are repeatable.
 _DRAWS, _SEED = 20000, 1
-# By number of line, what of each word was measured there.
+# Line number -> events of each word on that line.
 OfLines = Mapping[int, Sequence[Events]]
 
 
 @dataclass(frozen=True)
 class Neighbours:
-    """Attributes: numbers: of the lines that moved most against their sigma. first, second: mean of both sets."""
+    """Attributes: numbers: lines of the run with the largest T. first, second: means of both sets."""
 
     numbers: tuple[int, ...]
     first: Estimate
@@ -47,14 +47,15 @@ class Neighbours:
 
 @dataclass(frozen=True)
 class _Noise:
-    """Attributes: variances: of the mean over the speeds on one line in one test, by word. freedoms: of each."""
+    """Attributes: variances: by word, of the mean over the speeds on one line in one test. freedoms: of each
+    variance."""
 
     variances: Floats
     freedoms: Floats
 
     @property
     def weights(self) -> Floats:
-        """Of the words."""
+        """Weights of the words."""
         inverse = 1.0 / self.variances
         return np.asarray(inverse / np.sum(inverse))
 
@@ -66,9 +67,9 @@ class _Noise:
 
 
 def moved_most(events: OfLines, sides: Sequence[Sequence[int]], split: int, lasting: float) -> Neighbours | None:
-    """Of all runs the one with the largest T; None where there is none, or no noise to hold it against.
+    """Return the run with the largest T; None without a run or without a noise estimate.
 
-    events: of lines on which all tests have the same passes, of all words. sides: numbers of their lines, in order.
+    events: of lines on which all tests have the same passes, for all words. sides: line numbers of each side, in order.
     lasting: as in same_passes.moved.
     """
     runs = [run for side in sides for run in _runs(side, events)]
@@ -90,7 +91,7 @@ def moved_most(events: OfLines, sides: Sequence[Sequence[int]], split: int, last
 
 
 def _runs(side: Sequence[int], events: OfLines) -> list[tuple[int, ...]]:
-    """Of a side, without a gap."""
+    """Return the runs of a side without a gap."""
     return [tuple(side[first:last]) for first in range(len(side)) for last in range(first + _MIN_LINES, len(side) + 1)
             if all(number in events for number in side[first:last])]
 
@@ -106,13 +107,13 @@ def _noise(lines: Sequence[Sequence[Events]]) -> _Noise | None:
 
 
 def _means(events: OfLines, run: Sequence[int], noise: _Noise) -> Floats:
-    """Of each test over the lines of a run, words by their weights."""
+    """Return the mean of each test over the lines of a run, with weighted words."""
     means = np.array([[each.means_m for each in events[number]] for number in run])
     return np.asarray(np.tensordot(noise.weights, np.mean(means, axis=0), axes=1))
 
 
 def _scatter(means: Floats, split: int, noise: _Noise, lines: int) -> float:
-    """1 sigma in which the tests of a set differ for all lines alike, of the mean of a set; 0 where that is noise."""
+    """Return 1 sigma of a set's mean from the scatter of tests that is common to all lines; 0 within the noise."""
     sides = means[:split], means[split:]
     variance, freedom = noise.of_line
     spread, of_spread = spread_of(sides)
@@ -123,7 +124,7 @@ def _scatter(means: Floats, split: int, noise: _Noise, lines: int) -> float:
 
 def _differences(events: OfLines, runs: Sequence[Sequence[int]], noise: _Noise, split: int,
                  lasting: float) -> tuple[Floats, Floats]:
-    """Difference and sigma of each run."""
+    """Return difference and sigma of each run."""
     variance, values, sigmas = noise.of_line[0], [], []
     for run in runs:
         means = _means(events, run, noise)
@@ -135,7 +136,7 @@ def _differences(events: OfLines, runs: Sequence[Sequence[int]], noise: _Noise, 
 
 def _judged(runs: tuple[tuple[int, ...], ...], lines: tuple[int, ...], freedom: float,
             largest: float) -> tuple[float, float]:
-    """Within how many sigmas the largest T of all runs stays in 95 % of the draws, and how often it is as large."""
+    """Return the 95 % quantile of the largest T over all runs in sigmas, and the p-value of the observed one."""
     drawn = _largest(tuple(tuple(lines.index(number) for number in run) for run in runs), len(lines))
     scaled = drawn / np.sqrt(np.random.default_rng(_SEED + 1).chisquare(freedom, _DRAWS) / freedom)
     return float(np.quantile(scaled, 1.0 - ALPHA)), float((np.sum(scaled >= largest) + 1) / (_DRAWS + 1))
@@ -143,7 +144,7 @@ def _judged(runs: tuple[tuple[int, ...], ...], lines: tuple[int, ...], freedom: 
 
 @functools.lru_cache(maxsize=16)
 def _largest(runs: tuple[tuple[int, ...], ...], lines: int) -> Floats:
-    """The largest T of all runs in each draw, where sigma is known."""
+    """Return the largest T over all runs in each draw, for a known sigma."""
     draws = np.random.default_rng(_SEED).standard_normal((_DRAWS, lines))
     return np.asarray(np.max([np.abs(np.sum(draws[:, run], axis=1)) / math.sqrt(len(run)) for run in map(list, runs)],
                              axis=0))

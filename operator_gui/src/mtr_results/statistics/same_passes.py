@@ -1,16 +1,18 @@
-"""How far events have moved between passes at the same speeds: the mean of a side, without a model of the Car's timing.
+"""Shift of events between passes at the same speeds: mean of a side without a model of the Car's timing.
 
-The static boundary of a test rests on what all its passes say of the Car's timing, and that error all its lines have
-alike. A pass has it not: on the same line at the same speed the same Car reacts at the same place on average, and the
-difference of two such events is that of the boundaries. What one pass differs from the next by chance the tests show
-themselves: on a line, the differences between tests have to be the same at each speed, and what they are not is noise,
+The static boundary of a test depends on an estimate of the Car's timing, whose error is common to all its lines. A
+single pass does not have this error: on the same line and at the same speed, the same Car reacts at the same place on
+average. The difference of two such events equals the difference of the boundaries.
 
+The noise of a pass is estimated from the tests themselves. On a line, the differences between tests must be the same at
+each speed; the remainder is noise,
     s^2 = sum over tests t, speeds p of (x_tp - x_t. - x_.p + x_..)^2 / ((tests - 1) (speeds - 1)).
+The variance of the mean over the speeds is s^2 / speeds, also if the speeds have different variances. Lines of a side
+count with their own noise, pooled for each word, with Student's t.
 
-The variance of the mean over the speeds is s^2 / speeds, whatever each speed's own variance is. Lines of a side count
-with their own noise, pooled for each word, with Student's t. What a test has alike for all lines and another test not
-(calibration of the robot, outline of another Car) counts beside it. Several tests of a set show whether that is all:
-where their means are farther apart than both say (F-test at 5 %), their spread alone counts.
+An error common to all lines of a test but not to other tests (calibration of the robot, outline of another Car) is
+added. Several tests of a set show whether this is sufficient: if their means differ more than both explain (F-test at 5
+%), only their spread is used.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -31,32 +33,32 @@ from .change import Change
 from .multiplicity import ALPHA, chance
 
 Floats = npt.NDArray[np.float64]
-# Speeds of one pass in two tests that differ by less are the same: a robot keeps its speed to some percent.
+# Relative difference below which two speeds are the same; a robot keeps its speed to a few percent.
 _SAME_SPEED = 0.05
 _MIN_SPEEDS = 2
 
 
 @dataclass(frozen=True)
 class Events:
-    """Of one line and word: distances in m at events, axes [test, speed]; with no speed twice."""
+    """Events of one line and word: distances in m, axes [test, speed]; each speed occurs once."""
 
     distances_m: Floats
 
     @property
     def means_m(self) -> Floats:
-        """Of each test over the speeds."""
+        """Mean of each test over the speeds."""
         return np.asarray(np.mean(self.distances_m, axis=1))
 
     @property
     def noise(self) -> tuple[float, int]:
-        """Sum of squares of what neither test nor speed explains, and its degrees of freedom."""
+        """Sum of squares that neither test nor speed explains, and its degrees of freedom."""
         x = self.distances_m
         rest = x - x.mean(axis=1, keepdims=True) - x.mean(axis=0, keepdims=True) + x.mean()
         return float(np.sum(rest ** 2)), (x.shape[0] - 1) * (x.shape[1] - 1)
 
 
 def events_of(results: Sequence[LineResult], word: str) -> Events | None:
-    """Of a line in all tests: the speeds at which each test has one pass; None where there are fewer than two."""
+    """Return the events of a line at the speeds at which each test has a pass; None for fewer than two speeds."""
     passes = [_by_speed(getattr(result, "passes", lambda _word: ())(word)) for result in results]
     rows = [[next((distance_m for its_mps, distance_m in each.items() if _is_same(speed_mps, its_mps)), None)
              for each in passes] for speed_mps in passes[0]]
@@ -65,7 +67,7 @@ def events_of(results: Sequence[LineResult], word: str) -> Events | None:
 
 
 def _by_speed(passes: Sequence[tuple[float, float]]) -> Mapping[float, float]:
-    """Distance of each speed in m; of several passes at one speed the first, of passes in steps none."""
+    """Return the distance of each speed in m: the first pass at a speed, without passes in steps."""
     found: dict[float, float] = {}
     for distance_m, speed_mps in passes:
         if speed_mps > 0.0 and not any(_is_same(speed_mps, other) for other in found):
@@ -78,10 +80,10 @@ def _is_same(first_mps: float, second_mps: float) -> bool:
 
 
 def moved(words: Sequence[Sequence[Events]], split: int, lasting: float) -> tuple[Estimate, Estimate, Change]:
-    """Mean over the lines of all words, in the first tests, up to split, and in the others; and their difference.
+    """Return the means over the lines of all words in the first tests and in the others, and their difference.
 
-    words: lines of each word, at least one. lasting: 1 sigma of what all lines of a test have alike, and another test
-    not or not for sure.
+    words: lines of each word, at least one. split: number of first tests. lasting: 1 sigma of the error that all lines
+    of a test have in common, and other tests may not have.
     """
     count = sum(map(len, words))
     means = np.sum([each.means_m for lines in words for each in lines], axis=0) / count
@@ -99,7 +101,7 @@ def moved(words: Sequence[Sequence[Events]], split: int, lasting: float) -> tupl
 
 
 def _variance_of_test(words: Sequence[Sequence[Events]], count: int) -> tuple[float, float]:
-    """Of the mean of one test by its passes' noise, with degrees of freedom (Welch and Satterthwaite)."""
+    """Return the variance of a test's mean from the noise of its passes, with Welch-Satterthwaite freedom."""
     parts = []
     for lines in words:
         squares, freedom = (sum(each) for each in zip(*(line.noise for line in lines)))
@@ -111,13 +113,13 @@ def _variance_of_test(words: Sequence[Sequence[Events]], count: int) -> tuple[fl
 
 
 def summed(variance: float, freedom: float, known: float) -> tuple[float, float]:
-    """Sigma with a variance that is known besides, and degrees of freedom of both."""
+    """Return sigma including a known variance, and the resulting degrees of freedom."""
     total = variance + known
     return math.sqrt(total), freedom * (total / variance) ** 2 if variance > 0.0 else math.inf
 
 
 def spread_of(sides: Sequence[Floats]) -> tuple[float, int]:
-    """Variance of a test's mean among the tests of its own side, with degrees of freedom, 0 for single tests."""
+    """Return the variance of test means within their side, with degrees of freedom; 0 for single tests."""
     freedom = sum(len(side) - 1 for side in sides)
     squares = sum(float(np.sum((side - np.mean(side)) ** 2)) for side in sides)
     return (squares / freedom if freedom else 0.0), freedom

@@ -1,8 +1,8 @@
-"""The mean of a side's distances: what an antenna moves together, and chance does not.
+"""Mean of the distances of a side, which shows common changes, as by an antenna.
 
-Where all tests have passes at the same speeds it is the mean of their events (same_passes.py). Else each test has a
-mean of its own over the lines that all tests know; its interval holds what is each line's own by the number of the
-lines, and what all of them have alike in full (Zou and Donner's MOVER for a sum).
+If all tests have passes at the same speeds, it is the mean of their events (same_passes.py). Otherwise each test has
+its own mean over the lines that are known in all tests. In its interval, independent errors of lines decrease with the
+number of lines; common errors count in full (MOVER for a sum, by Zou and Donner).
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -24,7 +24,7 @@ from .sides import SideLines
 
 @dataclass(frozen=True)
 class SideMean:
-    """Attributes: distances: how many the mean has. first, second: of both sets. change: second less first."""
+    """Attributes: distances: number of averaged distances. first, second: of both sets. change: second less first."""
 
     distances: int
     first: Estimate
@@ -33,7 +33,7 @@ class SideMean:
 
 
 def side_mean(tests: Tests, split: int, side: SideLines, words: Sequence[str]) -> SideMean | None:
-    """Of the distances of these words on a side; None where no line is known to all tests."""
+    """Return the mean of the distances of these words on a side; None if no line is known in all tests."""
     events = [of_word for word in words if (of_word := _events(tests, side, word))]
     if len(events) == len(words):
         return SideMean(sum(map(len, events)), *moved(events, split, _lasting_m(tests, side, words)))
@@ -47,7 +47,7 @@ def side_mean(tests: Tests, split: int, side: SideLines, words: Sequence[str]) -
 
 
 def neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> Neighbours | None:
-    """Lines beside each other that have moved together most; sides: those with a place, and all lines."""
+    """Return the run of adjacent lines with the largest common change. sides: those with a place, and all lines."""
     found = {line: [_events_on(tests, line, word) for word in tests.words] for side in sides for line in side.numbers}
     events = {line: [each for each in of_words if each] for line, of_words in sorted(found.items())
               if None not in of_words}
@@ -57,7 +57,7 @@ def neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> Neighbou
 
 
 def _events(tests: Tests, side: SideLines, word: str) -> list[Events]:
-    """Of each line on which all tests have the same passes."""
+    """Return the events of each line on which all tests have the same passes."""
     found = (_events_on(tests, line, word) for line in side.numbers)
     return [each for each in found if each is not None]
 
@@ -71,20 +71,20 @@ def _events_on(tests: Tests, line: int, word: str) -> Events | None:
 
 
 def _lasting_m(tests: Tests, side: SideLines, words: Sequence[str]) -> float:
-    """1 sigma of what all lines of a test have alike beside the Car's timing, and not each other test for sure."""
+    """Return 1 sigma of errors, without the Car's timing, that are common to all lines of one test only."""
     return max(math.hypot(lasting.robot_m, tests.outline_scatter_m(line) if tests.is_same_car else lasting.outline_m)
                for test, results in enumerate(tests.results) for line in side.numbers if line in results
                for lasting in (tests.lasting_sigmas(test, line, word) for word in words))
 
 
 def _is_known(tests: Tests, line: int, word: str) -> bool:
-    """To all tests, and to one of them by its value: where none reached it nothing is averaged."""
+    """True if all tests know the distance and one has a value; a distance that no test reached cannot be averaged."""
     known = [tests.distance(test, line, word) for test in range(len(tests.sides))]
     return None not in known and any(each is not None and each.value is not None for each in known)
 
 
 def mean_of(parts: Sequence[Known]) -> Known:
-    """Mean of distances of one test, at least one."""
+    """Return the mean of the distances of one test, at least one."""
     count = len(parts)
     low, high = (sum(getattr(each, end) for each in parts) / count for end in ("low", "high"))
     value = None if any(each.value is None for each in parts) else low
@@ -107,5 +107,5 @@ def _ends(parts: Sequence[Known], value: float | None, coherent: float) -> tuple
 
 
 def _own(each: Known, end: float) -> float:
-    """Square of what an end is away from the value by errors of the line alone."""
+    """Return the square of the deviation of an end from the value by independent errors of the line."""
     return max(((each.value or 0.0) - end) ** 2 - (SIGMAS_OF_LEVEL * each.coherent) ** 2, 0.0)

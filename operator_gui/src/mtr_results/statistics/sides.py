@@ -1,4 +1,4 @@
-"""Which lines lie on a side of the Car: those that leave its outline there; one from a corner lies on none."""
+"""Assignment of lines to sides of the Car, by the edge of its outline that they leave; corner lines have no side."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.robot_status import CarDimensions
 
 _SIDES = {"front": (1, 0), "right": (0, -1), "rear": (-1, 0), "left": (0, 1)}
-# Of one line there is no mean.
+# A mean requires several lines.
 _MIN_LINES = 2
-# Of a corner that was computed.
+# Tolerance for a computed corner, in m.
 _CORNER_M = 1e-6
 
 
 class SideLines(NamedTuple):
-    """name: for a person. numbers: of its lines, in their order. is_one_side: not all lines together."""
+    """Attributes: name: for a person. numbers: of the lines, in their order. is_one_side: False for all lines
+    together."""
 
     name: str
     numbers: tuple[int, ...]
@@ -23,7 +24,7 @@ class SideLines(NamedTuple):
 
 
 def sides_of(lines: Sequence[Any], car: CarDimensions) -> Iterator[SideLines]:
-    """Sides with several lines, and all lines together."""
+    """Yield sides with several lines, and all lines together."""
     found: dict[str, list[int]] = {name: [] for name in _SIDES}
     for line in lines:
         side = _side(line.ray, car)
@@ -37,7 +38,7 @@ def sides_of(lines: Sequence[Any], car: CarDimensions) -> Iterator[SideLines]:
 
 
 def _side(ray: Ray, car: CarDimensions) -> str:
-    """Through which the ray leaves the Car's rectangle; empty for a corner."""
+    """Return the side through which the ray leaves the Car's rectangle; empty for a corner."""
     ways = {}
     for name, (x, y) in _SIDES.items():
         towards = x * ray.direction_x + y * ray.direction_y

@@ -1,4 +1,4 @@
-"""Values and intervals as a person reads them: what is open says so."""
+"""Values and intervals as text, with open ends marked."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MEANING = ("A quantity is called different only where the whole 95 % interval of
 
 
 def interval_text(low: float, high: float, sign: str = "") -> str:
-    """Ends, or the one that is known; empty without."""
+    """Return both ends, the known end, or an empty text."""
     if math.isfinite(low) and math.isfinite(high):
         return f"{low:{sign}.2f} to {high:{sign}.2f}"
     if math.isfinite(low):
@@ -24,14 +24,14 @@ def interval_text(low: float, high: float, sign: str = "") -> str:
 
 
 def estimate_text(estimate: Estimate) -> str:
-    """A value, or what is known of it."""
+    """Return the value, or its interval if there is no value."""
     if estimate.value is not None:
         return f"{estimate.value:.2f}"
     return interval_text(estimate.low, estimate.high) or "unknown"
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
-    """Cells of a table: name, both sides, difference, its interval, chance among all, what may be said."""
+    """Return the cells of a table row: name, both sides, difference, its interval, p-value among all, verdict."""
     change = row.change
     return (f"{row.name} {row.word if row.word not in row.name else ''}".rstrip(), estimate_text(row.first),
             estimate_text(row.second), "" if change.value is None else f"{change.value:+.2f}",
@@ -40,5 +40,5 @@ def row_texts(row: Row) -> tuple[str, ...]:
 
 
 def chance_text(chance: float) -> str:
-    """Never a zero."""
+    """Return a p-value; small ones have an upper bound instead of zero."""
     return "< 0.001" if chance < 0.001 else f"{chance:.3f}"

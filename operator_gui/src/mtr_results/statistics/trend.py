@@ -1,9 +1,9 @@
-"""A distance over time with control limits: which test is unlike the others, by chart of individual values.
+"""A distance over time with control limits, as a chart of individual values.
 
-The limits are 2.66 mean moving ranges from the mean (Shewhart; ISO 7870-2): three sigmas of what one test differs from
-the next. A test beyond them is worth a look: by chance one in 400 is there with limits from many tests, and one in
-42 with limits from 10. A distance with an open end has no value to chart, and is only beyond a limit where its known
-end is.
+The limits are 2.66 mean moving ranges from the mean (Shewhart; ISO 7870-2), which is three sigmas of the difference
+between consecutive tests. A test beyond them should be examined: by chance, this is one in 400 tests with limits from
+many tests, and one in 42 with limits from 10. A distance with an open end has no value in the chart. It is beyond a
+limit only if its known end is.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -16,14 +16,14 @@ import numpy as np
 
 from mtr_operator.history.estimate import Known
 
-# 3 / d2 of two values.
+# 3 / d2 for ranges of two values.
 _RANGES = 2.66
 MIN_TESTS = 5
 
 
 @dataclass(frozen=True)
 class Point:
-    """Of one test. known: None where it has not measured the distance. is_beyond: outside the limits."""
+    """Point of one test. known: None if the test did not measure the distance. is_beyond: outside the limits."""
 
     known: Known | None
     is_beyond: bool = False
@@ -31,7 +31,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Trend:
-    """In the order of the tests. centre, low, high: NaN where there are too few values; reason says so."""
+    """Points in the order of the tests. centre, low, high: NaN if there are too few values; see reason."""
 
     points: tuple[Point, ...]
     centre: float = math.nan
@@ -41,18 +41,20 @@ class Trend:
 
     @property
     def unlike(self) -> str:
-        """Why tests that measured the distance have no point; empty when none."""
+        """Reason why tests with a measured distance have no point; empty if all have one."""
         return next((point.known.reason for point in self.points if point.known and point.known.reason), "")
 
     @property
     def beyond(self) -> list[int]:
-        """Places of the tests that are unlike the others."""
+        """Indices of the tests outside the limits."""
         return [index for index, point in enumerate(self.points) if point.is_beyond]
 
 
 def trend(known: Sequence[Known | None], baseline: int = 0) -> Trend:
-    """Of a distance in tests, in the order of their time. baseline: how many of the first values make the limits, 0 for
-    all."""
+    """Return the trend of a distance over tests in order of time.
+
+    baseline: number of first values for the limits, 0 for all.
+    """
     values = [each.value for each in known if each is not None and each.value is not None]
     of_limits = np.array(values[:baseline] if baseline else values)
     if len(of_limits) < MIN_TESTS:

@@ -1,2 +1,2 @@
-"""The store: opened, written, read, and what waits for it."""
+"""Access to the store: opening, writing, reading, and the spool of waiting tests."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""A store by its address: a file of SQLite, or a database of PostgreSQL; made and brought up to date by migrations."""
+"""Database by address: an SQLite file or a PostgreSQL database, created and migrated by Alembic."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,20 +16,20 @@ from ..errors import StoreAway, StoreError
 from ..migrations import HEAD
 from .sentences import told
 
-# So long a writer waits for another one; a test is written in some hundredths of a second.
+# Waiting time of a writer for another one; writing a test takes some hundredths of a second.
 BUSY_S = 30.0
 _AGAIN_S = 0.01
 CONNECT_S = 10.0
-# Any number that no other program on the server locks.
+# Lock number that no other program on the server uses.
 _LOCK = 7_304_121
 _WRITES = "mtr_writes"
 _SQLITE, _POSTGRESQL = "sqlite", "postgresql"
-# Where a server listens that is named without a port.
+# Default port of the server.
 _PORT = 5432
 
 
 def engine_of(address: str) -> Engine:
-    """Engine of a path or URL; StoreError for another database. Nothing is opened yet."""
+    """Return the engine for a path or URL without opening it; StoreError for other databases."""
     url = _url(address)
     if url.get_backend_name() == _SQLITE:
         engine = create_engine(url, connect_args={"timeout": BUSY_S})
@@ -54,19 +54,19 @@ def _url(address: str) -> URL:
 
 
 def shown_address(address: str) -> str:
-    """A path or URL as it may be shown: without its password, and without options, which may hold one."""
+    """Return an address for display, without its password and without options, which may contain one."""
     if "://" not in address:
         return address
     try:
         url = make_url(address)
     except (ArgumentError, ValueError):
-        # Not even its parts can be told apart.
+        # The address cannot be parsed.
         return address.partition("?")[0].rpartition("@")[2]
     return url.set(query={}).render_as_string(hide_password=True)
 
 
 def _set_up_sqlite(connection: Any, _record: Any) -> None:
-    # Transactions are begun below, not by the driver; readers do not wait for a writer.
+    # Transactions are started by _begin_sqlite, not by the driver; readers do not wait for a writer.
     connection.isolation_level = None
     _write_ahead(connection)
     for pragma in ("foreign_keys = ON", "synchronous = FULL"):
@@ -74,7 +74,7 @@ def _set_up_sqlite(connection: Any, _record: Any) -> None:
 
 
 def _write_ahead(connection: sqlite3.Connection) -> None:
-    """SQLite waits for another program's lock everywhere but where it changes a new file to this journal."""
+    """Enable the write-ahead journal, with retries: for this change SQLite itself does not wait for locks."""
     until_s = time.monotonic() + BUSY_S
     while True:
         try:
@@ -87,7 +87,7 @@ def _write_ahead(connection: sqlite3.Connection) -> None:
 
 
 def _begin_sqlite(connection: Connection) -> None:
-    # A writer that began as a reader is refused instead of made to wait.
+    # A transaction that starts as a reader and then writes fails instead of waiting for the lock.
     writes = connection.get_execution_options().get(_WRITES, False)
     connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")
 
@@ -96,7 +96,7 @@ class Database:
     """Transactions on a store.
 
     Attributes:
-        where: the store as it may be shown, without its password.
+        where: address of the store for display, without its password.
     """
 
     def __init__(self, engine: Engine):
@@ -106,13 +106,13 @@ class Database:
 
     @property
     def file(self) -> pathlib.Path | None:
-        """Of SQLite; None on a server."""
+        """Path of an SQLite file; None for a server."""
         url = self._engine.url
         return pathlib.Path(url.database) if url.get_backend_name() == _SQLITE and url.database else None
 
     @property
     def target(self) -> str:
-        """Which store it is: the whole path of a file; server and database without user and password."""
+        """Identity of the store: absolute path of a file, or server and database without user and password."""
         if self.file is not None:
             return str(self.file.resolve())
         url = self._engine.url
@@ -120,20 +120,20 @@ class Database:
 
     @contextlib.contextmanager
     def reading(self) -> Iterator[Connection]:
-        """Transaction that changes nothing; StoreError when it fails."""
+        """Read-only transaction; StoreError if it fails."""
         with told(self.where), self._engine.connect() as connection:
             yield connection
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[Connection]:
-        """Transaction that is done whole or not at all."""
+        """Atomic transaction."""
         with told(self.where), self._writer.begin() as connection:
             yield connection
 
     def make_ready(self, may_upgrade: bool = False) -> None:
-        """Make the tables of a new store; StoreError for one of another version, unless it may be upgraded."""
+        """Create the tables of a new store; StoreError for another version, unless upgrading is allowed."""
         if self.file is not None and not self.file.parent.is_dir():
-            # Perhaps of a disk that is not there now: a new store in its place would hide that.
+            # The folder may be on a disk that is not connected; a new store in its place would hide that.
             raise StoreAway(f"The store {self.where} is away: there is no folder {self.file.parent}; connect its "
                             "disk, or make it.")
         with self.reading() as connection:
@@ -150,20 +150,20 @@ class Database:
                              "program; install the newer program.")
 
     def close(self) -> None:
-        """Safe to call twice."""
+        """Close all connections; safe to call twice."""
         self._engine.dispose()
 
     def _upgrade(self) -> None:
         with self.writing() as connection:
             if connection.dialect.name == _POSTGRESQL:
                 connection.execute(text("SELECT pg_advisory_xact_lock(:number)"), {"number": _LOCK})
-            # Another program may have done it while this one waited.
+            # Another program may have migrated the store while this one waited for the lock.
             if version_of(connection) != HEAD:
                 _migrate(connection)
 
 
 def version_of(connection: Connection) -> str | None:
-    """None of a store without tables; StoreError when the tables are another program's."""
+    """Return the version of the tables, or None for an empty database; StoreError for tables of another program."""
     names = inspect(connection).get_table_names()
     if "alembic_version" in names:
         found = connection.execute(text("SELECT version_num FROM alembic_version")).scalar()
@@ -175,7 +175,7 @@ def version_of(connection: Connection) -> str | None:
 
 
 def _migrate(connection: Connection) -> None:
-    # Imported only where something is to be done: it takes a third of a second.
+    # Imported on demand, because the import takes a third of a second.
     from alembic import command
     from alembic.config import Config
 

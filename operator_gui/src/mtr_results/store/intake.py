@@ -1,4 +1,4 @@
-"""Tests in files into the store, or into the spool while it is away."""
+"""Import of test files into the store, or into the spool while the store is unavailable."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SPOOLED, REFUSED = "spooled", "refused"
 
 @dataclass(frozen=True)
 class Intake:
-    """What became of one test. outcome: of Outcome, or SPOOLED or REFUSED. sentence: why, empty when it is in."""
+    """Result of one test. outcome: of Outcome, or SPOOLED or REFUSED. sentence: reason, empty if the test is stored."""
 
     path: str
     outcome: str
@@ -34,8 +34,10 @@ class Intake:
 
 
 class Door:
-    """Through which tests come in. database: None while the store is away; why says so. stations: keys of those whose
-    bundles are believed, none for any."""
+    """Importer of tests. database: None while the store is unavailable, with the reason in why.
+
+    stations: keys of the stations whose bundles are accepted; empty accepts all.
+    """
 
     def __init__(self, database: Database | None, files: KeptFiles | None, spool: Spool, why: str = "",
                  stations: Collection[str] = ()):
@@ -46,7 +48,7 @@ class Door:
         self._stations = stations
 
     def take_waiting(self) -> Iterator[Intake]:
-        """Tests that wait for this store, as far as it takes them; one that it refuses waits on, for a person."""
+        """Import the tests that wait for this store; a rejected test remains in the spool."""
         for place in self._spool.unassigned():
             yield Intake(str(place), REFUSED, f"Nobody knows for which store the test in {place} waits; import that "
                                               "folder into its store, and delete it.")
@@ -59,7 +61,7 @@ class Door:
                 return
 
     def take(self, path: pathlib.Path, campaign: str = "") -> Intake:
-        """One test in a file; no error reaches the caller, so that one bad file stops no other."""
+        """Import one test; errors become part of the result, so that one bad file does not stop the others."""
         try:
             with opened(path, self._stations) as record_path:
                 record = read_record(record_path)

@@ -1,4 +1,4 @@
-"""Contents of files, each once, under the check sum that it has."""
+"""Content-addressed files: each content is stored once, under its check sum."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,32 +14,32 @@ from mtr_operator.domain.identity.file_name import shown
 
 from ..errors import StoreAway, StoreError
 
-# A photo of a good camera has 20 MB, a recording more than a store of results wants.
+# A photo of a good camera has 20 MB; larger files, such as recordings, do not belong in the store.
 MAX_BYTES = 64 * 1024 * 1024
 MAX_FILES = 200
 _SHA256 = re.compile("[0-9a-f]{64}")
 
 
 class KeptFiles:
-    """A folder with contents. Two programs may keep the same at once: each writes the same bytes to the same name."""
+    """Folder with contents. Concurrent writers are safe, because equal contents have equal names."""
 
     def __init__(self, folder: pathlib.Path):
         self.folder = folder
 
     def keep(self, files: Mapping[str, pathlib.Path]) -> list[dict[str, object]]:
-        """Rows of files, whose contents are kept; StoreAway when that fails."""
+        """Store the contents of files and return their rows; StoreAway if that fails."""
         if len(files) > MAX_FILES:
             raise StoreError(f"There are {len(files)} files with the test; at most {MAX_FILES} are kept.")
         return [{"name": name, **self._keep(path)} for name, path in files.items()]
 
     def path_of(self, sha256: str) -> pathlib.Path:
-        """Where a content lies, if it is kept; StoreError for what is no check sum."""
+        """Return the path of a content, whether or not it exists; StoreError for an invalid check sum."""
         if not _SHA256.fullmatch(sha256):
             raise StoreError(f"The store names the content {shown(sha256)}, which is no SHA-256 check sum.")
         return self.folder / sha256[:2] / sha256
 
     def read(self, sha256: str) -> bytes:
-        """A content; StoreError when it is not there, or not what it was."""
+        """Return a content; StoreError if it is missing or modified."""
         try:
             content = self.path_of(sha256).read_bytes()
         except OSError:
@@ -68,7 +68,7 @@ class KeptFiles:
         temporary = ""
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
-            # A name of its own: another program may be writing the same.
+            # Write to a unique temporary name, because another program may be writing the same content.
             with tempfile.NamedTemporaryFile(dir=target.parent, prefix=".", delete=False) as file:
                 temporary = file.name
                 file.write(content)

@@ -1,4 +1,4 @@
-"""Periods of time as a person writes them, for comparison with the stored starts of tests."""
+"""Periods of time as entered by a person, for comparison with the stored start times of tests."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ _UTC = datetime.timezone.utc
 
 
 def first_moment(name: str, text: str) -> str:
-    """First moment of a written year, month, day or moment, as the column started_utc has it but without an offset.
+    """Return the first moment of a year, month, day or moment, in the format of started_utc without an offset.
 
-    StoreError names the argument when the text is none of them.
+    Raises StoreError with the name of the argument if the text is not a period.
     """
     return _stored(_period(name, text)[0])
 
 
 def next_moment(name: str, text: str) -> str:
-    """First moment after the written period, likewise: an upper end that counts whole."""
+    """Return the first moment after the period, as an exclusive upper end."""
     return _stored(_period(name, text)[1])
 
 
@@ -38,7 +38,7 @@ def _period(name: str, text: str) -> tuple[datetime.datetime, datetime.datetime]
             begin = datetime.datetime(int(year), int(month or 1), int(day or 1), int(hour or 0), int(minute or 0),
                                       int(second or 0), tzinfo=_zone(zone))
             return begin.astimezone(_UTC), _end(begin, month, day, hour, second).astimezone(_UTC)
-        # The calendar begins in the year 1 and ends with 9999.
+        # Python dates are limited to the years 1 to 9999.
         except (ValueError, OverflowError):
             pass
     raise StoreError(f"{name} is {text[:_MAX_SHOWN]!r}; allowed is a day such as 2026-11-22, a month, a year, or a "

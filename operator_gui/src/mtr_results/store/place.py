@@ -1,4 +1,4 @@
-"""Which store: its address, the folder of its files and the spool, as a person names them or by default."""
+"""Location of the store: its address, the folder of its files and the spool, given by a person or by default."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,34 +23,34 @@ _FILES_SUFFIX = ".files"
 
 
 def default_address() -> str:
-    """That of the environment, else a file where the system keeps a person's data."""
+    """Return the address from the environment, or a file in the user's data folder."""
     return os.environ.get(ADDRESS_VARIABLE) or str(default_file())
 
 
 def default_file() -> pathlib.Path:
-    """Where the store is when nobody says otherwise."""
+    """Return the path of the default store."""
     return platformdirs.user_data_path(_APPLICATION, appauthor=False) / _FILE
 
 
 def default_spool() -> pathlib.Path:
-    """Where tests wait on this computer, whatever store they wait for."""
+    """Return the spool of this computer, which is shared by all stores."""
     return platformdirs.user_data_path(_APPLICATION, appauthor=False) / "spool"
 
 
 @dataclass(frozen=True)
 class Place:
-    """Attributes: address: path or URL. files: folder of the contents of files, None beside the file of SQLite; with a
-    server and without a folder check sums alone are kept. spool: where tests wait."""
+    """Attributes: address: path or URL. files: folder of file contents; None selects the folder next to the SQLite
+    file, and for a server stores check sums only. spool: folder of waiting tests."""
 
     address: str
     files: pathlib.Path | None = None
     spool: pathlib.Path | None = None
 
     def open(self) -> Database:
-        """The store, made where there is none; StoreError says why it cannot be used."""
+        """Open the store, and create it if necessary; StoreError with the reason if it cannot be used."""
         database = Database(engine_of(self.address))
         if self.address == str(default_file()):
-            # Nobody has to set anything up for the usual place.
+            # The default store requires no setup.
             with contextlib.suppress(OSError):
                 default_file().parent.mkdir(parents=True, exist_ok=True)
         database.make_ready()
@@ -58,17 +58,17 @@ class Place:
 
     @property
     def shown(self) -> str:
-        """The store as it may be shown, without its password; StoreError for what is no address."""
+        """Address for display, without its password; StoreError for an invalid address."""
         database = Database(engine_of(self.address))
         return database.where if database.file is None else str(database.file)
 
     @property
     def target(self) -> str:
-        """Which store it is, whoever opens it and from where; StoreError for what is no address."""
+        """Identity of the store, independent of user and working folder; StoreError for an invalid address."""
         return Database(engine_of(self.address)).target
 
     def existing(self) -> Database:
-        """The store, never made by who looks at it; StoreError says why it cannot be read."""
+        """Open an existing store without creating it; StoreError with the reason if it cannot be read."""
         database = Database(engine_of(self.address))
         if database.file is not None and not database.file.is_file():
             raise StoreAway(f"The store {self.shown} is away: there is no such file; connect its disk, or name another "
@@ -84,13 +84,13 @@ class Place:
         return database
 
     def kept_files(self) -> KeptFiles | None:
-        """Contents of files, None where none are kept."""
+        """Return the folder of file contents, or None if contents are not stored."""
         file = Database(engine_of(self.address)).file
         folder = self.files or (None if file is None else file.with_name(file.name + _FILES_SUFFIX))
         return None if folder is None else KeptFiles(folder)
 
     def door(self, stations: Collection[str] = ()) -> Door:
-        """Through which tests come in, also while the store is away; StoreError where waiting does not help.
+        """Return the importer, also while the store is unavailable; StoreError if waiting does not help.
 
         stations: see Door.
         """

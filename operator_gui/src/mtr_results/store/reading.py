@@ -1,4 +1,4 @@
-"""What is in the store: tests that fit a search, and all that is known of one."""
+"""Queries of the store: tests that match a search, and all data of one test."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .text_order import ByCodePoint, ordering
 
 Row = dict[str, Any]
 PAGE = 100
-# Columns of a list, in their order; those of other tables come with them.
+# Columns of a list of tests, in order; columns of other tables are added.
 LISTED = ("id", "test_key", "started", "scenario", "done", "total", "invalid", "is_complete", "verdict", "operator",
           "place", "car_profile")
 _CAR = func.trim(Car.model + literal(" ") + Car.vin).label("car")
@@ -27,11 +27,11 @@ _SPECIAL = str.maketrans({char: f"\\{char}" for char in "\\%_"})
 
 @dataclass(frozen=True)
 class Search:
-    """Which tests; what is empty fits all.
+    """Criteria of a search; an empty criterion matches all tests.
 
     Attributes:
-        text: words that all have to occur. car: model and VIN as they are listed; software: of the Car.
-        since, until: years, months, days or moments, UTC; until counts whole. limit: 0 for all.
+        text: words that must all occur. car: model and VIN as listed; software: of the Car.
+        since, until: years, months, days or moments, UTC; until is inclusive. limit: 0 for all.
     """
 
     text: str = ""
@@ -49,8 +49,10 @@ class Search:
 
 
 def find(connection: Connection, search: Search, further: Sequence[str] = ()) -> list[Row]:
-    """Tests that fit, newest first; StoreError for a period that is none. further: columns of the table of tests beside
-    those that are listed."""
+    """Return matching tests, newest first; StoreError for an invalid period.
+
+    further: additional columns of the table of tests.
+    """
     columns = [getattr(Test, name) for name in (*LISTED, *further)]
     found = select(*columns, _CAR, Car.software.label("car_software"), Key.serial.label("key"),
                    Campaign.name.label("campaign"))
@@ -61,12 +63,12 @@ def find(connection: Connection, search: Search, further: Sequence[str] = ()) ->
 
 
 def count(connection: Connection, search: Search) -> int:
-    """How many tests fit, on all pages."""
+    """Return the number of matching tests on all pages."""
     return int(connection.execute(_fitting(select(func.count(Test.id)), search)).scalar_one())
 
 
 def values_of(connection: Connection) -> dict[str, list[str]]:
-    """Values by which a person may search, sorted."""
+    """Return the existing values of each search criterion, sorted."""
     wanted = {"scenario": Test.scenario, "car": _CAR, "software": Car.software, "key": Key.serial,
               "verdict": Test.verdict, "campaign": Campaign.name, "place": Test.place}
     found = {name: connection.execute(_joined(select(column).distinct())).scalars() for name, column in wanted.items()}
@@ -74,7 +76,7 @@ def values_of(connection: Connection) -> dict[str, list[str]]:
 
 
 def number_of(connection: Connection, word: str) -> int:
-    """Of the test that a person names by its number or the beginning of its key; StoreError when that is not one."""
+    """Return the number of a test given by its number or the beginning of its key; StoreError if it is not unique."""
     if word.isdecimal() and len(word) < 10:
         by_number = connection.execute(select(Test.id).where(Test.id == int(word))).scalar()
         if by_number is not None:
@@ -88,13 +90,13 @@ def number_of(connection: Connection, word: str) -> int:
 
 
 def number_by_key(connection: Connection, test_key: str) -> int | None:
-    """Of the test with this key; None when it is not in the store."""
+    """Return the number of the test with this key; None if it is not in the store."""
     found = connection.execute(select(Test.id).where(Test.test_key == test_key)).scalar()
     return None if found is None else int(found)
 
 
 def side(connection: Connection, number: int) -> Side:
-    """All of a test, as the application has it; StoreError when there is none of this number."""
+    """Return a test as the application represents it; StoreError if there is none with this number."""
     document = connection.execute(select(Test.document).where(Test.id == number)).scalar()
     if document is None:
         raise StoreError(f"There is no test {number} in the store; mtr-results list shows their numbers.")
@@ -102,7 +104,7 @@ def side(connection: Connection, number: int) -> Side:
 
 
 def test_row(connection: Connection, number: int) -> Row:
-    """What the table of tests says of one, with its car, key, campaign and equipment."""
+    """Return the row of a test with its car, key, campaign and equipment."""
     columns = [column for column in Test.__table__.c if column.name not in ("document", "words")]
     wanted = _joined(select(*columns, Car.vin, Car.model, Car.software.label("car_software"),
                             Key.serial.label("key_serial"), Key.type.label("key_type"),
@@ -119,13 +121,13 @@ def test_row(connection: Connection, number: int) -> Row:
 
 
 def parts(connection: Connection, number: int) -> dict[str, list[Row]]:
-    """Lines, measurements, trials, verdicts and files of a test, each in its order."""
+    """Return lines, measurements, trials, verdicts and files of a test, each in its order."""
     return {name: _rows(connection, table, number) for name, table in (
         ("lines", Line), ("measurements", Measurement), ("trials", Trial), ("verdicts", Verdict), ("files", File))}
 
 
 def files(connection: Connection, number: int) -> dict[str, str]:
-    """Check sum of each file of a test, by its name."""
+    """Return the check sum of each file of a test, by its name."""
     found = connection.execute(select(File.name, File.sha256).where(File.test_id == number))
     return {name: sha256 for name, sha256 in found}
 
@@ -154,7 +156,7 @@ def _fitting(wanted: Select[Any], search: Search) -> Select[Any]:
     if search.since:
         found = found.where(started >= first_moment("since", search.since))
     if search.until:
-        # A test whose start is unknown is in no period.
+        # A test without a known start does not belong to any period.
         found = found.where(started < next_moment("until", search.until), Test.started_utc != "")
     return found
 

@@ -1,4 +1,4 @@
-"""What databases say, as sentences for a person with what to do."""
+"""Database errors as sentences for a person, with instructions."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from sqlalchemy.exc import DBAPIError, IntegrityError, InterfaceError, Operation
 
 from ..errors import StoreAway, StoreError
 
-# What a database says, in small letters -> why the store cannot be used now, or at all.
+# Part of a database message in lower case -> reason why the store cannot be used.
 _AWAY = (
     ("database is locked", "another program has been writing to it for too long; try again when that has ended"),
     ("disk is full", "its disk is full; make room"),
@@ -31,8 +31,10 @@ _MAX_SHOWN = 200
 
 @contextlib.contextmanager
 def told(where: str) -> Iterator[None]:
-    """Context whose failures of the database are StoreError: StoreAway where it may work later. where: the store,
-    without a password. A breach of a constraint is left as it is, for whoever writes."""
+    """Context that converts database failures to StoreError, and to StoreAway if a later attempt may succeed.
+
+    where: address of the store without a password. A constraint violation is passed on to the writer.
+    """
     try:
         yield
     except IntegrityError:

@@ -1,4 +1,4 @@
-"""Sets of tests by what a person writes: "12", "12,17", or "campaign=winter,key=0042"."""
+"""Test sets as written by a person: "12", "12,17", or "campaign=winter,key=0042"."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ _NAMES = [field.name for field in fields(Search) if field.name not in ("limit", 
 
 @dataclass(frozen=True)
 class TestSet:
-    """Attributes: text: as it was written. rows: of the tests, oldest first. sides: the tests, in the same order."""
+    """Attributes: text: as written. rows: of the tests, oldest first. sides: the tests, in the same order."""
 
-    # The name would make pytest collect it.
+    # Without this, pytest would collect the class because of its name.
     __test__ = False
 
     text: str
@@ -28,22 +28,22 @@ class TestSet:
     sides: list[Side]
 
     def values(self, factor: str) -> list[str]:
-        """What each test has of a factor by which tests differ."""
+        """Return the level of a factor for each test."""
         return [level(row, factor) for row in self.rows]
 
 
-# Factor -> columns of a test that make its level.
+# Factor -> columns of a test that define its level.
 FACTORS = {"key": ("key_serial", "key_type"), "car": ("vin", "model"), "software": ("car_software",),
            "place": ("place",), "operator": ("operator",), "robot": ("robot",), "campaign": ("campaign",)}
 
 
 def level(row: Row, factor: str) -> str:
-    """Which key, car, place ... a test has."""
+    """Return the level of a factor for a test, such as its key, car or place."""
     return " ".join(filter(None, (str(row[name] or "") for name in FACTORS[factor])))
 
 
 def read_set(connection: Connection, text: str) -> TestSet:
-    """The tests that are meant; StoreError when there is none, or too many to be looked at together."""
+    """Read the selected tests; StoreError if there are none or too many for one evaluation."""
     if "=" in text:
         search = _search(text)
         numbers = [row["id"] for row in reversed(find(connection, search))]

@@ -1,4 +1,4 @@
-"""Tests that wait for a store that is away: copies in a folder, which go in with the next import into that store."""
+"""Spool of tests for an unavailable store: copies in a folder, imported with the next import into that store."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ from ..errors import StoreError
 from ..intake.record import TestRecord
 
 _PART = ".part-"
-# Hidden, so that it is no file of the test.
+# Hidden files, so that they are not files of the test.
 _CAMPAIGN, _STORE = ".campaign", ".store"
-# Of a copy, in its folder, as long as it is made.
+# Name of an incomplete copy within its temporary folder.
 _WHOLE = "test"
 
 
 class Spool:
-    """A folder with a folder for each test that waits, named by its test, how far it came and what it measured.
+    """Folder with a subfolder for each waiting test, named by test, reach and measurements.
 
-    store: for which store tests wait, without its password; a test never goes into another one.
+    store: identity of the store for which tests wait, without its password; a test is never imported into another one.
     """
 
     def __init__(self, folder: pathlib.Path, store: str = ""):
@@ -33,11 +33,11 @@ class Spool:
         self._store = store
 
     def put(self, record: TestRecord, path: pathlib.Path, campaign: str = "") -> pathlib.Path:
-        """Copy the files of a test; it is there whole or not at all, and once. StoreError when that fails.
+        """Copy the files of a test, atomically and only once; StoreError if that fails.
 
-        path: of its progress file. campaign: into which it is to go.
+        path: of its progress file. campaign: assigned at the import.
         """
-        # With its points: two copies that went on apart are two, though they came equally far.
+        # The name includes the points: copies that diverged are different, even with the same reach.
         measured = f"{self._store} {record.test['test_key']} {record.reach} {record.test['digest']} {record.trials}"
         name = hashlib.sha256(measured.encode()).hexdigest()[:24]
         target = self.folder / name
@@ -45,7 +45,7 @@ class Spool:
             return target
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
-            # What is left of a copy that fails would keep a full disk full.
+            # Remove a failed copy, because its remains would keep a full disk full.
             with tempfile.TemporaryDirectory(prefix=_PART, dir=self.folder) as name:
                 part = pathlib.Path(name, _WHOLE)
                 part.mkdir()
@@ -62,29 +62,29 @@ class Spool:
         return target
 
     def campaign_of(self, place: pathlib.Path) -> str:
-        """Into which a test that waits is to go; empty when nobody said."""
+        """Return the campaign of a waiting test; empty if not specified."""
         return _read(place / _CAMPAIGN) or ""
 
     def store_of(self, place: pathlib.Path) -> str | None:
-        """For which store a test waits; None for one that was put here before that was kept."""
+        """Return the store of a waiting test; None if it is unknown, as for copies of older versions."""
         return _read(place / _STORE)
 
     def all_waiting(self) -> list[pathlib.Path]:
-        """Folders of the tests that wait for any store, sorted."""
+        """Return the folders of all waiting tests, sorted."""
         if not self.folder.is_dir():
             return []
         return sorted(path for path in self.folder.iterdir() if path.is_dir() and not path.name.startswith(_PART))
 
     def waiting(self) -> list[pathlib.Path]:
-        """Folders of the tests that wait for this store, sorted."""
+        """Return the folders of the tests that wait for this store, sorted."""
         return [place for place in self.all_waiting() if self.store_of(place) == self._store]
 
     def unassigned(self) -> list[pathlib.Path]:
-        """Folders of the tests of which nobody knows for which store they wait, sorted."""
+        """Return the folders of the tests whose store is unknown, sorted."""
         return [place for place in self.all_waiting() if self.store_of(place) is None]
 
     def remove(self, place: pathlib.Path) -> None:
-        """A test that is in the store waits no longer; where that fails it goes in again, which changes nothing."""
+        """Remove an imported test from the spool; if that fails, it is imported again, which has no effect."""
         shutil.rmtree(place, ignore_errors=True)
 
 
@@ -98,13 +98,13 @@ def _name(part: pathlib.Path, target: pathlib.Path) -> None:
     try:
         os.rename(part, target)
     except OSError:
-        # Where another program has just put the same test, its copy is as good.
+        # Another program has just put the same test there; its copy is equivalent.
         if not target.is_dir():
             raise
 
 
 def _own_name(name: str, record: pathlib.Path) -> str:
-    """Of a file in a folder of the test's own: a record that bore the test's name has the usual one there."""
+    """Return the name of a file in the folder of the copy: a record named after the test gets the standard name."""
     stem = pathlib.Path(FILE_NAME).stem
     if record.name == FILE_NAME:
         return name

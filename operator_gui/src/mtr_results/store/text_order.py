@@ -1,4 +1,4 @@
-"""Texts compared and sorted alike on every database, whatever collation it was made with."""
+"""Comparison and sorting of texts, identical on every database and for every collation."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from sqlalchemy.sql.functions import FunctionElement
 
 
 class ByCodePoint(FunctionElement[str]):
-    """A text column in the order of its characters' code points, which is that of SQLite and of Python."""
+    """A text column in code point order, like SQLite and Python."""
 
     inherit_cache = True
     name = "by_code_point"
@@ -24,10 +24,10 @@ def _as_it_is(element: ByCodePoint, compiler: Any, **options: Any) -> str:
 
 @compiles(ByCodePoint, "postgresql")
 def _collated(element: ByCodePoint, compiler: Any, **options: Any) -> str:
-    # The collation of a locale ignores punctuation, or sorts it behind digits.
+    # Collations of a locale ignore punctuation or sort it after digits.
     return f'({compiler.process(element.clauses, **options)}) COLLATE "C"'
 
 
 def ordering(columns: Iterable[Any]) -> list[Any]:
-    """Columns to sort by; texts by code point."""
+    """Return columns for sorting; texts by code point."""
     return [ByCodePoint(column) if isinstance(column.type, String) else column for column in columns]

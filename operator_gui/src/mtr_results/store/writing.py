@@ -1,4 +1,4 @@
-"""A test into the store: whole or not at all, once, and again only when more of it is known."""
+"""Atomic write of a test to the store, and replacement by a more complete copy."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ from .continuing import Findings, stored_findings
 from .database import Database
 from .kept_files import KeptFiles
 
-# Another program may enter the same test between the look and the entry; then it is there.
+# Another program may enter the same test between the query and the insert; a retry then finds it.
 _ATTEMPTS = 3
 
 
 class Outcome(enum.Enum):
-    """What became of a test that was to go in."""
+    """Result of adding a test."""
 
     ADDED = "added"
     EXTENDED = "extended"
@@ -38,11 +38,11 @@ class Outcome(enum.Enum):
 
 
 def add(database: Database, files: KeptFiles | None, record: TestRecord, campaign: str = "") -> Outcome:
-    """Enter a test. OtherContents when something else is there under its name, StoreAway when it has to wait.
+    """Add a test. OtherContents if the store has other contents under its key, StoreAway if the store is unavailable.
 
-    files: where contents are kept, None for nowhere. campaign: empty leaves it as it is.
+    files: storage of contents, or None. campaign: empty leaves it unchanged.
     """
-    # Contents first: a row must not name what is not there. What a failure leaves behind is found again by its name.
+    # Store contents first: rows must not refer to missing contents. Contents left by a failure are reused by name.
     kept = [] if files is None else files.keep(record.files)
     for _ in range(_ATTEMPTS):
         try:
@@ -71,8 +71,11 @@ def _add(connection: Connection, record: TestRecord, files: Sequence[Row], campa
 
 
 def _is_more(connection: Connection, known: Known[Any], record: TestRecord) -> bool:
-    """True when the copy replaces the one in the store; OtherContents when it is none of the same test, or the nearer
-    one of the two has what the other lacks."""
+    """Return True if the copy replaces the one in the store.
+
+    Raises OtherContents if it is not a copy of the same test, or if the shorter copy has measurements that the longer
+    one lacks.
+    """
     reach, name = (known.entries, known.has_journal), f"The test {record.test['test_key']}"
     if record.test["entries"] == known.entries and not _is_same(connection, known, record):
         raise OtherContents(f"{name} is in the store with other contents; one of the two was changed. The store is as "
@@ -86,12 +89,12 @@ def _is_more(connection: Connection, known: Known[Any], record: TestRecord) -> b
     if not here.hold(there):
         raise OtherContents(f"{name} is in the store with measurements that this copy lacks: the two went on apart, "
                             "one was changed, or the journal of this one is missing. The store is as it was.")
-    # A former version of this program may have filed the same points otherwise.
+    # An older version of this program may have assigned the same points to other lines or attempts.
     return record.reach > reach or here.trials != there.trials
 
 
 def _is_same(connection: Connection, known: Known[Any], record: TestRecord) -> bool:
-    """True when two copies that reach equally far state the same; a digest also depends on the program's version."""
+    """Return True if two copies with equal reach have equal contents; a digest also depends on the version."""
     if record.test["digest"] == known.digest:
         return True
     stored = connection.execute(select(Test.document).where(Test.id == known.id)).scalar_one()
@@ -126,8 +129,10 @@ def _enter(connection: Connection, number: int, record: TestRecord, files: Seque
 
 
 def _insert_as_one_value(connection: Connection, table: type[Base], rows: Sequence[Row]) -> None:
-    """Rows with the same columns. A server takes longer to read a statement of thousands of values than to enter
-    them, so they come as one, which it takes apart."""
+    """Insert rows with the same columns as one JSON value.
+
+    A server takes longer to parse a statement with thousands of values than to insert them.
+    """
     quote, columns = connection.dialect.identifier_preparer.quote, table.__table__.c
     names = ", ".join(map(quote, rows[0]))
     kinds = ", ".join(f"{quote(name)} {columns[name].type.compile(connection.dialect)}" for name in rows[0])
@@ -137,7 +142,7 @@ def _insert_as_one_value(connection: Connection, table: type[Base], rows: Sequen
 
 
 def _in_json(value: Any) -> Any:
-    """JSON has no infinity, the database reads it from a text."""
+    """Convert infinity to a text, which the database accepts; JSON has no infinity."""
     return str(value) if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -146,7 +151,7 @@ def _is_remote(connection: Connection) -> bool:
 
 
 def _number_of(connection: Connection, table: type[Base], values: Row) -> int:
-    """Of the row with these values, which is entered when it is not there; two programs at once enter one."""
+    """Return the id of the row with these values, and insert it if necessary; concurrent programs insert one row."""
     columns: Any = table.__table__.c
     wanted = select(columns.id).where(*(columns[name] == value for name, value in values.items()))
     found = connection.execute(wanted).scalar()

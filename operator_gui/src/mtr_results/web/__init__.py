@@ -1,2 +1,2 @@
-"""The store in a browser."""
+"""Web server for the store."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Who may reach the server: this computer alone, or others with a token over TLS."""
+"""Access to the server: this computer only, or others with a token over TLS."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _LOCAL = frozenset({"localhost", "127.0.0.1", "[::1]"})
 
 @dataclass(frozen=True)
 class Access:
-    """Attributes: host, port: where the server listens. token_file: the token is its content. certificate, key: of TLS.
-    behind_proxy: something in front of this server does TLS."""
+    """Attributes: host, port: listening address. token_file: file with the token. certificate, key: for TLS.
+    behind_proxy: a proxy in front of this server terminates TLS."""
 
     host: str = "127.0.0.1"
     port: int = PORT
@@ -27,7 +27,7 @@ class Access:
 
     @property
     def is_local(self) -> bool:
-        """Only this computer reaches it."""
+        """True if only this computer can reach the server."""
         if self.host == "localhost":
             return True
         try:
@@ -37,22 +37,25 @@ class Access:
 
     @property
     def is_encrypted(self) -> bool:
-        """This server does TLS itself."""
+        """True if this server terminates TLS itself."""
         return self.certificate is not None and self.key is not None
 
     @property
     def hosts(self) -> frozenset[str]:
-        """Names under which browsers ask; any where others than this computer may."""
+        """Accepted host names of requests; empty accepts any name if other computers may connect."""
         return _LOCAL | {self.host} if self.is_local and not self.behind_proxy else frozenset()
 
     @property
     def address(self) -> str:
-        """For a browser."""
+        """Address for a browser."""
         name = f"[{self.host}]" if ":" in self.host else self.host
         return f"{'https' if self.is_encrypted else 'http'}://{name}:{self.port}/"
 
     def token(self) -> str:
-        """Empty where none is wanted; StoreError for what would let others read without one, or in the clear."""
+        """Return the token, or an empty text if none is required.
+
+        Raises StoreError if others could read without a token or without encryption.
+        """
         if (self.certificate is None) != (self.key is None):
             raise StoreError("TLS needs both --certificate and --key.")
         found = _token_in(self.token_file) if self.token_file else ""

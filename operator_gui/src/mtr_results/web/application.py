@@ -1,4 +1,4 @@
-"""The pages over HTTP: addresses, errors as pages, and who may read."""
+"""HTTP routes of the pages, error pages, and authorization."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from .live_pages import LivePages
 from .pages import Pages
 
 COOKIE = "mtr_results"
-# Pages hold their pictures and style, and nothing from elsewhere; a file of a test is never shown as one.
+# Pages contain their pictures and style and load nothing; a file of a test is never displayed as a page.
 HEADERS = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'; form-action 'self'; "
                                       "base-uri 'none'; frame-ancestors 'none'",
            "X-Content-Type-Options": "nosniff", "Referrer-Policy": "same-origin", "Cache-Control": "no-store"}
-# A page that follows a test runs the server's own script, which asks this server alone.
+# A page that follows a test runs the script of this server, which connects to this server only.
 LIVE_HEADERS = {**HEADERS, "Content-Security-Policy": HEADERS["Content-Security-Policy"].replace(
     "default-src 'none';", "default-src 'none'; script-src 'self'; connect-src 'self';")}
 Answer = Callable[[Request], Response]
 
 
 class TestNumber(IntegerConvertor):
-    """A number that every database takes; a longer one is no address of this server."""
+    """A number within the range of every database; a longer one is not a valid address."""
 
-    # The name would make pytest collect it.
+    # Without this, pytest would collect the class because of its name.
     __test__ = False
     regex = "[0-9]{1,9}"
 
@@ -43,8 +43,11 @@ register_url_convertor("test", TestNumber())
 
 
 def application(pages: Pages, live: LivePages, token: str = "", hosts: frozenset[str] = frozenset()) -> Starlette:
-    """Answers requests. token: who reads has to know it, empty for everybody who reaches the server. hosts: names under
-    which a browser may ask, empty for any: a page from elsewhere that calls itself this computer is refused."""
+    """Return the web application.
+
+    token: required from readers, empty for none. hosts: accepted host names of requests, empty for any; they prevent
+    DNS rebinding, that is, a foreign page that resolves its own name to this computer.
+    """
 
     def route(path: str, answer: Answer, headers: Mapping[str, str] = HEADERS) -> Route:
         async def endpoint(request: Request) -> Response:
@@ -98,7 +101,7 @@ def _refusal(request: Request, token: str, hosts: frozenset[str]) -> Response | 
     if not token or _is_same(request.cookies.get(COOKIE, ""), token):
         return None
     if _is_same(request.query_params.get("token", ""), token):
-        # The token stays in no address that is sent on.
+        # Redirect, so that the token does not remain in an address that may be shared.
         response = RedirectResponse(request.url.path, 303)
         response.set_cookie(COOKIE, token, httponly=True, samesite="strict", secure=request.url.scheme == "https")
         return response

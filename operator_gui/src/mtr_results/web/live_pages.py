@@ -1,4 +1,4 @@
-"""Pages of tests that are being measured, and the stream of events that keeps one as it is."""
+"""Pages of tests in progress, and the event streams that update them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,41 +16,41 @@ from ..live.sections import DISTANCES, NOW, PICTURE, POINTS
 from ..live.watch import Watch
 from ..report.pages import render, template_text
 
-# A Status that is recorded leaves the application once a second.
+# The application records its status once per second.
 PERIOD_S = 0.5
-# Whoever sits between browser and server ends a connection on which nothing comes for a minute.
+# Proxies between browser and server close a connection after a minute without data.
 _STILL_HERE_S = 15.0
-# More browsers than a laboratory has; each costs a look at some files twice a second.
+# More browsers than a laboratory has; each stream checks some files twice per second.
 MAX_STREAMS = 32
 _MAX_LISTED = 20
 
 
 class LivePages:
-    """Reads files, and changes nothing."""
+    """Read-only pages."""
 
     def __init__(self, watch: Watch):
         self._watch = watch
         self._streams = 0
 
     def list(self) -> str:
-        """The tests that were written last."""
+        """Return the list of the most recently written tests."""
         rows = [self._row(test) for test in self._watch.tests()[:_MAX_LISTED]]
         return render("live_list.html", "Tests being measured", True, tests=rows,
                       is_following=self._watch.is_following)
 
     def page(self, name: str) -> str:
-        """One test, as it is now; StoreError when there is none."""
+        """Return the page of one test in its present state; StoreError if there is none."""
         test = self._watch.test(name)
         parts = {**dict.fromkeys((NOW, PICTURE, DISTANCES, POINTS), ""), **self._watch.sections(test)}
         return render("live.html", self._row(test)["title"], True, name=name, parts=parts)
 
     @staticmethod
     def script() -> str:
-        """What follows the events in the browser."""
+        """Return the script that applies the events in the browser."""
         return template_text("live.js")
 
     async def events(self, name: str) -> AsyncIterator[str]:
-        """The sections, then each one that has changed; as quickly as the browser takes them, and no queue."""
+        """Yield all sections, then each changed one, at the rate of the browser and without a queue."""
         self._streams += 1
         try:
             test = await run_in_threadpool(self._watch.test, name)
@@ -72,15 +72,15 @@ class LivePages:
 
     @property
     def is_full(self) -> bool:
-        """No browser more is served events."""
+        """True if no further browser can subscribe to events."""
         return self._streams >= MAX_STREAMS
 
     def test(self, name: str) -> FollowedTest:
-        """StoreError when there is none."""
+        """Return a followed test; StoreError if there is none."""
         return self._watch.test(name)
 
     def _row(self, test: FollowedTest) -> dict[str, str]:
-        """A test that cannot be read is told with its reason."""
+        """Return the row of a test in the list; an unreadable test has its error as state."""
         try:
             entry = self._watch.so_far(test).entry
         except OperatorError as error:

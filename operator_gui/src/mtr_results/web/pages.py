@@ -1,4 +1,4 @@
-"""What the browser gets for an address; nothing here changes the store."""
+"""Page for each address; read-only."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ from ..store.kept_files import KeptFiles
 from ..store.reading import PAGE, Search
 from ..store.sets import read_set
 
-# Charts of one page; with more nobody finds one.
+# Largest number of charts on one page; more would be hard to find.
 _MAX_CHARTS = 12
 _CHOICES = ("scenario", "car", "software", "key", "verdict", "campaign", "place")
 _TYPED = ("text", "since", "until")
 
 
 class Pages:
-    """Pages of a store, as text; StoreError and OperatorError are sentences for the person at the browser."""
+    """Pages of a store, as text; StoreError and OperatorError are sentences for the user of the browser."""
 
     def __init__(self, database: Database, files: KeptFiles | None):
         self._database = database
         self._files = files
 
     def tests(self, query: Mapping[str, str]) -> str:
-        """The list, searched."""
+        """Return the list of matching tests."""
         offset = _number(query, "from")
         wanted: dict[str, Any] = {name: query.get(name, "") for name in (*_CHOICES, *_TYPED)}
         search = Search(offset=offset, **wanted)
@@ -47,32 +47,35 @@ class Pages:
                       after=_address(kept, offset + PAGE) if offset + PAGE < total else None)
 
     def test(self, number: int, served: bool = True) -> str:
-        """One test; not served, as a report that stands alone."""
+        """Return the page of one test; served=False makes a report without links."""
         with self._database.reading() as connection:
             test, parts = reading.test_row(connection, number), reading.parts(connection, number)
             side = reading.side(connection, number)
         return page_of_test(test, parts, side, served, self._kept(parts["files"]))
 
     def test_document(self, number: int) -> dict[str, Any]:
-        """As mtr-results show --json."""
+        """Return the same document as mtr-results show --json."""
         with self._database.reading() as connection:
             return {**reading.test_row(connection, number), **reading.parts(connection, number)}
 
     def comparison(self, query: Mapping[str, str], served: bool = True) -> str:
-        """Two tests or sets."""
+        """Return the comparison of two tests or sets."""
         texts = query.get("first", ""), query.get("second", "")
         with self._database.reading() as connection:
             first, second = (read_set(connection, text) for text in texts)
         return page_of_comparison(first.sides, second.sides, texts, served)
 
     def trend(self, query: Mapping[str, str]) -> str:
-        """Distances of a set over time."""
+        """Return the distances of a set over time."""
         text, line, baseline = query.get("set", ""), _number(query, "line"), _number(query, "baseline")
         return render("trend.html", "Over time", True, text=text, line=line or "", baseline=baseline,
                       charts=self._charts(text, line, baseline) if text else [])
 
     def file(self, number: int, name: str) -> bytes:
-        """A file of a test; the name is one that the store has, so that none of the computer can be asked for."""
+        """Return a file of a test.
+
+        Only names in the store are valid, so other files of this computer are not accessible.
+        """
         with self._database.reading() as connection:
             files = {row["name"]: row["sha256"] for row in reading.parts(connection, number)["files"]}
         if name not in files or self._files is None:
@@ -102,7 +105,7 @@ class Pages:
 
 
 def _number(query: Mapping[str, str], name: str) -> int:
-    """0 for what is none."""
+    """Return 0 for a text that is not a number."""
     text = query.get(name, "")
     return int(text) if text.isascii() and text.isdecimal() and len(text) < 10 else 0
 

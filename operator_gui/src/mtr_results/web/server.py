@@ -1,4 +1,4 @@
-"""The server itself, until it is ended."""
+"""Web server with graceful shutdown."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from .application import application
 from .live_pages import LivePages
 from .pages import Pages
 
-# Browsers that follow a test hold their connections; the server ends without them.
+# Browsers that follow a test keep their connections open; the shutdown does not wait longer for them, in s.
 _FAREWELL_S = 1
 
 
 def make_server(pages: Pages, live: LivePages, access: Access) -> tuple[uvicorn.Server, socket.socket]:
-    """A server and its socket, which already listens; StoreError when the port is taken or TLS cannot be done."""
+    """Return a server and its listening socket; StoreError if the port is in use or TLS cannot be configured."""
     app = application(pages, live, access.token(), access.hosts)
     config = uvicorn.Config(app, log_level="warning", lifespan="off", server_header=False,
                             timeout_graceful_shutdown=_FAREWELL_S,

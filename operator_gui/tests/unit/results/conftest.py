@@ -1,4 +1,4 @@
-"""Empty stores: a file of SQLite, and a database of a real PostgreSQL server."""
+"""Fixtures of empty stores: an SQLite file, and a database of a real PostgreSQL server."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 
@@ -14,14 +14,14 @@ NUMBERS = itertools.count(1)
 
 @pytest.fixture(scope="session")
 def server():
-    """Of all tests that want one."""
+    """Start one PostgreSQL server for all tests that need it."""
     with postgresql.server() as url:
         yield url
 
 
 @pytest.fixture
 def postgresql_address(server):
-    """Of an empty database."""
+    """Return the address of an empty database."""
     name = f"store{next(NUMBERS)}"
     engine = engine_of(server.format("postgres"))
     with engine.connect().execution_options(isolation_level="AUTOCOMMIT") as connection:
@@ -32,13 +32,13 @@ def postgresql_address(server):
 
 @pytest.fixture
 def place(tmp_path):
-    """In a file."""
+    """Return an empty SQLite store."""
     return Place(str(tmp_path / "store.sqlite"), spool=tmp_path / "spool")
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
 def any_place(request, place, tmp_path):
-    """On either database."""
+    """Return an empty store on each kind of database."""
     if request.param == "sqlite":
         return place
     return Place(request.getfixturevalue("postgresql_address"), tmp_path / "files", tmp_path / "spool")

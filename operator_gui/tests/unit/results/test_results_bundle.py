@@ -1,4 +1,4 @@
-"""Bundles go into the store when they are as they were signed, by a station that is believed; else a sentence."""
+"""Import of bundles: accepted with a valid signature of a trusted station, otherwise rejected with a sentence."""
 # SPDX-License-Identifier: Apache-2.0
 import zipfile
 
@@ -17,13 +17,13 @@ from mtr_results.store import reading
 
 @pytest.fixture(name="station")
 def station_fixture(tmp_path):
-    """Of this test alone."""
+    """Return a station for this test only."""
     return Station(tmp_path / "station")
 
 
 @pytest.fixture(name="bundle")
 def bundle_fixture(tmp_path, station):
-    """A test in a signed file."""
+    """Return a signed bundle with one test."""
     path = measured.in_folder(tmp_path / "test", 5.0, 5.5, 6.0, 6.5)
     scenario, _, progress = open_progress(path, SCENARIOS)
     target = tmp_path / "bundles" / "one.mtr.zip"

@@ -1,4 +1,4 @@
-"""The command mtr-results: what a person and a program read, exit codes, and one sentence for what cannot be done."""
+"""Command mtr-results: output for persons and programs, exit codes, and error sentences."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 
@@ -13,7 +13,7 @@ GOLF = Identity("WVW1", "Golf", "SW 7", key_serial="0042")
 
 @pytest.fixture
 def run(place, capsys):
-    """Runs a command on an empty store: exit code, what it printed, and what it complained of."""
+    """Return a function that runs a command on an empty store and returns exit code, output and error output."""
     def command(name, *arguments):
         on_store = () if name == "query" else ("--store", place.address)
         spool = ("--spool", str(place.spool)) if name == "import" else ()
@@ -25,7 +25,7 @@ def run(place, capsys):
 
 @pytest.fixture
 def two_tests(run, tmp_path):
-    """In the store: 1 with limits and an identity, 2 with journal."""
+    """Import two tests: 1 with limits and an identity, 2 with a journal."""
     measured.in_folder(tmp_path / "tests" / "one", 5.0, 5.5, 6.0, 6.5, identity=GOLF)
     measured.journalled(tmp_path / "tests" / "two", [5.0, 5.5], mark="b2")
     status, out, err = run("import", tmp_path / "tests", "--campaign", "winter")
@@ -89,7 +89,7 @@ def test_exported_tables_hold_every_row_and_answer_queries(run, tmp_path):
 
 @pytest.fixture
 def two_sets(run, tmp_path):
-    """In the store: three tests of key A and three of key B, whose range is 0.7 m shorter."""
+    """Import three tests of key A, and three of key B, whose range is 0.7 m shorter."""
     for key, base_m in (("A", 5.6), ("B", 4.9)):
         for number, more_m in enumerate((0.0, 0.05, -0.05)):
             distances_m = [base_m + more_m + 0.01 * line for line in range(4)]

@@ -1,4 +1,4 @@
-"""Times and texts are compared alike on every database, whatever collation it was made with."""
+"""Comparison of times and texts is identical on every database and for every collation."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 
@@ -17,7 +17,7 @@ from mtr_results.store.place import Place
 from mtr_results.store.reading import Search
 
 NUMBERS = itertools.count(1)
-# Of the server's own collation, those that most servers are made with, and one that sorts digits by their value.
+# Collations of the server: the two most common ones, and one that sorts digits by their value.
 COLLATIONS = {"C": "", "en-US": "LOCALE_PROVIDER icu ICU_LOCALE 'en-US' TEMPLATE template0",
               "cs-CZ": "LOCALE_PROVIDER icu ICU_LOCALE 'cs-CZ' TEMPLATE template0",
               "numeric": "LOCALE_PROVIDER icu ICU_LOCALE 'en-US-u-kn-true' TEMPLATE template0"}
@@ -25,7 +25,7 @@ COLLATIONS = {"C": "", "en-US": "LOCALE_PROVIDER icu ICU_LOCALE 'en-US' TEMPLATE
 
 @pytest.fixture(params=["sqlite", *COLLATIONS])
 def collated(request, place, tmp_path):
-    """A store in a database of some collation."""
+    """Return a store in a database with the collation."""
     if request.param == "sqlite":
         return place
     server, name = request.getfixturevalue("server"), f"collated{next(NUMBERS)}"

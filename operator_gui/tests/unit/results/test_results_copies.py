@@ -1,4 +1,4 @@
-"""Copies of one test: the store takes one that continues the other, and never drops what was measured."""
+"""Copies of one test: the store accepts a copy that continues the other, and never drops measurements."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
@@ -20,7 +20,7 @@ from mtr_results.store import reading
 
 
 def further(source, folder, *entries):
-    """A copy of a journalled test that has gone on with these entries; the path of its progress file."""
+    """Copy a journalled test, append these entries, and return the path of its progress file."""
     shutil.copytree(source.parent, folder)
     path = folder / FILE_NAME
     number = len(read_journal(journal_path(path)).entries)
@@ -35,7 +35,7 @@ def line(number, distance_m):
 
 
 def kept(place):
-    """Lines, their distances and the number of points in the store."""
+    """Return lines, their distances and the number of points in the store."""
     with place.open().reading() as connection:
         parts = reading.parts(connection, 1)
     return ([(row["line"], row["first_m"]) for row in parts["measurements"] if row["is_current"]],
@@ -62,7 +62,7 @@ def test_copies_with_other_points_of_a_line_without_result_are_two(any_place, tm
     one, other = (further(begun, tmp_path / str(distance_m), *line(2, distance_m)[:2]) for distance_m in (6.0, 7.0))
     door = any_place.door()
     assert [door.take(path).outcome for path in (one, other, one)] == ["added", "refused", "known"]
-    # A line of its own does not make up for the point that is missing.
+    # An additional line does not compensate for a missing point.
     assert door.take(further(other, tmp_path / "more", line(2, 7.0)[2])).outcome == "refused"
     assert door.take(further(one, tmp_path / "one", line(2, 6.0)[2])).outcome == "extended"
 
@@ -111,7 +111,7 @@ GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "written_before"
 
 
 def golden_tests(tmp_path):
-    """Tests in files of earlier releases, and one that states fewer parameters than this release knows."""
+    """Return tests of earlier releases, and one with fewer parameters than in this release."""
     made = [shutil.copytree(folder, tmp_path / folder.name) / FILE_NAME for folder in sorted(GOLDEN.iterdir())]
     few = measured.in_folder(tmp_path / "few parameters", 5.0, 6.0)
     document = json.loads(few.read_text(encoding="utf-8"))
@@ -121,7 +121,7 @@ def golden_tests(tmp_path):
 
 
 def release_with_more(monkeypatch):
-    """The next release knows one field more of tests, parameters and results."""
+    """Simulate the next release, which has one more field in tests, parameters and results."""
     to_document = Progress.to_document
 
     def with_more(progress):

@@ -1,4 +1,4 @@
-"""The store in the application's history: listed beside the folders, and each test a file again."""
+"""The store in the application's history: listed next to the folders, and exported to files."""
 # SPDX-License-Identifier: Apache-2.0
 import hashlib
 import importlib.metadata
@@ -28,7 +28,7 @@ def point(value="mtr_results.laboratory:open_laboratory"):
 
 @pytest.fixture
 def named(place, monkeypatch):
-    """A store that the environment names, and nothing else."""
+    """Return the store from the environment, without any other store."""
     monkeypatch.setenv(ADDRESS_VARIABLE, place.address)
     monkeypatch.setattr("mtr_operator.history.laboratory._installed", lambda: [point()])
     return place

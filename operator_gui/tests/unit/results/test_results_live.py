@@ -1,4 +1,4 @@
-"""Tests that are being measured, in a browser: what is told, and when."""
+"""Tests in progress in a browser: contents and timing of the updates."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re
@@ -19,7 +19,7 @@ from mtr_results.web.server import make_server
 
 @pytest.fixture
 def serve(place, tmp_path):
-    """Starts a server that follows the folder; its port."""
+    """Return a function that starts a server for the folder and returns its port."""
     ending = []
 
     def start(**access):
@@ -39,7 +39,7 @@ def serve(place, tmp_path):
 
 @pytest.fixture
 def test(tmp_path):
-    """One that is being measured: two points of its first radial."""
+    """Provide a test in progress with two points on its first radial."""
     with Measuring(tmp_path / "tests" / "one") as measuring:
         measuring.begin(1, 5.0)
         measuring.press(3.0, True, 10.0)
@@ -75,7 +75,7 @@ def test_points_lines_and_the_robots_place_come_as_they_are_measured(serve, test
     test.stand_at(-2.5, 1.25, 31.0)
     browser.see("x -2.50 m, y 1.25 m").see("Robot</title>")
     test.begin(2, 65.0)
-    # One line took a minute, and three are left.
+    # One line took a minute; three remain.
     browser.see("about 3 min")
     browser.close()
 
@@ -114,7 +114,7 @@ def test_files_that_vanish_or_are_torn_are_a_sentence_and_the_page_goes_on(serve
     browser = Browser(port, only_name(port)).see("2 points")
     journal = test.path.with_suffix(".journal")
     content = journal.read_bytes()
-    # A line of which the end is not written yet.
+    # The end of the last line is not yet written.
     journal.write_bytes(content + content.splitlines(keepends=True)[-1][:20])
     test.stand_at(1.0, 1.0, 2.0)
     browser.see("x 1.00 m")
@@ -157,7 +157,7 @@ def test_more_browsers_than_are_served_are_refused_and_one_that_leaves_makes_roo
     assert ask(port, f"/live/{name}/events")[0] == 503
     first.close()
     until_s = time.monotonic() + PATIENCE_S
-    # The server finds that a window is closed when it has something to send.
+    # The server detects a closed window only when it sends something.
     while Browser(port, name).answer.status != 200:
         test.stand_at(1.0, 1.0, 2.0)
         assert time.monotonic() < until_s

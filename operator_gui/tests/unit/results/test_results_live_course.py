@@ -1,4 +1,4 @@
-"""How far a test has come and where the robot stands, from the files of a test that is being measured."""
+"""Progress of a test and position of the robot, from the files of a test in progress."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 from followed_tests import Measuring
@@ -18,10 +18,10 @@ def test_time_left_is_the_median_pace_of_the_lines():
     course = course_of(decided((DECISION, 10.0), (DECISION, 40.0), (LINE, 0.0), (DECISION, 70.0), (LINE, 0.0),
                                (DECISION, 570.0), (LINE, 0.0), (DECISION, 630.0)))
     assert course.line_s == 60.0 and course.left_s(2, 640.0) == pytest.approx(50.0 + 60.0)
-    # A line that takes longer shortens nothing of those that follow.
+    # An overlong line does not shorten the following ones.
     assert course.left_s(2, 900.0) == pytest.approx(60.0)
     assert course.left_s(0, 640.0) is None and course_of(decided((DECISION, 10.0))).left_s(3, 20.0) is None
-    # The robot has started anew, and its clock with it.
+    # The robot was restarted, with a new clock.
     assert course_of(decided((DECISION, 500.0), (LINE, 0.0), (DECISION, 3.0))).left_s(2, 4.0) is None
 
 

@@ -1,4 +1,4 @@
-"""A server that follows tests in a process of its own: the application never notices what becomes of it."""
+"""A server in its own process does not affect the application, even if it stops or is killed."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import json
@@ -20,10 +20,10 @@ DEMO = pathlib.Path(__file__).resolve().parents[3] / "examples" / "demo"
 
 @contextlib.contextmanager
 def served(folder, store, port=0):
-    """A server of its own; its process and port."""
+    """Start a server process; yield the process and its port."""
     command = [sys.executable, "-m", "mtr_results", "serve", "--json", "--follow", str(folder), "--store", str(store),
                "--port", str(port)]
-    # A person's environment may have Python write at once; a program that waits for the address may not.
+    # Remove unbuffered output from the environment: the server itself must flush its address.
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment) as process:
         try:
@@ -58,7 +58,7 @@ def test_a_server_that_stands_is_gone_or_comes_back_changes_nothing_of_a_test(tm
         other.press(3.0, True)
         browser = Browser(port, only_name(port)).see("1 point,")
         os.kill(process.pid, signal.SIGSTOP)
-        # Each returns only when what it writes is safe, whatever becomes of the server.
+        # Each call returns only when its data is on disk, regardless of the server.
         measure(tests / "stopped")
         other.press(4.9, True)
         os.kill(process.pid, signal.SIGCONT)

@@ -1,4 +1,4 @@
-"""Neighbouring lines that have moved together: how sure the largest of all runs is, and what it finds."""
+"""Adjacent lines that have moved together: error rate and power of the test."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -11,14 +11,14 @@ from mtr_results.statistics.comparison import NEARER, NEIGHBOURS, SIDE, compare_
 from mtr_results.statistics.neighbours import moved_most
 from mtr_results.statistics.same_passes import Events
 
-# Autolock's axes: five of each long side.
+# Five axes of Autolock on each long side.
 SIDES = (tuple(range(3, 8)), tuple(range(11, 16)))
-# Of a fast and of a slow pass, by word.
+# Noise of a fast and of a slow pass, by word.
 NOISES_M = ((0.14, 0.1), (0.19, 0.15))
 
 
 def events(generator, tests=2, moved_m=None, *, split=1, of_test_m=0.0, lines=range(1, 17)):
-    """Of all axes; moved_m: by how much those of the second set are farther."""
+    """Return events of all axes. moved_m: shift of the second set, by line."""
     shifts_m = generator.normal(0.0, of_test_m, (tests, 1)) if of_test_m else np.zeros((tests, 1))
     second = (np.arange(tests) >= split)[:, None]
     return {line: [Events(2.0 + shifts_m + second * (moved_m or {}).get(line, 0.0)
@@ -81,6 +81,6 @@ def test_comparison_names_the_lines_and_gives_them_most_of_the_family_s_chance()
     assert row.word == "unlock and lock"
     assert row.is_different and row.verdict == NEARER
     assert [each.is_leading for each in found.rows].count(True) == 1 and row.is_leading
-    # Three fifths of the 5 %; less is wanted of it where others remain before it.
+    # Three fifths of the 5 %; the factor is smaller if other rows come first in Holm's order.
     assert row.change.chance < row.adjusted <= row.change.chance / 0.6 + 1e-9
     assert any(each.quantity == SIDE for each in found.rows)

@@ -1,4 +1,4 @@
-"""No password is shown, and no number in an address is too large."""
+"""Passwords are never shown, and numbers in addresses may be arbitrarily large."""
 # SPDX-License-Identifier: Apache-2.0
 import logging
 
@@ -55,7 +55,7 @@ def test_help_works_in_a_folder_with_a_percent_sign(tmp_path, monkeypatch, capsy
 
 @pytest.fixture
 def app(place):
-    """Of an empty store."""
+    """Provide the application of an empty store."""
     database = place.open()
     yield application(Pages(database, place.kept_files()), LivePages(Watch(Followed([]), database)))
     database.close()

@@ -1,4 +1,4 @@
-"""Means over the lines of a side: what all lines have alike, passes at the same speeds, and one family for all."""
+"""Means over the lines of a side: common errors, passes at the same speeds, and one family of comparisons."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -20,7 +20,7 @@ from mtr_results.statistics.side_means import mean_of
 from mtr_results.statistics.sides import sides_of
 
 LEFT = range(11, 16)
-# Of a fast and of a slow pass.
+# Noise of a fast and of a slow pass.
 NOISES_M = (0.14, 0.1)
 
 
@@ -29,7 +29,7 @@ def rows(comparison, quantity=SIDE):
 
 
 def noisy(generator, weaker_m=0.0, shift_m=0.0, **changes):
-    """A test of a Car whose borders lie at 1.5 and 2.5 m, on the left side nearer by weaker_m, all by shift_m."""
+    """Return a test with boundaries at 1.5 and 2.5 m, less weaker_m on the left side and shift_m everywhere."""
     def events_m(axis, word):
         border_m = {"unlock": 1.5, "lock": 2.5}[word] - (weaker_m if axis in LEFT else 0.0) - shift_m
         return [border_m + late_m + generator.gauss(0.0, noise_m) for late_m, noise_m in zip((-0.1, 0.0), NOISES_M)]
@@ -91,7 +91,7 @@ def test_interval_of_same_passes_holds_in_95_of_100(tests, split, noises_m):
     for _ in range(1000):
         *_, found = moved(drawn(generator, tests, noises_m=noises_m), split, 0.0)
         held += found.low <= 0.0 <= found.high
-    # Where the spread of sets overrules the passes by chance, some more do not.
+    # If the spread of the sets replaces the noise of the passes by chance, slightly more intervals miss.
     assert 0.93 <= held / 1000 <= 0.97
 
 
@@ -112,7 +112,7 @@ def test_passes_are_compared_at_the_same_speeds_only():
     both = events_of([result((0.4, 0.13)), result((0.13, 0.39, 0.7))], "unlock")
     assert both.distances_m.tolist() == [[1.0, 2.0], [2.0, 1.0]]
     assert events_of([result((0.4, 0.13)), result((0.4, 0.2))], "unlock") is None
-    # A pass in steps has no speed, and a further one at the same speed is not the one of the other test.
+    # A pass in steps has no speed; a second pass at the same speed is not matched with the other test.
     assert events_of([result((0.4, 0.0)), result((0.4, 0.0))], "unlock") is None
     assert events_of([result((0.4, 0.4, 0.13)), result((0.4, 0.13))], "unlock").distances_m[0].tolist() == [1.0, 3.0]
 
@@ -129,7 +129,7 @@ def test_weaker_antenna_moves_its_side_and_no_other():
 def test_chance_alone_makes_a_difference_in_at_most_5_of_100_comparisons_of_single_tests():
     generator = random.Random(11)
     different = sum(compare_sets([noisy(generator)], [noisy(generator)]).is_different for _ in range(100))
-    # 9 and more of 100 have a chance of 6 % where each has one of 5 %.
+    # With an error rate of 5 %, 9 or more of 100 occur with a probability of 6 %.
     assert different <= 8
 
 
@@ -147,7 +147,7 @@ def test_outline_is_alike_for_the_same_car_only_and_as_far_as_it_was_mapped_alik
 
 def test_area_has_the_timing_of_the_car_alike_on_all_lines():
     found = rows(compare_sets([noisy(random.Random(1))], [noisy(random.Random(2))]), AREA)["area unlock"].first
-    # By 1 m of all distances it grows by its perimeter at least, which is longer than that of the Car.
+    # The area grows by at least its perimeter per metre, and the perimeter is longer than the one of the Car.
     assert (found.high - found.low) / 2.0 > 1.959964 * driven.COMMON_M * 2.0 * (4.5 + 1.8)
 
 

@@ -1,4 +1,4 @@
-"""What tests say of each other: no difference that its interval does not carry, open ends as they are."""
+"""Comparison of tests: no difference without support by its interval; open ends remain open."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -27,7 +27,7 @@ def rows(comparison, quantity="distance"):
 
 
 def noisy(generator, true_m, lines=8):
-    """A test whose intervals hold the truth in 95 of 100."""
+    """Return a test whose intervals cover the true value in 95 of 100 cases."""
     return measured.side(*(generator.gauss(true_m, HALF_M / 1.96) for _ in range(lines)), lines=lines)
 
 
@@ -89,7 +89,7 @@ def test_open_interval_is_an_end_and_no_value():
     row = rows(compare_sets([first], [measured.side(5.0, 5.0, 5.0, 5.0)]))[0]
     assert row.first.value is None and row.first.high == math.inf
     assert row.verdict == NEARER and row.change.high < -0.6 and row.change.low == -math.inf
-    # Of how sure it is beyond 95 % nothing is known: among many that is not enough.
+    # The confidence beyond 95 % is unknown, which is not sufficient among many rows.
     assert not row.is_different and row.adjusted == pytest.approx(0.5)
     both = compare_sets([first], [first])
     assert rows(both)[0].verdict == "not known" and rows(both, AREA)[0].change.high == math.inf

@@ -1,4 +1,4 @@
-"""The store: each test once, whole, with every point; two writers at once; nothing lost while it is away."""
+"""The store: each test once and complete, concurrent writers, and no loss while the store is unavailable."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import errno
@@ -38,7 +38,7 @@ GOLF = Identity("WVW1", "Golf", "SW 7", key_serial="0042", operator="Nov\u00e1k"
 
 
 def contents(database):
-    """Everything but the times of import."""
+    """Return all rows without the times of import."""
     with database.reading() as connection:
         return {model.__tablename__: sorted(
             [str({name: value for name, value in row.items() if name != "imported_utc"})
@@ -216,9 +216,9 @@ def test_what_comes_while_the_store_is_away_waits_and_goes_in_later(tmp_path, pl
 
 @contextlib.contextmanager
 def full_disk():
-    """Context in which no store that is opened can grow."""
+    """Context in which an opened store cannot grow."""
     def limit(connection, _record):
-        # SQLite takes the size that there is already for the least.
+        # SQLite does not accept less than the present size.
         connection.execute("PRAGMA max_page_count = 1")
     event.listen(Engine, "connect", limit)
     try:
@@ -294,7 +294,7 @@ def test_nothing_is_left_of_a_test_that_cannot_wait_on_a_full_disk(tmp_path, mon
 
 
 def test_store_that_cannot_be_read_on_a_full_disk_says_so():
-    # What SQLite says when the file that its readers share finds no room.
+    # Error of SQLite if the disk is too full for the file that readers share.
     with pytest.raises(StoreAway, match="its disk is full, or has errors"), told("lab"):
         raise OperationalError("SELECT 1", {}, sqlite3.OperationalError("disk I/O error"))
 

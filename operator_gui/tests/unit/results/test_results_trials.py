@@ -1,4 +1,4 @@
-"""Every point is filed under the line and the attempt to which it belongs."""
+"""Every point is assigned to its line and attempt."""
 # SPDX-License-Identifier: Apache-2.0
 import measured
 import pytest
@@ -13,7 +13,7 @@ def line(number, distance_m):
 
 
 def filed(*entries, results=()):
-    """Line and attempt of each point."""
+    """Return line and attempt of each point."""
     rows = trials_of([Entry(number, *entry) for number, entry in enumerate(entries, start=1)], results)
     return [(row["line"], row["attempt"], row["distance_m"]) for row in rows]
 

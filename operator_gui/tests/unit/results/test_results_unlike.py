@@ -1,4 +1,4 @@
-"""Distances that stand for different things, or lie elsewhere, are not compared, and what differs is told."""
+"""Distances with different meanings or places are not compared, and the difference is reported."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -18,17 +18,17 @@ from mtr_operator.history.spread import spread_of
 from mtr_results.statistics.comparison import FARTHER, NEARER, NOT_KNOWN, compare_sets
 from mtr_results.statistics.trend import trend
 
-# A slow Car, whose boundaries lie at 2 m.
+# A slow Car with boundaries at 2 m.
 BOUNDARY_M, REACTION_S = 2.0, 1.5
 
 
 def several(number):
-    """A test of two passes: static boundaries."""
+    """Return a test with two passes and therefore static boundaries."""
     return driven.side(lambda *_: (BOUNDARY_M + 0.01 * number, BOUNDARY_M + 0.01 * number))
 
 
 def one_pass(number, speed_mps=0.4):
-    """A test of the same Car by one pass: where it reacted."""
+    """Return a test of the same Car with one pass, which measures events only."""
     parameters = replace(driven.parameters(), passes=1, measuring_speeds_mps=(speed_mps,))
     event_m = BOUNDARY_M - REACTION_S * speed_mps + 0.01 * number
     nothing = {f"{word}_static_{name}": None for word in ("unlock", "lock")
@@ -42,7 +42,7 @@ def one_pass(number, speed_mps=0.4):
 
 
 def scanned(place_m):
-    """A test of one radial by a scan."""
+    """Return a test of one radial, measured with a scan."""
     parameters = replace(measured.parameters(), method="scan")
     result = KeyPressResult(1, 0.0, LineStatus.OK, place_m, place_m + 0.1, 0.01, 5, 1.0, "", method="scan")
     progress = Progress("key_press", parameters.to_mapping(), {}, measured.CAR, [result])
@@ -105,7 +105,7 @@ def test_line_at_another_height_of_the_key_is_another_one(height_m, count):
 
 
 def phone(number, least_m):
-    """A test in which a phone was read at one place."""
+    """Return a test with one reading of a phone."""
     scenario = SCENARIOS["digital_key"]
     parameters = scenario.parameters_type(minimum_distance_m=least_m)
     place = scenario.lines(parameters, measured.CAR)[number - 1]

@@ -1,4 +1,4 @@
-"""Pages of the store, as files and served: what they show and refuse, and that nothing comes from elsewhere."""
+"""Pages of the store as files and from the server: contents, rejected requests, and no external resources."""
 # SPDX-License-Identifier: Apache-2.0
 import html.parser
 import http.client
@@ -19,12 +19,12 @@ from mtr_results.web.pages import Pages
 from mtr_results.web.server import make_server
 
 EVIL = "<script>alert('x')</script>"
-# What a browser may meet in a page, and needs no end.
+# Elements without an end tag.
 VOID = {"meta", "input", "br", "link"}
 
 
 class Balanced(html.parser.HTMLParser):
-    """Fails for an element without its end."""
+    """HTML parser that fails for an element without its end tag."""
 
     def __init__(self, page):
         super().__init__()
@@ -44,7 +44,7 @@ class Balanced(html.parser.HTMLParser):
 
 @pytest.fixture
 def store(place, tmp_path):
-    """Three tests: 1 with an identity that would be a script, 2 its repetition, 3 a weaker antenna and an open line."""
+    """Provide three tests: 1 with a script in its identity, 2 its repetition, 3 weaker and with an open line."""
     limits = limits_from({"limits": [{"what": "press", "at_least_m": 6.0}]})
     who = Identity("VIN1", f"Golf {EVIL}", notes=EVIL, key_serial="A")
     door = place.door()
@@ -58,7 +58,7 @@ def store(place, tmp_path):
 
 @pytest.fixture
 def serve(store):
-    """Starts a server on this store; the function that asks it."""
+    """Return a function that starts a server on this store and returns a request function."""
     ending = []
 
     def start(**access):

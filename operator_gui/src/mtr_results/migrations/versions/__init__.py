@@ -1,2 +1,2 @@
-"""One file for each change of the tables; a store of an older version is brought up to date by all that follow."""
+"""One file per change of the tables; an older store is migrated by all later versions in order."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The first tables."""
+"""Initial tables."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ down_revision = None
 
 
 def upgrade() -> None:
-    """Make all tables."""
+    """Create all tables."""
     _make_subjects()
     _make_test()
     _make_parts()

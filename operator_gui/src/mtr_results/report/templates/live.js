@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 "use strict";
-// Each event holds the sections that have changed, by their ids; the first one after each connection holds them all.
+// Each event contains the changed sections by their ids; the first event of a connection contains all sections.
 (() => {
   const address = document.currentScript.dataset.events;
   const link = document.getElementById("link");
@@ -15,7 +15,7 @@
     };
     source.onerror = () => {
       link.textContent = "The server is not heard; what is shown is as old as that. It is asked again.";
-      // A refusal ends the connection for good, a server that is away does not.
+      // The browser reconnects to an unavailable server, but not after an error response.
       if (source.readyState === EventSource.CLOSED) { setTimeout(follow, AGAIN_MS); }
     };
   }
