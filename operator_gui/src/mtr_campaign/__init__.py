@@ -1,2 +1,2 @@
-"""Campaigns of simulated tests: plans, kernels that run a test, and a crew of workers. Works without the others."""
+"""Campaigns of simulated tests: plans, kernels that simulate a test, and workers. Independent of the robot stack."""
 # SPDX-License-Identifier: Apache-2.0

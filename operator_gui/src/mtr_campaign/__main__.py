@@ -1,4 +1,4 @@
-"""python -m mtr_campaign"""
+"""Entry point of python -m mtr_campaign."""
 # SPDX-License-Identifier: Apache-2.0
 import sys
 

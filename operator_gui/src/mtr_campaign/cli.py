@@ -1,4 +1,4 @@
-"""The command line of campaigns."""
+"""Command line of campaigns."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _SHOWN = 5
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command; the exit code."""
+    """Run a command and return the exit code."""
     options = parser().parse_args(arguments)
     try:
         return int(options.run(options))
@@ -39,7 +39,10 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def parser() -> argparse.ArgumentParser:
-    """Of mtr-campaign; what it parses has `run`, which takes it and returns the exit code."""
+    """Return the parser of mtr-campaign.
+
+    Parsed arguments have a `run` function, which accepts them and returns the exit code.
+    """
     made = argparse.ArgumentParser(prog="mtr-campaign", description="Simulated tests by the thousand, by a plan.")
     commands = made.add_subparsers(dest="command", required=True, metavar="COMMAND")
     command = commands.add_parser("run", parents=[_of_work()], help="what a plan asks for, as far as it is not done")
@@ -86,7 +89,7 @@ def check(options: argparse.Namespace) -> int:
 
 
 def run_plan(options: argparse.Namespace) -> int:
-    """Run a plan; the exit code says whether every run has a result."""
+    """Run a plan; exit code 0 if every run has a result."""
     from .plan.plan import load_plan
     from .work.campaign import run_campaign
     finished = run_campaign(load_plan(options.plan), options)
@@ -103,7 +106,7 @@ def run_plan(options: argparse.Namespace) -> int:
 
 
 def run_study(options: argparse.Namespace) -> int:
-    """Run a study, and say where its picture is."""
+    """Run a study, and print the path of its picture."""
     from .studies.registry import study_of
     for line in study_of(options.name)(options):
         show(line)

@@ -1,2 +1,2 @@
-"""What runs one simulated test."""
+"""Kernels, each of which simulates one test."""
 # SPDX-License-Identifier: Apache-2.0

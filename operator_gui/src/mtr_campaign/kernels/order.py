@@ -1,8 +1,8 @@
-"""What the settings of a run mean: a Car, the scenario's parameters, errors of the robot; checked before anything runs.
+"""Settings of a run: a Car, parameters of the scenario and errors of the robot; checked before anything runs.
 
-    car                     name of a simulated Car, or path of its file       seed    of all that differs between tests
-    place                   what is fixed in space: fading and shadowing       key.X, uhf.X, noise.X, passive_entry.X,
-    antennas.NAME.X         of the passive entry                               locks.X, bus.X: of the Car's file
+    car                     name of a simulated Car, or path of its file       seed    random seed of the test
+    place                   seed of spatial effects: fading and shadowing      key.X, uhf.X, noise.X, passive_entry.X,
+    antennas.NAME.X         antenna of the passive entry                       locks.X, bus.X: values of the Car's file
     parameters.X            of the scenario, by the name in its file           errors.X: of the robot (radio kernel)
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -30,10 +30,10 @@ _MAX_SEED = 2**31 - 1
 
 @dataclass(frozen=True)
 class Order:
-    """What is to be simulated.
+    """Validated settings of one simulated test.
 
     Attributes:
-        car_file: content of the Car's file with the settings in it. errors: of the robot, not checked yet.
+        car_file: content of the Car's file, including the settings. errors: of the robot, not yet validated.
     """
 
     scenario: AnyScenario
@@ -45,7 +45,7 @@ class Order:
 
 
 def order_of(run: Run) -> Order:
-    """What a run asks for; CampaignError names what is not possible."""
+    """Convert the settings of a run; CampaignError names an impossible setting."""
     groups: dict[str, dict[str, Value]] = {name: {} for name in (ANTENNAS, PARAMETERS, ERRORS, *_OF_CAR)}
     alone: dict[str, Value] = {}
     for name, value in run.settings.items():

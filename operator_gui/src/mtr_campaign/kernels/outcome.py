@@ -1,4 +1,4 @@
-"""What a kernel gives back of one test."""
+"""Interface of kernels, and the result of a test."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from mtr_operator.domain.results.progress import Progress
 
 from .order import Order
 
-# Lines of one height that go round the Car: at least so many make an area.
+# Smallest number of lines of one height round the Car that enclose an area.
 _MIN_CORNERS = 3
 
 
 class Kernel(Protocol):
-    """Runs tests.
+    """Simulator of tests.
 
     Attributes:
-        name: in plans.
+        name: of the kernel in plans.
     """
 
     name: str
 
     def check(self, order: Order) -> None:
-        """CampaignError when it cannot run this."""
+        """Raise CampaignError if the kernel cannot run the order."""
 
     def run(self, order: Order, folder: pathlib.Path, digest: str) -> Outcome:
-        """Run a test whose files go into a folder of its own; an OperatorError says what went wrong."""
+        """Run a test with a folder for its files; OperatorError with the reason if it fails."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """Attributes: figures: of the test, by name. distances: of each word, by line; None for one that is not known."""
+    """Attributes: figures: of the test, by name. distances: by word and line; None if unknown."""
 
     figures: dict[str, float]
     distances: dict[str, dict[str, float | None]]
@@ -47,7 +47,7 @@ class Outcome:
 
 
 def outcome_of(order: Order, progress: Progress, robot_s: float) -> Outcome:
-    """Figures of a test: distances in m, areas in square metres, and how long it took the robot."""
+    """Return the figures of a test: distances in m, areas in m2, and the duration for the robot in s."""
     results, rays = progress.results, _rays(order, progress)
     figures: dict[str, float] = {"robot_s": round(robot_s, 1), "lines": len(results),
                                  "invalid": sum(1 for result in results if result.invalid_count)}
@@ -78,7 +78,7 @@ def _distance(result: LineResult, index: int) -> float | None:
 
 
 def _area(rays: Mapping[int, Ray], distances: Mapping[str, float | None]) -> float:
-    """Within the polygon through the points, in the order of their bearings."""
+    """Return the area of the polygon through the points, in the order of their bearings."""
     points = [rays[int(number)].point(value) for number, value in distances.items() if value is not None]
     around = sorted(points, key=lambda point: math.atan2(point[1], point[0]))
     doubled: float = sum(x * next_y - next_x * y for (x, y), (next_x, next_y)

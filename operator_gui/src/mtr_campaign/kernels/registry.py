@@ -1,4 +1,4 @@
-"""The kernels by their names; each is loaded when it is used."""
+"""Kernels by name; each is imported on first use."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ _KERNELS: dict[str, Callable[[], Kernel]] = {"radio": _radio, "cores": _cores, "
 
 
 def kernel_of(name: str) -> Kernel:
-    """CampaignError for one that there is not."""
+    """Return a kernel; CampaignError for an unknown name."""
     if name not in _KERNELS:
         raise CampaignError(f"The kernel is {name!r}; allowed is {', '.join(_KERNELS)}.")
     return _KERNELS[name]()
 
 
 def check_plan(plan: Plan) -> None:
-    """Each setting is known and possible at its ends; CampaignError names the first one that is not."""
+    """Check that each setting is known and possible at the ends of its range; CampaignError otherwise."""
     from .order import order_of
     kernel = kernel_of(plan.kernel)
     for run in plan.borders():

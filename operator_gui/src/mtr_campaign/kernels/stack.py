@@ -1,7 +1,7 @@
-"""The kernel `stack`: the whole robot, simulated, in lock-step with the application; each run a demo of its own.
+"""Kernel `stack`: the whole simulated robot in lock-step with the application, as a separate demo for each run.
 
-The demo takes free ports for the robot's master and link, and a folder for all that it writes, so that any number of
-runs fits on a machine that has the processors for them.
+The demo uses free ports for the ROS master and the robot link, and its own output folder. The number of parallel runs
+is therefore limited only by the processors of the machine.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -22,7 +22,7 @@ from .order import Order
 from .outcome import Outcome, outcome_of
 
 CAR_FOLDER, DEMO_FOLDER, LOG_FILE, PARAMETER_FILE = "car", "demo", "log.txt", "parameters.yaml"
-# The slowest scenario of the demo takes some minutes of wall time.
+# Limit of the wall time; the slowest scenario of the demo lasts some minutes.
 _LIMIT_S = 3600.0
 
 
@@ -40,7 +40,7 @@ class StackKernel:
     def run(self, order: Order, folder: pathlib.Path, digest: str) -> Outcome:
         """See Kernel."""
         name = order.scenario.name
-        # The record of the test names the Car by its file.
+        # The record of the test identifies the Car by its file.
         car = folder / CAR_FOLDER / f"{order.car.name}.yaml"
         car.parent.mkdir()
         car.write_text(yaml.safe_dump(order.car_file), encoding="utf-8")
@@ -65,7 +65,7 @@ class StackKernel:
             try:
                 return process.wait(_LIMIT_S)
             except BaseException as error:
-                # The demo ends its nodes itself.
+                # On SIGINT, the demo shuts down its nodes.
                 os.kill(process.pid, signal.SIGINT)
                 process.wait()
                 if isinstance(error, subprocess.TimeoutExpired):

@@ -1,2 +1,2 @@
-"""Plans: what is varied, in which design, and the runs that follow."""
+"""Plans: varied factors, design, and the resulting runs."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Which runs a plan asks for: all combinations, a Latin hypercube, or the samples that Sobol indices need."""
+"""Designs of experiments: full factorial grid, Latin hypercube, and samples for Sobol indices."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ Settings = dict[str, Value]
 
 
 def grid(factors: Mapping[str, Factor]) -> Iterator[Settings]:
-    """All combinations; the last factor varies fastest."""
+    """Yield all combinations; the last factor varies fastest."""
     values = [factor.values for factor in factors.values() if isinstance(factor, Values)]
     yield from (dict(zip(factors, each)) for each in itertools.product(*values))
 
 
 def grid_size(factors: Mapping[str, Factor]) -> int:
-    """Without making them; CampaignError for a factor that has no values to combine."""
+    """Return the number of combinations; CampaignError for a factor without discrete values."""
     for name, factor in factors.items():
         if not isinstance(factor, Values):
             raise CampaignError(f"{name:.60} is a range, of which a grid cannot take all values; list some, or choose "
@@ -29,25 +29,25 @@ def grid_size(factors: Mapping[str, Factor]) -> int:
 
 
 def latin_hypercube(factors: Mapping[str, Factor], runs: int, seed: int) -> Iterator[Settings]:
-    """Each part of each factor's range once."""
+    """Yield the samples of a Latin hypercube: each part of each factor's range once."""
     from scipy.stats import qmc
     yield from _at(factors, qmc.LatinHypercube(len(factors), seed=seed).random(runs))
 
 
 def sobol(factors: Mapping[str, Factor], samples: int, seed: int) -> Iterator[Settings]:
-    """Saltelli's samples for Sobol indices of first and total order."""
+    """Yield Saltelli's samples for Sobol indices of first and total order."""
     from SALib.sample import sobol as sampler
-    # SALib asks for a power of two, and tells so in a warning; the plan has been checked for it.
+    # SALib requires a power of two and only warns otherwise; the plan has been validated.
     yield from _at(factors, sampler.sample(problem_of(factors), samples, calc_second_order=False, seed=seed))
 
 
 def sobol_size(factors: Mapping[str, Factor], samples: int) -> int:
-    """So many runs."""
+    """Return the number of runs."""
     return samples * (len(factors) + 2)
 
 
 def problem_of(factors: Mapping[str, Factor]) -> dict[str, Any]:
-    """The factors as SALib takes them: parts of the whole, which each factor turns into its own values."""
+    """Return the factors in SALib's format, as quantiles from 0 to 1, which each factor converts to its own values."""
     return {"num_vars": len(factors), "names": list(factors), "bounds": [[0.0, 1.0]] * len(factors)}
 
 

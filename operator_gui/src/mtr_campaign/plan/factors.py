@@ -1,4 +1,4 @@
-"""What a plan lets vary: values, or a range that is drawn from."""
+"""Factors of a plan: discrete values, or a distribution."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,31 +10,31 @@ from typing import Any, Sequence, Union
 from ..errors import CampaignError
 from .run import Value
 
-# A seed for each of a million repetitions is more than any campaign has.
+# A different seed for each of a million repetitions exceeds any campaign.
 MAX_VALUES = 1_000_000
-# A larger number of runs is not written out.
+# Larger numbers of runs are not written out.
 _MAX_WRITTEN = 10 ** 15
 _WAYS = "a list of values, {from: 1, to: 10}, {low: 0.5, high: 2.0} or {mean: 0.0, sigma: 0.01}"
 
 
 @dataclass(frozen=True)
 class Values:
-    """One of these."""
+    """Discrete values."""
 
     values: Sequence[Value]
 
     def at(self, part: float) -> Value:
-        """The value of a part of the whole, 0 to 1."""
+        """Return the value of a quantile, 0 to 1."""
         return self.values[min(int(part * len(self.values)), len(self.values) - 1)]
 
     def ends(self) -> tuple[Value, ...]:
-        """What has to be possible for all of it to be."""
+        """Return the values to validate, so that all values are possible if these are."""
         return tuple(self.values) if len(self.values) <= 64 else (self.values[0], self.values[-1])
 
 
 @dataclass(frozen=True)
 class Uniform:
-    """Anything between two ends alike."""
+    """Uniform distribution between two ends."""
 
     low: float
     high: float
@@ -50,7 +50,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class Normal:
-    """Normally distributed, cut off at three sigmas."""
+    """Normal distribution, truncated at three sigmas."""
 
     mean: float
     sigma: float
@@ -70,7 +70,7 @@ Factor = Union[Values, Uniform, Normal]
 
 
 def factor_from(name: str, content: Any) -> Factor:
-    """The factor that a plan describes; CampaignError says what it may be."""
+    """Convert a factor of a plan; CampaignError lists the allowed forms."""
     if isinstance(content, list) and content and all(is_single(each) for each in content):
         if len({(type(each), each) for each in content}) != len(content):
             raise CampaignError(f"The values of {name:.60} hold one twice; each is run once.")
@@ -96,27 +96,27 @@ def _whole_numbers(name: str, first: int, last: int) -> Values:
         raise CampaignError(f"{name:.60} reaches from {first} to {last}; allowed is up to a larger number.")
     if last - first >= MAX_VALUES:
         raise CampaignError(f"{name:.60} has {count_text(last - first + 1)} values; allowed are at most {MAX_VALUES}.")
-    # Made when they are asked for: a plan may be refused for its size.
+    # A range is lazy: a plan may be rejected because of its size.
     return Values(range(first, last + 1))
 
 
 def is_single(value: Any) -> bool:
-    """A number, a text, true or false."""
+    """True for a number, a text, or a truth value."""
     return isinstance(value, (str, bool)) or is_number(value)
 
 
 def is_number(value: Any) -> bool:
-    """A finite one; YAML has whole numbers that are larger than any other."""
+    """True for a finite number; integers in YAML may exceed the range of floats."""
     return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) <= sys.float_info.max
 
 
 def count_text(count: int) -> str:
-    """How many, in a sentence."""
+    """Return a count for a sentence."""
     return str(count) if count <= _MAX_WRITTEN else f"more than {_MAX_WRITTEN}"
 
 
 def short(value: Any) -> str:
-    """A wrong value as a sentence shows it."""
+    """Return a shortened wrong value for a sentence."""
     return f"{value!r:.60}"
 
 

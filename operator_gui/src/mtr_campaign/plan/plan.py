@@ -1,4 +1,4 @@
-"""A plan: which tests are simulated, read from a small YAML file."""
+"""Plan of a campaign: the simulated tests, read from a small YAML file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from . import designs
 from .factors import Factor, count_text, factor_from, is_number, is_single, short
 from .run import Run, Value
 
-# So many runs of the radio kernel take a day on some cores, and a row each in the store.
+# With the radio kernel, this number of runs lasts a day on several cores; each run is a row in the store.
 MAX_RUNS = 100_000
-# Of the generators of numbers that draw a design.
+# Upper limit of the random generators of the designs.
 _MAX_SEED = 2 ** 32 - 1
 GRID, LATIN_HYPERCUBE, SOBOL, OPTIMISE = "grid", "latin_hypercube", "sobol", "optimise"
 _DESIGN_ENTRIES: dict[str, dict[str, type]] = {
@@ -33,11 +33,11 @@ _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 
 @dataclass(frozen=True)
 class Design:
-    """How runs follow from the factors.
+    """Design of experiments.
 
     Attributes:
-        runs: of a Latin hypercube or an optimisation; samples: of Sobol indices, a power of two. figure, aim, wanted:
-            what is optimised, and to which end.
+        runs: of a Latin hypercube or an optimisation; samples: for Sobol indices, a power of two. figure, aim, wanted:
+            optimised quantity, direction of the optimisation, and target value.
     """
 
     kind: str = GRID
@@ -51,7 +51,7 @@ class Design:
 
 @dataclass(frozen=True)
 class Plan:
-    """Attributes: name: of the campaign, also in the store. fixed: settings of all runs. factors: what varies."""
+    """Attributes: name: of the campaign, also in the store. fixed: settings of all runs. factors: varied settings."""
 
     name: str
     kernel: str
@@ -62,7 +62,7 @@ class Plan:
 
     @property
     def size(self) -> int:
-        """How many runs; CampaignError when nobody could want so many."""
+        """Number of runs; CampaignError above the limit."""
         design = self.design
         size = design.runs
         if design.kind == GRID:
@@ -75,11 +75,11 @@ class Plan:
         return size
 
     def run(self, settings: Mapping[str, Value]) -> Run:
-        """With these beside the fixed settings."""
+        """Return a run with these and the fixed settings."""
         return Run(self.kernel, self.scenario, {**self.fixed, **settings})
 
     def runs(self) -> Iterator[Run]:
-        """All of them but those of an optimisation, which follow from what was measured."""
+        """Yield all runs, except for an optimisation, whose runs depend on previous results."""
         design = self.design
         makers: dict[str, Callable[[], Iterator[dict[str, Value]]]] = {
             GRID: lambda: designs.grid(self.factors),
@@ -88,7 +88,7 @@ class Plan:
         yield from map(self.run, makers[design.kind]())
 
     def borders(self) -> Iterator[Run]:
-        """Runs in which each factor is at its ends, by which a plan is checked before it begins."""
+        """Yield runs with each factor at its ends, for the validation of a plan."""
         middle = {name: factor.at(0.5) for name, factor in self.factors.items()}
         yield self.run(middle)
         for name, factor in self.factors.items():
@@ -96,7 +96,7 @@ class Plan:
 
 
 def load_plan(path: pathlib.Path) -> Plan:
-    """The plan in a file; CampaignError says what is wrong with it."""
+    """Read a plan from a file; CampaignError describes the error."""
     try:
         content = load_yaml(path)
     except OSError as error:
@@ -110,7 +110,7 @@ def load_plan(path: pathlib.Path) -> Plan:
 
 
 def plan_from(content: Any, usual_name: str) -> Plan:
-    """The plan of a file's content."""
+    """Convert the content of a plan file."""
     if not isinstance(content, dict):
         raise CampaignError("It has to consist of lines of the form 'entry: value'.")
     unknown = sorted(str(name) for name in set(content) - set(_ENTRIES))

@@ -1,4 +1,4 @@
-"""One simulated test of a campaign: kernel, scenario and settings, and the digest by which it is known."""
+"""One simulated test of a campaign: kernel, scenario, settings, and the digest that identifies it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from typing import Any, Mapping, Union
 
 from mtr_operator import __version__
 
-# A value of a setting as it stands in a plan.
+# Value of a setting in a plan.
 Value = Union[float, int, str, bool]
 _DIGITS = 16
 
@@ -26,14 +26,14 @@ class Run:
 
     @property
     def digest(self) -> str:
-        """The same for the same test by the same version of the software; a Car's own file counts by its content."""
+        """Identity of a test: depends on settings, software version, and the content of a custom Car file."""
         text = json.dumps({**self.to_document(), "software": __version__, **self._files()}, sort_keys=True,
                           allow_nan=False)
         return hashlib.sha256(text.encode("utf-8")).hexdigest()[:_DIGITS]
 
     def _files(self) -> dict[str, str]:
         path = pathlib.Path(str(self.settings.get("car", "")))
-        # One that cannot be read is told by whoever runs it.
+        # An unreadable file is reported by the kernel.
         with contextlib.suppress(OSError):
             if path.suffix == ".yaml":
                 return {"car_file": hashlib.sha256(path.read_bytes()).hexdigest()}
@@ -45,5 +45,5 @@ class Run:
 
 
 def run_from(document: Mapping[str, Any]) -> Run:
-    """The run of a document of to_document()."""
+    """Restore a run from its document."""
     return Run(document["kernel"], document["scenario"], document["settings"])

@@ -1,2 +1,2 @@
-"""Studies that ship: a plan each, and the picture of what came of it."""
+"""Predefined studies, each with a plan and a picture of the results."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Study: antennas of passive entry, placed for a wanted unlock area."""
+"""Study: placement of passive entry antennas for a required unlock area."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _BEFORE, _AFTER = "tab:orange", "tab:blue"
 
 
 def study(options: argparse.Namespace) -> list[str]:
-    """Optimise, and draw before and after; sentences on what came of it."""
+    """Run the optimisation and draw both states; return sentences about the result."""
     plan = shipped_plan("antennas", **({"runs": SHORT_RUNS} if options.short else {}))
     before = run_campaign(dataclasses.replace(plan, name=f"{plan.name}_before", factors={}, design=Design()), options)
     found = run_campaign(plan, options)
@@ -49,7 +49,7 @@ def study(options: argparse.Namespace) -> list[str]:
 
 
 def draw(plan: Plan, before: Done, best: Done, scores: Sequence[float], path: pathlib.Path) -> None:
-    """The Car from above with both areas, and how the optimisation went on."""
+    """Draw the Car from above with both areas, and the progress of the optimisation."""
     figure = plain_figure((12.0, 6.5), layout="constrained")
     above, course = figure.subplots(1, 2, width_ratios=(3, 2))
     wanted_m = plan.design.wanted
@@ -86,7 +86,7 @@ def _score(plan: Plan, done: Done) -> float:
 
 
 def _points(done: Done) -> list[tuple[float, float]]:
-    """Where it unlocks, around the Car."""
+    """Return the unlock points around the Car."""
     order = order_of(done.run)
     distances: Mapping[str, Any] = done.outcome["distances"]["unlock"]
     lines = order.scenario.lines(order.parameters, _CAR)

@@ -1,4 +1,4 @@
-"""Plans of the studies that ship."""
+"""Plans of the predefined studies."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,6 +12,6 @@ _FOLDER = pathlib.Path(__file__).parent
 
 
 def shipped_plan(name: str, **design: Any) -> Plan:
-    """The plan of a study; design: what of it is another one."""
+    """Return the plan of a study. design: replaced fields of its design."""
     plan = load_plan(_FOLDER / f"{name}.yaml")
     return dataclasses.replace(plan, design=dataclasses.replace(plan.design, **design))

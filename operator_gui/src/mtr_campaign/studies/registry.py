@@ -1,4 +1,4 @@
-"""The studies by their names; each is loaded when it is wanted."""
+"""Studies by name; each is imported on first use."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,6 +9,6 @@ Study = Callable[[argparse.Namespace], list[str]]
 
 
 def study_of(name: str) -> Study:
-    """What runs it, and gives sentences on what came of it."""
+    """Return the function that runs a study and returns sentences about the result."""
     from . import antennas, sensors
     return {"antennas": antennas.study, "sensors": sensors.study}[name]

@@ -1,4 +1,4 @@
-"""Study: which error of the robot matters most for a distance, by Sobol indices."""
+"""Study: contribution of each error of the robot to a distance, by Sobol indices."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -33,11 +33,11 @@ Floats = npt.NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Indices:
-    """Of one factor over all lines, each line weighted by its variance.
+    """Indices of one factor over all lines, weighted by the variance of each line.
 
     Attributes:
-        first, total: Sobol indices; first_95, total_95: half of their 95 % intervals. sigma_mm: by side, what the
-            factor alone makes of a distance, 1 sigma.
+        first, total: Sobol indices; first_95, total_95: half of their 95 % intervals. sigma_mm: by side, 1 sigma of
+            a distance caused by this factor alone.
     """
 
     name: str
@@ -49,7 +49,7 @@ class Indices:
 
 
 def study(options: argparse.Namespace) -> list[str]:
-    """Run, analyse, draw; sentences on what came of it."""
+    """Run, analyse and draw; return sentences about the result."""
     plan = shipped_plan("sensors", **({"samples": SHORT_SAMPLES} if options.short else {}))
     finished = run_campaign(plan, options)
     indices, sigma_mm = analysed(finished)
@@ -65,7 +65,7 @@ def study(options: argparse.Namespace) -> list[str]:
 
 
 def analysed(finished: Finished) -> tuple[list[Indices], float]:
-    """Indices, the largest first, and 1 sigma of a distance in mm; CampaignError when runs are missing."""
+    """Return the indices, the largest first, and 1 sigma of a distance in mm; CampaignError if runs are missing."""
     from SALib.analyze import sobol
     plan = finished.plan
     outputs, lines = _outputs(finished)
@@ -73,7 +73,7 @@ def analysed(finished: Finished) -> tuple[list[Indices], float]:
                for column in outputs.T]
     variances = np.var(outputs, axis=0)
     sides = _sides(plan, lines)
-    # An index that is 0 may come out a little below it.
+    # The estimate of an index that is 0 may be slightly negative.
     own_mm = 1000.0 * np.sqrt(np.maximum(np.array([each["S1"] for each in results]), 0.0) * variances[:, None])
     found = []
     for index, name in enumerate(plan.factors):
@@ -86,7 +86,7 @@ def analysed(finished: Finished) -> tuple[list[Indices], float]:
 
 
 def _outputs(finished: Finished) -> tuple[Floats, list[int]]:
-    """Distances in m, row by row as the design asked for the runs; lines that were always measured."""
+    """Return the distances in m, one row per run of the design, and the lines with a distance in every run."""
     runs = [finished.course.runs[run.digest] for run in finished.plan.runs()]
     if any(done.status != OK for done in runs):
         raise CampaignError(f"Runs of the study failed; see {finished.folder}, and start it again.")
@@ -105,7 +105,7 @@ def _sides(plan: Plan, lines: Sequence[int]) -> list[str]:
 
 
 def draw(indices: Sequence[Indices], sigma_mm: float, path: pathlib.Path) -> None:
-    """Bars of the indices, and what each error makes of the distances on each side."""
+    """Draw bars of the indices, and the effect of each error on the distances of each side."""
     figure = plain_figure((13.0, 6.0), layout="constrained")
     shares, sides = figure.subplots(1, 2, width_ratios=(3, 4))
     places = np.arange(len(indices))[::-1]

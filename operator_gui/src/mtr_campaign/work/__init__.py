@@ -1,2 +1,2 @@
-"""Runs a campaign: workers, results, the store."""
+"""Execution of a campaign: workers, results, store."""
 # SPDX-License-Identifier: Apache-2.0

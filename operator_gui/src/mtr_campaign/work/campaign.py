@@ -1,4 +1,4 @@
-"""A campaign as the command line runs it: folder, crew, progress bar, store."""
+"""Execution of a campaign for the command line: folder, workers, progress bar, store."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _MAX_WORKERS = 1000
 
 @dataclass(frozen=True)
 class Finished:
-    """A campaign that has come to its end."""
+    """A finished campaign."""
 
     plan: Plan
     course: Course
@@ -40,7 +40,7 @@ class Finished:
 
 
 def run_campaign(plan: Plan, options: argparse.Namespace) -> Finished:
-    """Run what is not done; options: of the command line. CampaignError when it cannot begin."""
+    """Run everything that is not done. options: of the command line. CampaignError if the campaign cannot start."""
     if not 0 <= options.workers <= _MAX_WORKERS:
         raise CampaignError(f"--workers is {options.workers}; allowed are 0 to {_MAX_WORKERS}.")
     check_plan(plan)
@@ -66,7 +66,7 @@ def run_campaign(plan: Plan, options: argparse.Namespace) -> Finished:
 
 @contextlib.contextmanager
 def _alone(folder: CampaignFolder) -> Iterator[None]:
-    """Context in which no other program runs the same campaign; CampaignError when one does."""
+    """Context that excludes a second program with the same campaign; CampaignError if there is one."""
     try:
         with Lock(folder.path / "campaign"):
             yield

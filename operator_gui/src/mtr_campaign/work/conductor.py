@@ -1,4 +1,4 @@
-"""A campaign from its plan to its results: what is done is not run again."""
+"""Execution of a plan; finished runs are not repeated."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ SUMMARY, JUNIT = "campaign.json", "junit.xml"
 
 @dataclass
 class Course:
-    """How far a campaign has come. told: is called with each run that is done, and whether it was so before."""
+    """Progress of a campaign. told: callback for each finished run, with True if it was done before."""
 
     told: Callable[[Done, bool], None] = lambda done, was_done: None
     runs: dict[str, Done] = field(default_factory=dict)
     known: int = 0
 
     def take(self, done: Done, was_done: bool) -> None:
-        """One more; the same run in two places of a plan counts once."""
+        """Add a run; equal runs of a plan count once."""
         if done.digest not in self.runs:
             self.runs[done.digest] = done
             self.known += was_done
@@ -34,12 +34,12 @@ class Course:
 
     @property
     def failed(self) -> list[Done]:
-        """Those that have no result."""
+        """Runs without a result."""
         return [done for done in self.runs.values() if done.status == FAILED]
 
 
 class Conductor:
-    """Has a crew run what a plan asks for."""
+    """Executes a plan with a crew of workers."""
 
     def __init__(self, plan: Plan, folder: CampaignFolder, crew: Crew):
         self._plan = plan
@@ -47,7 +47,7 @@ class Conductor:
         self._crew = crew
 
     def run(self, course: Course, batch: int = 1) -> None:
-        """All of it; batch: so many runs of an optimisation are asked for at once. Files are written at the end."""
+        """Run the plan, then write its files. batch: number of runs of an optimisation that are requested together."""
         if self._plan.design.kind == OPTIMISE:
             self._optimise(course, batch)
         else:
@@ -73,8 +73,11 @@ class Conductor:
                             {"figures": {}, "distances": {}})
 
     def _optimise(self, course: Course, batch: int) -> None:
-        """What is asked next follows from what was told before, in batches whose order is that of asking: the same
-        plan asks for the same runs, so that one that was interrupted finds what it has done."""
+        """Run the optimisation in batches.
+
+        Each batch depends on the results of previous ones, in the order of the requests. The same plan therefore
+        requests the same runs, and an interrupted campaign finds its finished runs.
+        """
         optimiser, left = Optimiser(self._plan), self._plan.design.runs
         while left > 0:
             asked = optimiser.ask(min(batch, left))

@@ -1,4 +1,4 @@
-"""The workers: processes of this computer, or whoever listens to a scheduler of Dask."""
+"""Workers: processes of this computer, or the workers of a Dask scheduler."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,21 +12,24 @@ from ..plan.run import Run
 from .one_run import execute
 
 CONNECT_S = 10.0
-# A run whose worker died is run again by another one, so often.
+# Number of worker deaths after which a run is given up; until then, another worker repeats it.
 _DEATHS = 3
-# So many runs wait with the scheduler, so that a campaign of any size takes the same memory.
+# Limit of the runs queued in the scheduler, so that the memory does not depend on the size of a campaign.
 _WAITING_PER_WORKER = 64
 
 
 class Crew(Protocol):
-    """Runs what it is given; each outcome lies in the campaign's folder when its digest is told."""
+    """Workers; when the digest of a run is reported, its outcome is in the folder of the campaign."""
 
     def work(self, runs: Sequence[Run], folder: str, told: Callable[[str, str], None]) -> None:
-        """told: takes the digest of each run that has ended, and why it was lost, empty when it was not."""
+        """Execute runs.
+
+        told: callback with the digest of each finished run, and the reason if it was lost, otherwise empty.
+        """
 
 
 class Here:
-    """In this process, one after the other."""
+    """Sequential execution in this process."""
 
     def work(self, runs: Sequence[Run], folder: str, told: Callable[[str, str], None]) -> None:
         """See Crew."""
@@ -44,7 +47,7 @@ class DaskCrew:
         """See Crew."""
         from distributed import as_completed
         waiting = iter(runs)
-        # Workers may come and go.
+        # The number of workers may change.
         room = _WAITING_PER_WORKER * max(len(self.client.scheduler_info()["workers"]), 1)
         digests: dict[str, str] = {}
         first = [self._submit(run, folder, digests) for run in itertools.islice(waiting, room)]
@@ -67,8 +70,10 @@ class DaskCrew:
 
 @contextlib.contextmanager
 def crew_of(workers: int, scheduler: str = "") -> Iterator[Crew]:
-    """The crew of so many processes here, none for this one alone, or of a scheduler; CampaignError when that does not
-    answer."""
+    """Context with a number of local worker processes (0: this process), or the workers of a scheduler.
+
+    Raises CampaignError if the scheduler does not answer.
+    """
     if not scheduler and workers == 0:
         yield Here()
         return

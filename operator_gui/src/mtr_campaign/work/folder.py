@@ -1,4 +1,4 @@
-"""The folder of a campaign: one folder for each run, which appears whole or not at all."""
+"""Folder of a campaign, with one subfolder per run, which is created atomically."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,8 +21,10 @@ _BEGUN = ".begun-"
 
 @dataclass(frozen=True)
 class Done:
-    """One run that has come to its end. status: OK or FAILED; reason: a sentence of a failed one. seconds: of wall
-    time. outcome: as Outcome.to_document()."""
+    """One finished run. status: OK or FAILED; reason: sentence of a failed run.
+
+    seconds: wall time. outcome: see Outcome.to_document().
+    """
 
     digest: str
     run: Run
@@ -38,24 +40,24 @@ class Done:
 
 
 class CampaignFolder:
-    """Where a campaign's runs lie. Any number of workers may write at once."""
+    """Folder with the runs of a campaign. Concurrent workers are safe."""
 
     def __init__(self, path: pathlib.Path):
         self.path = path
 
     def make(self) -> None:
-        """CampaignError when it cannot be made."""
+        """Create the folder; CampaignError on failure."""
         try:
             (self.path / RUNS).mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise CampaignError(f"The folder {self.path} cannot be made: {error.strerror or error}.") from None
 
     def of_run(self, digest: str) -> pathlib.Path:
-        """Of a run that is done."""
+        """Return the folder of a finished run."""
         return self.path / RUNS / digest
 
     def done(self, digest: str) -> Done | None:
-        """A run that has come to its end; None while it has not."""
+        """Return a finished run, or None."""
         try:
             document = json.loads((self.of_run(digest) / RUN_FILE).read_text(encoding="utf-8"))
             return Done(digest, Run(document["kernel"], document["scenario"], document["settings"]),
@@ -66,8 +68,10 @@ class CampaignFolder:
 
     @contextlib.contextmanager
     def begun(self, digest: str) -> Iterator[pathlib.Path]:
-        """A folder of its own for a run, which becomes that of the run at the end; of two that run the same at once,
-        as after a worker that was thought to be dead, the first one stays."""
+        """Context with a temporary folder, which becomes the folder of the run at the end.
+
+        If the same run is executed twice, as after a worker that was presumed dead, the first result remains.
+        """
         place = self.path / RUNS / f"{_BEGUN}{digest}-{uuid.uuid4().hex[:8]}"
         place.mkdir()
         try:
@@ -83,7 +87,7 @@ class CampaignFolder:
             shutil.rmtree(place, ignore_errors=True)
 
     def forget_begun(self) -> int:
-        """Remove what killed workers have left; how many there were. Nobody may be running meanwhile."""
+        """Remove remains of killed workers and return their number. No run may be active."""
         left = list((self.path / RUNS).glob(f"{_BEGUN}*"))
         for place in left:
             shutil.rmtree(place, ignore_errors=True)

@@ -1,4 +1,4 @@
-"""Runs of a campaign as CI reads them."""
+"""JUnit report of a campaign, for CI."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .folder import FAILED, Done
 
 
 def junit_xml(name: str, runs: Sequence[Done]) -> str:
-    """A suite with a case for each run; one that failed has its sentence."""
+    """Return a test suite with a case for each run; a failed run has its sentence."""
     failed = sum(done.status == FAILED for done in runs)
     suite = ElementTree.Element("testsuite", name=name, tests=str(len(runs)), failures=str(failed), errors="0",
                                 time=f"{sum(done.seconds for done in runs):.3f}")

@@ -1,4 +1,4 @@
-"""Tests of a campaign into the store of results, as they come."""
+"""Import of the tests of a campaign into the results store, as they finish."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from .folder import OK, CampaignFolder, Done
 
 
 class Keeping:
-    """Puts each test that is done into a store; again changes nothing.
+    """Imports each finished test into a store; repetitions have no effect.
 
     Attributes:
-        sentences: of tests that the store did not take.
+        sentences: of tests that the store rejected or that wait in the spool.
     """
 
     def __init__(self, address: str, folder: CampaignFolder, campaign: str):
@@ -25,7 +25,7 @@ class Keeping:
         self._campaign = campaign
 
     def take(self, done: Done) -> None:
-        """One run."""
+        """Import one run."""
         if done.status != OK:
             return
         intake = self._door.take(self._file_of(done.digest), self._campaign)

@@ -1,4 +1,4 @@
-"""One run from its order to its folder: what a worker does."""
+"""Task of a worker: one run, from its document to its folder."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ _NOTHING: dict[str, Any] = {"figures": {}, "distances": {}}
 
 
 def execute(document: Mapping[str, Any], path: str) -> str:
-    """Run what a document of Run describes, unless it is done; its digest. No failure of the run leaves this."""
+    """Execute the run of a document unless it is done, and return its digest.
+
+    Failures of the run are recorded, not raised.
+    """
     run, folder = run_from(document), CampaignFolder(pathlib.Path(path))
     digest = run.digest
     known = folder.done(digest)
@@ -36,7 +39,7 @@ def _attempt(run: Run, digest: str, place: pathlib.Path) -> Done:
     try:
         outcome = kernel_of(run.kernel).run(order_of(run), place, digest)
         return Done(digest, run, OK, "", time.monotonic() - began_s, outcome.to_document())
-    # One run must not keep the others from being run, whatever is wrong with it.
+    # A failed run must not stop the others, whatever the error.
     except Exception as error:
         with (place / LOG_FILE).open("a", encoding="utf-8") as log:
             log.write(traceback.format_exc())

@@ -1,4 +1,4 @@
-"""Optuna asks, the campaign measures: which settings give the figure that is wanted?"""
+"""Optimisation with Optuna: settings for the best value of a figure."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _WANTED, _MAXIMISE = "wanted", "maximise"
 
 
 class Optimiser:
-    """Of one plan; the same seed and the same results ask for the same."""
+    """Optimiser of one plan; deterministic for the same seed and results."""
 
     def __init__(self, plan: Plan):
         import optuna
@@ -29,12 +29,12 @@ class Optimiser:
         self._asked: list[Any] = []
 
     def ask(self, count: int) -> list[dict[str, Value]]:
-        """Settings of the next runs."""
+        """Return the settings of the next runs."""
         self._asked = [self._study.ask() for _ in range(count)]
         return [{name: self._suggested(trial, name) for name in self._plan.factors} for trial in self._asked]
 
     def tell(self, runs: Sequence[Done]) -> None:
-        """What came of them, in their order."""
+        """Report the results of the requested runs, in their order."""
         for trial, done in zip(self._asked, runs):
             value = None if done.status != OK else figure_of(self._plan, done)
             if value is None:
@@ -52,10 +52,10 @@ class Optimiser:
 
 
 def figure_of(plan: Plan, done: Done) -> float | None:
-    """What a plan optimises, of one run; None when the run does not have it.
+    """Return the optimised figure of a run; None if the run does not have it.
 
-    With the aim `wanted` the figure is a distance, and what is minimised its root mean square difference from what is
-    wanted, over the lines. CampaignError for a figure that no test has.
+    With the aim `wanted`, the figure is a distance, and the result is its root mean square deviation from the target
+    over all lines. Raises CampaignError for an unknown figure.
     """
     design = plan.design
     if design.aim == _WANTED:
@@ -64,7 +64,7 @@ def figure_of(plan: Plan, done: Done) -> float | None:
             raise CampaignError(f"{design.figure} is no distance of {plan.scenario}; there are "
                                 f"{', '.join(done.outcome['distances'])}.")
         known = [value - design.wanted for value in distances.values() if value is not None]
-        # A line without a distance is as bad as one that is wrong by all of it.
+        # A missing distance counts as a deviation by the whole target.
         missing = [design.wanted] * (len(distances) - len(known))
         return math.sqrt(statistics.fmean([each * each for each in (*known, *missing)])) if distances else None
     if design.figure not in done.outcome["figures"]:

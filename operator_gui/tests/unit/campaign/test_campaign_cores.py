@@ -1,4 +1,4 @@
-"""The kernel cores: a whole test in one process, kept as any other, the same for the same seed."""
+"""Kernel cores: a whole test in one process, stored like any other, and deterministic for a seed."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -15,14 +15,14 @@ from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.storage.progress_file import FILE_NAME, open_progress
 
-# Two radials, before and behind the Car.
+# Two radials, in front of and behind the Car.
 SHORT = {"car": "honest_button", "seed": 3, "parameters.minimum_distance_m": 3.0, "parameters.maximum_distance_m": 9.0,
          "parameters.interval_m": 0.5, "parameters.attempts_limit": 8, "parameters.angle_between_radials_deg": 180.0}
 
 
 @pytest.fixture(scope="module")
 def ran(tmp_path_factory):
-    """Outcome of a short test, and its folder."""
+    """Return the outcome of a short test, and its folder."""
     folder = tmp_path_factory.mktemp("cores")
     run = Run("cores", "key_press", SHORT)
     return kernel_of("cores").run(order_of(run), folder, run.digest), folder
@@ -79,7 +79,7 @@ def test_nobody_waits_for_frames_that_come_in_the_same_thread(monkeypatch):
     monkeypatch.setattr(link._changed, "wait", waited.append)
     for step in range(1, 200):
         now_s[0] = 0.02 * step
-        # The last two fifths of a second nothing comes: less than a bus that is called silent.
+        # No frames during the last 0.4 s, which is shorter than the limit of a silent bus.
         if step < 180:
             link.received(0x320, message.next(), round(now_s[0] * 1e9))
         if step % 5 == 0:

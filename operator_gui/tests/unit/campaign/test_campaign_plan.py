@@ -1,4 +1,4 @@
-"""Plans: the runs that they ask for, and one sentence for each that cannot be."""
+"""Plans: the resulting runs, and one sentence for each invalid plan."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -12,7 +12,7 @@ GRID = {"name": "small", "scenario": "autolock", "set": {"car": "honest"},
         "vary": {"seed": {"from": 1, "to": 3}, "key.battery_v": [3.0, 2.4]}}
 
 
-# YAML reads a whole number of any length; no other number is as large.
+# YAML supports integers of any size; this one exceeds the range of floats.
 HUGE = 10 ** 400
 
 

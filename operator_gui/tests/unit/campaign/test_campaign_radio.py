@@ -1,4 +1,4 @@
-"""The radio kernel: the application's scenarios find where the simulated Car reacts, and errors move what they find."""
+"""Radio kernel: scenarios find the positions where the simulated Car reacts; errors shift the results."""
 # SPDX-License-Identifier: Apache-2.0
 import copy
 import dataclasses
@@ -20,13 +20,13 @@ from mtr_simulation.truth.expected import expected
 from mtr_simulation.truth.results import MeasuredEvent
 
 SIZE = CarSize(4.5, 1.8)
-# Polls that come quickly and hardly fail tell a pass nearly where the static boundary is: 12 mm from poll to poll.
+# Fast and reliable polls make the event of a pass almost equal to the static boundary: 12 mm between polls.
 QUIET = {"car": "honest", "noise.sigma_db": 0.1, "noise.lapse": 0.0, "uhf.fading_sigma_db": 0.0,
          "passive_entry.poll_period_ms": 40, "passive_entry.debounce_polls": 1, "bus.lock_cycle_ms": 20,
          "locks.actuator_ms": 0, "errors.line_m": 0.0, "parameters.measurements_distance_m": 10.0,
          "parameters.maximum_distance_m": 3.5, "parameters.measuring_speed_mps": 0.3}
 NEAR_M = 0.03
-# Of 2026-11-23, before margins were computed for many places at once; "unlock" and "lock" of each axis, in m.
+# Reference results computed without batches of margins; "unlock" and "lock" of each axis, in m.
 NOISY = {"car": "honest", "seed": 3, "parameters.passes": 1, "parameters.measuring_speed_mps": 0.4,
          "parameters.measurements_distance_m": 2.0}
 WRONG = {**QUIET, "passive_entry.poll_period_ms": 20, "errors.heading_rad": 0.01, "errors.key_lever_m": 0.004,
@@ -41,7 +41,7 @@ FORMER_M = [
 
 
 def ran(**settings):
-    """Outcome and progress of one test."""
+    """Return outcome and progress of one test."""
     return ran_once(tuple(sorted(settings.items())))
 
 
@@ -90,11 +90,11 @@ def test_weaker_antenna_shortens_the_lines_beside_it_alone():
 
 
 @pytest.mark.parametrize("settings, moved_m", [
-    # By the side that looks along y: the left one, whose axis points along +y.
+    # On the left side, whose axis points along +y, only the y error counts.
     ({"errors__position_y_m": 0.15}, 0.15), ({"errors__position_x_m": 0.02}, 0.0),
-    # The key is nearer to the robot's middle than is known: it seems nearer to the Car than it is.
+    # The key is nearer to the centre of the robot than specified, so it seems nearer to the Car than it is.
     ({"errors__key_lever_m": 0.12}, -0.12), ({"errors__mast_lean_rad": 0.15}, 0.15),
-    # What is taken for later was, at 0.3 m/s towards the Car, farther away.
+    # An event that is stamped too late appears 0.09 m too near to the Car at 0.3 m/s.
     ({"errors__clock_s": 0.3}, -0.09), ({"errors__inset_m": 0.15}, 0.15)])
 def test_each_error_moves_what_is_found_by_what_it_is(settings, moved_m):
     (_, before, _), (_, after, _) = ran(), ran(**settings)
@@ -125,6 +125,6 @@ def test_figures_of_a_test_without_distances_say_so():
 def test_area_is_that_of_the_polygon_through_what_is_known():
     order = order_of(Run("radio", "key_press", {"car": "honest_button", "parameters.angle_between_radials_deg": 90.0}))
     outcome = outcome_of(order, measured.progress(6.0, 5.0, 4.0, 3.0), 1.0)
-    # Points on the axes of the Car: half the product of the diagonals.
+    # For points on the axes of the Car, the area is half the product of the diagonals.
     assert outcome.figures["press_area_m2"] == pytest.approx((6.0 + 4.0) * (5.0 + 3.0) / 2.0)
     assert outcome.distances == {"press": {"1": 6.0, "2": 5.0, "3": 4.0, "4": 3.0}}

@@ -1,4 +1,4 @@
-"""Campaigns: nothing is run twice, failures are kept with their log, all of it reaches the store and CI."""
+"""Campaigns: no run is repeated, failures are stored with their log, and all results reach store and CI."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
@@ -27,14 +27,14 @@ PLAN = {"name": "camp", "kernel": "counting", "scenario": "autolock", "vary": {"
 
 
 class CountingKernel:
-    """Measures nothing, and remembers what it was asked for."""
+    """Kernel that simulates nothing and records the requested seeds."""
 
     name = "counting"
     seeds = []
     broken = ()
 
     def check(self, order):
-        """Takes all."""
+        """Accept every order."""
 
     def run(self, order, folder, digest):
         self.seeds.append(order.seed)
@@ -47,7 +47,7 @@ class CountingKernel:
 
 @pytest.fixture(name="kernel")
 def kernel_fixture(monkeypatch):
-    """The counting kernel among the others."""
+    """Register the counting kernel."""
     kernel = type("Kernel", (CountingKernel,), {"seeds": [], "broken": ()})
     monkeypatch.setitem(registry._KERNELS, "counting", kernel)
     return kernel
@@ -55,7 +55,7 @@ def kernel_fixture(monkeypatch):
 
 @pytest.fixture(name="folder")
 def folder_fixture(tmp_path):
-    """Of the campaign."""
+    """Return the folder of the campaign."""
     made = CampaignFolder(tmp_path / "camp")
     made.make()
     return made
@@ -131,7 +131,7 @@ def test_optimiser_asks_for_the_same_again_and_finds_what_is_wanted(kernel, fold
     course = campaign(folder, **wanted)
     plan = plan_from({**PLAN, **wanted}, "camp")
     best = min(course.runs.values(), key=lambda done: figure_of(plan, done))
-    # Line 2 is never known, and counts as wrong by all of what is wanted.
+    # Line 2 is never known and counts as a deviation by the whole target.
     assert best.outcome["distances"]["unlock"]["1"] == pytest.approx(1.5, abs=0.1)
     assert campaign(folder, **wanted).known == 25
     with pytest.raises(CampaignError, match="colour is no figure of the test; there are unlock_mean_m"):

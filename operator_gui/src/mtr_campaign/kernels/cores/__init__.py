@@ -1,2 +1,2 @@
-"""The application's scenarios on the cores of the whole robot, in one process."""
+"""Kernel with the application's scenarios and all node cores of the robot in one process."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Where the simulated Car's frames go: straight to the application in the same process."""
+"""In-process CAN port: frames of the simulated Car go directly to the application."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from mtr_simulation.car.can_port import CanPort, SentFrame
 
 
 def _nobody(can_id: int, data: bytes, time_ns: int) -> None:
-    """Frames before the application has come."""
+    """Discard frames before the application is connected."""
 
 
 class DirectPort(CanPort):
-    """Attributes: receiver: takes identifier, data and time in ns of each frame."""
+    """Attributes: receiver: callback with identifier, data and time in ns of each frame."""
 
     def __init__(self) -> None:
         self.receiver: Callable[[int, bytes, int], None] = _nobody
@@ -26,7 +26,7 @@ class DirectPort(CanPort):
         self.receiver(can_id, data, time_ns)
 
     def take(self, can_id: int, data: bytes) -> None:
-        """A frame of the application."""
+        """Accept a frame of the application."""
         self._sent.append(SentFrame(can_id, data))
 
     def taken(self) -> list[SentFrame]:

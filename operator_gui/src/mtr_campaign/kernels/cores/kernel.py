@@ -1,4 +1,4 @@
-"""The kernel `cores`: all of the robot's cores, the simulator and the application in one process, as in lock-step."""
+"""Kernel `cores`: all node cores of the robot, the simulator and the application in one process, in lock-step."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class CoresKernel:
 
     def run(self, order: Order, folder: pathlib.Path, digest: str) -> Outcome:
         """See Kernel."""
-        # The simulator reads a Car's file.
+        # The simulator reads the Car from a file.
         car = folder / CAR_FOLDER / f"{order.car.name}.yaml"
         car.parent.mkdir()
         car.write_text(yaml.safe_dump(order.car_file), encoding="utf-8")
@@ -41,7 +41,7 @@ class CoresKernel:
         progress.identity = Identity(car_model=f"simulated {order.car.name}")
 
         def save(measured: Progress) -> None:
-            # The mark tells the store that it is this test, however often it is run.
+            # The mark identifies the test in the store, so that repeated runs are the same test.
             measured.kept = JournalMark(f"campaign {digest}", len(measured.results))
             save_progress(folder / FILE_NAME, measured)
 

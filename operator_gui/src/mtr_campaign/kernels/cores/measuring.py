@@ -1,4 +1,4 @@
-"""One test on the cores of the whole robot, by the application's own runner."""
+"""One test on all node cores of the robot, executed by the application's own runner."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ _NS = 1e-9
 
 @dataclass(frozen=True)
 class CoresTest:
-    """What is measured: a scenario with its parameters on the Car of a file.
+    """One test: a scenario with its parameters on the Car of a file.
 
-    profile: of the application for that Car. folder: for the true events.
+    profile: Car profile of the application. folder: for the true events.
     """
 
     scenario: AnyScenario
@@ -37,7 +37,10 @@ class CoresTest:
 
 
 def measure(test: CoresTest, progress: Progress, save: Callable[[Progress], None]) -> float:
-    """Measure all lines as `mtr-operator run` does; how long it took the robot in s. OperatorError when it cannot."""
+    """Measure all lines like `mtr-operator run`; return the duration for the robot in s.
+
+    Raises OperatorError on failure.
+    """
     port = DirectPort()
     robot = CoresRobot(CoresOptions(test.seed, str(test.car), truth_folder=test.folder), port)
     car = InProcessCarLink(test.profile, lambda: robot.time_ns * _NS, port.take)

@@ -1,2 +1,2 @@
-"""The scenarios of the application on the radio of the simulated Car alone."""
+"""Kernel with the application's scenarios on the radio model of the simulated Car only."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The radio's margins at the Car's next polls, many at once: where the key will be if it goes straight on."""
+"""Prefetch of radio margins at the next polls of the Car, for a key that continues straight."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,16 +15,16 @@ from mtr_simulation.car.honest.radio.key_antenna import Attitude
 from .carried_key import NS, CarriedKey
 from .errors import Point
 
-# So many polls are looked at once the key has turned, and so many times as many each time as long as it goes straight
-# on: a look costs as much as some ten places in it, and a key that has gone straight for two polls mostly goes on.
+# Number of polls in the first batch after a turn, growth factor while the key moves straight, and largest batch. A
+# batch costs as much as about ten of its places, and a key that was straight for two polls mostly continues straight.
 _FEWEST, _MORE, _MOST = 2, 8, 128
-# So far from where it was expected the margin of the radio is another one; fading changes within decimetres.
+# At a larger deviation from the predicted place, the margins are computed again: fading changes within decimetres.
 _SAME_PLACE_M = 1e-3
 _SAME_HEADING_RAD = 1e-3
 
 
 class Foresight:
-    """Of one test. heading_rad: by how much the robot is wrong about its heading."""
+    """Prefetched margins of one test. heading_rad: heading error of the robot."""
 
     def __init__(self, car: HonestInstants, heading_rad: float):
         self._car = car
@@ -38,7 +38,7 @@ class Foresight:
         self._answer_db: list[float] = []
 
     def margins_db(self, time_ns: int, place: Point, key: CarriedKey) -> tuple[float, Callable[[], float]]:
-        """Of the field and of the answer at a poll in the last ticks, see Margins."""
+        """Return the field margin at a poll in the last ticks, and a function for the answer margin; see Margins."""
         number = self._numbers.get(time_ns)
         if number is None or math.dist(self._expected[number], place) > _SAME_PLACE_M or abs(
                 self._heading - key.heading) > _SAME_HEADING_RAD:
@@ -56,7 +56,7 @@ class Foresight:
         self._field_db, self._answer_db = self._car.margins.field_db(self._places).tolist(), []
 
     def _answer(self, number: int) -> float:
-        """Of a key that has heard the field, which on most of a way it does not."""
+        """Return the margin of the answer; computed on demand, because most polls do not wake the key."""
         if not self._answer_db:
             attitude = Attitude(self._heading - self._heading_rad)
             self._answer_db = self._car.margins.answer_db(self._places, attitude).tolist()

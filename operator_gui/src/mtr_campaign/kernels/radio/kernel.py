@@ -1,4 +1,4 @@
-"""The kernel `radio`: the application's scenarios on the radio of the simulated Car, without the robot's motion."""
+"""Kernel `radio`: the application's scenarios on the radio model of the simulated Car, without robot dynamics."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ class RadioKernel:
         progress = measured.progress
         progress.session.update(session_record(now(), "simulated: radio", order.car.profile))
         progress.identity = Identity(car_model=f"simulated {order.car.name}")
-        # The mark tells the store that it is this test, however often it is run.
+        # The mark identifies the test in the store, so that repeated runs are the same test.
         progress.kept = JournalMark(f"campaign {digest}", len(progress.results))
         save_progress(folder / FILE_NAME, progress)
         return outcome_of(order, progress, measured.robot_s)

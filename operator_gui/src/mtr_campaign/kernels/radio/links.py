@@ -1,4 +1,4 @@
-"""The two links through which the application sees the radio's world."""
+"""Robot link and Car link of the application to the radio world."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from mtr_simulation.car.honest.locks import LockState as TrueState
 from .world import RadioWorld
 
 _NS = 1e9
-# Of the map between the clocks of adapter and robot, 1 sigma; see car_link/README.md.
+# 1 sigma of the mapping between adapter and robot clock; see car_link/README.md.
 _CLOCK_SIGMA_S = 0.003
 _SOURCES = {Cause.PASSIVE_ENTRY: "passive_entry", Cause.KEY_BUTTON: "key_button", Cause.HANDLE: "handle"}
-# The ECU has booted, and its message has told so.
+# Time until the ECU has booted and sent its first message.
 _KNOWN_AFTER_NS = 600_000_000
 
 
 class RadioRobotLink(RobotLink):
-    """Each next_status lets time pass until there is news."""
+    """Robot link; next_status advances the time until there is news."""
 
     def __init__(self, world: RadioWorld):
         self.statistics = LinkStatistics()
@@ -34,7 +34,7 @@ class RadioRobotLink(RobotLink):
         """See RobotLink."""
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
-        """See RobotLink; a Status is always there."""
+        """See RobotLink; never times out."""
         self.statistics.received += 1
         return self._world.next_status()
 
@@ -47,7 +47,7 @@ class RadioRobotLink(RobotLink):
 
 
 class RadioHandle(HandlePort):
-    """An output at the Car's handle."""
+    """Actuator at the Car's handle."""
 
     by = OUTPUT
 
@@ -70,9 +70,9 @@ class RadioHandle(HandlePort):
 
 
 class RadioCarLink(CarLink):
-    """Events as the lock message tells them: in the middle between the frames around a change.
+    """Car link with events as in the lock message: timed in the middle between the frames around a change.
 
-    clock_s: what is told is taken for so much later.
+    clock_s: delay added to the event times.
     """
 
     def __init__(self, world: RadioWorld, facts: LockFacts, clock_s: float = 0.0):
@@ -88,7 +88,7 @@ class RadioCarLink(CarLink):
         """See CarLink."""
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
-        """See CarLink; what a wrong clock puts into the future waits until then."""
+        """See CarLink; events with a future time are held back until then."""
         world = self._world
         if self._state is LockState.UNKNOWN and world.time_ns >= self._known_ns:
             self._state = LockState.LOCKED

@@ -1,4 +1,4 @@
-"""One test on the radio alone, by the application's own scenario."""
+"""One test on the radio model, executed by the application's own scenario."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ from .errors import RadioErrors
 from .links import RadioCarLink, RadioRobotLink
 from .world import RadioWorld
 
-# The simulated Car of the sites, m.
+# Size of the simulated Car of all sites, m.
 CAR_LENGTH_M, CAR_WIDTH_M = 4.5, 1.8
 
 
 @dataclass(frozen=True)
 class RadioTest:
-    """What is measured: a scenario with its parameters on a Car, by a robot with these errors.
+    """One test: a scenario with its parameters on a Car, by a robot with these errors.
 
-    facts: what the Car's profile knows beforehand.
+    facts: lock facts from the Car's profile.
     """
 
     scenario: AnyScenario
@@ -43,14 +43,14 @@ class RadioTest:
 
 @dataclass(frozen=True)
 class Measured:
-    """Attributes: progress: as the application keeps it. robot_s: how long the test would have taken."""
+    """Attributes: progress: as stored by the application. robot_s: duration for a real robot."""
 
     progress: Progress
     robot_s: float
 
 
 def measure(test: RadioTest) -> Measured:
-    """Measure all lines, the invalid ones twice, as the application's runner does; OperatorError when it cannot."""
+    """Measure all lines, invalid ones twice like the application's runner; OperatorError on failure."""
     scenario, parameters = test.scenario, test.parameters
     belief = test.errors.world(CAR_LENGTH_M, CAR_WIDTH_M)
     world = RadioWorld(test.seed, HonestInstants(test.seed, test.car), VirtualRobot(test.seed, belief), test.errors,
@@ -61,7 +61,7 @@ def measure(test: RadioTest) -> Measured:
     prepare(loop, robot, car, parameters.key_height_m, parameters.maximum_speed_mps)
     progress.car = car.dimensions()
     lines = {line.number: line for line in scenario.lines(parameters, progress.car)}
-    # Boundaries of axes are told at the end, by concluded(): none changes how the next axis is driven.
+    # concluded() adds the boundaries of axes at the end; they do not affect how later axes are driven.
     measured: Callable[..., LineResult] = scenario.drive if isinstance(scenario, Autolock) else scenario.measure
     for line in lines.values():
         progress.record(measured(line, parameters, robot, car))

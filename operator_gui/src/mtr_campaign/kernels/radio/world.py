@@ -1,4 +1,4 @@
-"""Robot, key and Car in one place: time passes in ticks, and only what somebody has to see becomes a Status."""
+"""Robot, key and Car in one world, with time in ticks and a Status only if the application needs one."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from .carried_key import NS, TICK_S, CarriedKey
 from .errors import RadioErrors
 from .foresight import Foresight
 
-# Statuses without news are left out as long as the link is not taken for interrupted (LINK_GAP_S) and a pose between
-# two of them is known (MAX_GAP_S).
+# Statuses without news are skipped, within two limits: the link must not appear interrupted (LINK_GAP_S), and poses
+# between two Statuses must be interpolable (MAX_GAP_S).
 _MEASURING_TICKS, _WAY_TICKS = 4, 9
 _BUTTONS = {1: Command.LOCK, 2: Command.UNLOCK}
 _SESSION_ID = 1
 
 
 class RadioWorld:
-    """Steps the virtual robot and has the Car look at the key.
+    """Steps the virtual robot, and lets the Car poll the key.
 
     Attributes:
-        moved: what the Car's bus has told, in order, until somebody takes it.
+        moved: lock events on the Car's bus that have not been consumed yet, in order.
     """
 
     def __init__(self, seed: int, car: HonestInstants, robot: VirtualRobot, errors: RadioErrors, key_x_m: float):
@@ -50,11 +50,11 @@ class RadioWorld:
 
     @property
     def time_ns(self) -> int:
-        """Of robot and Car."""
+        """Time of robot and Car."""
         return self._key.time_ns
 
     def take(self, desired: DesiredState) -> None:
-        """A Command of the application."""
+        """Accept a desired state of the application."""
         if desired is not self._desired and desired != self._desired:
             self._commands += 1
             self._desired = desired
@@ -70,11 +70,11 @@ class RadioWorld:
         self._robot.take(_SESSION_ID, self._commands, desired)
 
     def take_handle(self) -> None:
-        """A hand takes the driver's handle; the Car answers at its next step."""
+        """Pull the driver's handle; the Car reacts at its next step."""
         self._handle = True
 
     def next_status(self) -> RobotStatus:
-        """Let time pass until there is news, or a Status is due anyway."""
+        """Advance the time until there is news, or a Status is due."""
         left = (_WAY_TICKS if self._is_way else _MEASURING_TICKS) if self._robot.is_driving else 1
         while left > 0:
             ticks = self._quiet_ticks(left)
@@ -85,7 +85,7 @@ class RadioWorld:
         return self._robot.status()
 
     def _quiet_ticks(self, most: int) -> int:
-        """Up to the end of the tick in which something happens next, on a way on which the robot goes straight on."""
+        """Return the number of ticks until the next event of a straight drive, including the tick of the event."""
         due_ns = self._car.due_ns
         if self._waiting or self._press is not None or self._handle or (
                 due_ns is not None and due_ns <= self.time_ns + round(most * TICK_S * NS)):
@@ -108,7 +108,7 @@ class RadioWorld:
             self.moved.append(self._waiting.pop(0))
 
     def _instants(self) -> list[tuple[int, Command | bool | None]]:
-        """What the Car does in this tick: looks for its key (None), receives a press, or is taken by its handle."""
+        """Return the events of the Car in this tick in order of time: polls (None), received presses, handle pulls."""
         found: list[tuple[int, Command | bool | None]] = [
             (time_ns, None) for time_ns in self._car.polls_ns(self._key.before_ns, self.time_ns)]
         if self._press is not None and self._press[0] <= self.time_ns:
@@ -120,7 +120,7 @@ class RadioWorld:
         return sorted(found, key=lambda each: each[0]) if len(found) > 1 else found
 
     def _order(self, press: Press) -> None:
-        """The servo reaches the button, holds it, and the Car receives what is held long enough."""
+        """Schedule a press: after the travel of the servo, the Car receives it if the button is held long enough."""
         start_ns = self.time_ns + round(SERVO_TRAVEL_S * NS)
         if press.duration_s * NS >= self._car.contact_ns and press.buttons[0] in _BUTTONS and not self._desired.stop:
             self._press = (-(-start_ns // STEP_NS) * STEP_NS + self._car.contact_ns, _BUTTONS[press.buttons[0]])
