@@ -1,5 +1,5 @@
 /// @file
-/// Poses, validity and key frames by another program's transform.
+/// Poses, validity and key frames from the transform of another program.
 // SPDX-License-Identifier: Apache-2.0
 #include "external_pose.hpp"
 
@@ -11,7 +11,7 @@
 namespace mtr_localization {
 namespace {
 
-/// Key frames as they are.
+/// Returns key frames without adjustment.
 AdjustedMap unadjusted(const std::vector<KeyFrame>& key_frames) {
   GrowingMap points;
   AdjustedMap map;

@@ -1,5 +1,5 @@
 /// @file
-/// With localization:=external: the pose in map is another program's, by the transform from map to odom.
+/// Pose source for localization:=external: another program publishes the transform from map to odom.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace mtr_localization {
 
-/// Sigmas of the other program's pose, 1 standard deviation, and how old map -> odom may be.
+/// Standard deviations (1 sigma) of the external pose, and the maximum age of map -> odom.
 struct ExternalParameters {
   double external_position_sigma_m = 0.05;
   double external_heading_sigma_rad = 0.02;
@@ -30,21 +30,21 @@ inline constexpr std::array<ExternalRow, 3> kExternalRows{{
     {"external_timeout_s", &ExternalParameters::external_timeout_s, 0.05, 60.0, "s"},
 }};
 
-/// Where odom is in map, at which time.
+/// Pose of odom in map at a time.
 struct StampedPose {
   std::int64_t stamp_ns = 0;
   PoseVector pose = PoseVector::Zero();
 };
 
-/// The transform and the odometry make the pose; scans are collected at those poses for a map of surfaces only.
+/// Combines the external transform with odometry. Scans are collected at these poses only for a map of surfaces.
 class ExternalPose : public PoseSource {
  public:
-  /// Newest pose of odom in map, or none as long as nobody says it.
+  /// Returns the newest pose of odom in map, or nothing if it is not published.
   using LookUp = std::function<std::optional<StampedPose>()>;
 
   ExternalPose(const Parameters& parameters, const ExternalParameters& own, LookUp look_up);
 
-  /// The other program may use satellites; this one does not.
+  /// Ignores fixes: satellites are a matter of the other program.
   bool add_fix(const GnssFix&) override { return true; }
   const std::vector<Surfel>& surfels() const override { return no_surfels_; }
   bool owns_map_frame() const override { return false; }

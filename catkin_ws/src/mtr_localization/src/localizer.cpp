@@ -15,28 +15,29 @@
 namespace mtr_localization {
 namespace {
 
-// Without a scan for so long, the LiDARs are taken to be silent: seven sweeps of 25 Hz, three of 10 Hz.
+// The LiDARs count as silent after this time without a scan: seven sweeps at 25 Hz, three at 10 Hz.
 constexpr std::int64_t kSilentNs = 300'000'000;
-// A blind robot that somebody carries notices nothing of it, and nobody carries it within a moment. A LiDAR that is off
-// for a second, or whose driver is started anew, costs no pose.
+// Without LiDARs the robot could be carried unnoticed, but not within a short time. A LiDAR or driver that restarts
+// within this time does not invalidate the pose.
 constexpr std::int64_t kMaxBlindNs = 5'000'000'000;
-// What the growing map adds to the uncertainty of the place where the frozen one is entered.
+// Additional uncertainty of the pose at the transition from the growing to the adjusted map.
 constexpr double kEntrySigmaM = 0.02;
 constexpr double kEntrySigmaRad = 0.005;
 
-// A map's frame begins where the robot stands, known as well as wheels and tyres rest: never exactly.
+// Initial uncertainty at the origin of a map, from wheels and tyres at rest; it must not be zero.
 constexpr double kRestSigmaM = 0.001;
 constexpr double kRestSigmaRad = 0.0005;
 
 double square(double value) { return value * value; }
 
-// Of a way that even the wheels did not see: the LiDARs alone tell it.
+// Uncertainty of a motion that the wheels did not measure either; the LiDARs determine it.
 const Eigen::Matrix3d kUnseenWay = Eigen::Matrix3d::Identity();
 
 Mapper::Adjust adjustment_with(const Parameters& parameters) {
   return [adjustment = parameters.adjustment](const std::vector<KeyFrame>& key_frames) {
     AdjustedMap map = mtr_surfel_map::adjust(key_frames, adjustment);
-    // It takes some 30 MiB for seconds. glibc would keep them, and a little more of them in use after each map.
+    // The adjustment allocates about 30 MiB for seconds; without trimming, glibc would keep it, and more after each
+    // map.
     malloc_trim(0);
     return map;
   };
@@ -55,7 +56,7 @@ void Localizer::go_on(Memory memory) {
 Estimate Localizer::step(const GatedSample& sample) {
   const std::int64_t now_ns = sample.wheels.stamp_ns;
 
-  // Predict by wheels and gyro.
+  // Predict with wheels and gyro.
   const RememberedPose before{filter().pose(), filter().pose_covariance(), odometry().wheel_odom()};
   const PoseVector odom_before = history().newest().odom;
   if (const mtr_core::Problem loss = odometry().predict(sample, gyro(), tracker_.has_map())) {
@@ -63,13 +64,13 @@ Estimate Localizer::step(const GatedSample& sample) {
   }
   mapper().travel(history().newest().input, filter().pose().z(), tracker_.lost());
 
-  // Go on with the map of before once the gyro's bias is known.
+  // Resume with the previous map after the gyro bias is known.
   if (memory_ && odometry().state() == MotionState::kTracking) {
     take_up(*memory_);
     memory_.reset();
   }
 
-  // Begin a map when one is ordered, and enter it when it is adjusted and can be trusted.
+  // Start a map on order, and use it once it is adjusted and trustworthy.
   if (mapper().begins(now_ns)) {
     begin_map();
   }
@@ -77,7 +78,7 @@ Estimate Localizer::step(const GatedSample& sample) {
     adjusted->valid ? enter(*adjusted) : leave(*adjusted);
   }
 
-  // Correct by what has been seen meanwhile.
+  // Apply the corrections.
   correct_by_scans();
   correct_by_satellites();
   doubt_blind_pose();
@@ -107,7 +108,7 @@ bool Localizer::correct_by_scans() {
 void Localizer::correct(std::size_t step, const ScanPoints& scan) {
   ScanMatch match = tracker_.match(scan, history().at(step).filter);
   if (ScanTracker::is_enough(match) && match.contradicts(history().at(step).filter.pose_covariance())) {
-    // It was pushed, or slid: the prior's covariance does not know of that.
+    // Unmodelled motion (pushed or slipping): inflate the prior.
     const Eigen::Matrix3d surprise = match.shift().cwiseAbs2().asDiagonal();
     history().change(step, [&](PoseFilter& filter) { filter.add_pose_noise(surprise); });
     match = tracker_.match(scan, history().at(step).filter);
@@ -149,7 +150,7 @@ void Localizer::doubt_blind_pose() {
 }
 
 void Localizer::take_up(const Memory& memory) {
-  // A robot that nobody knows the place of is looked for round the middle of the map.
+  // Without a pose, the search covers the middle of the map.
   const auto led = memory.pose ? led_by_wheels(*memory.pose, odometry().wheel_odom()) : std::nullopt;
   const RememberedPose here = led.value_or(memory.pose.value_or(RememberedPose{}));
   history().change_newest([&here](PoseFilter& filter) { filter.set_pose(here.pose, here.covariance); });
@@ -163,7 +164,7 @@ void Localizer::take_up(const Memory& memory) {
 void Localizer::begin_map() {
   memory_.reset();
   if (tracker_.lost()) {
-    // The frame of a map is given by where it begins: a doubt about the one before does not last.
+    // The origin of a map defines its frame, so the uncertainty of the previous pose does not carry over.
     history().change_newest([](PoseFilter& filter) { filter.set_pose(filter.pose(), Eigen::Matrix3d::Zero()); });
   }
   tracker_.begin_map(history().newest());
@@ -175,7 +176,7 @@ void Localizer::begin_map() {
 }
 
 void Localizer::enter(const AdjustedMap& map) {
-  // The way from the last key frame on, as tracked, leads from its adjusted pose into the adjusted map.
+  // Append the tracked motion since the last key frame to its adjusted pose.
   const PoseVector since = relative(key_frames().back().pose, filter().pose());
   const PoseVector pose = compose(map.key_frames.back().pose, since);
   Eigen::Matrix3d covariance = map.pose_covariances.back();
@@ -187,7 +188,7 @@ void Localizer::enter(const AdjustedMap& map) {
 }
 
 void Localizer::leave(const AdjustedMap& refused) {
-  // The growing map is made of what has been refused, and so are the poses in it.
+  // The growing map and its poses are based on the rejected key frames.
   tracker_.give_up(problems::kMapRefused({{"cause", refused.message}}));
   history().change_newest([](PoseFilter& filter) { filter.consider_sources(0); });
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Localization of the project's own: wheels, gyro, scans and satellites in one filter, on a map that it makes itself.
+/// Localization of the robot itself: one filter for wheels, gyro, scans and satellites, with a map that it builds.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace mtr_localization {
 
-/// Map is where the robot started, until a map is frozen: then its first key frame stays in place.
+/// The origin of map is the start of the robot until a map is adjusted; then its first key frame keeps its pose.
 class Localizer : public PoseSource {
  public:
   explicit Localizer(const Parameters& parameters);
 
-  /// To be called before the first sample: a map of before is the one that poses are in. They are not valid until the
-  /// LiDARs see near the remembered pose what the map shows there, or the robot has been driven to where they do.
+  /// Resumes with a previous map; must be called before the first sample. Poses are not valid until the LiDARs see the
+  /// expected view near the remembered pose, or the robot was driven to a place with the expected view.
   void go_on(Memory memory);
 
   bool add_fix(const GnssFix& fix) override { return gnss_.add(fix); }
@@ -46,18 +46,18 @@ class Localizer : public PoseSource {
   void leave(const AdjustedMap& refused);
   void bridge(const RememberedPose& before, const PoseVector& odom_before, const GatedSample& sample,
               const mtr_core::Problem& loss);
-  /// How the robot turned while the wheels alone were silent, rad.
+  /// Returns the turn of the robot while only the wheels were silent, rad.
   std::optional<double> turn_of(const GatedSample& sample) const;
   Estimate estimate() const;
   PoseMode mode() const;
-  /// There is a map, and no LiDAR says anything.
+  /// True if there is a map and all LiDARs are silent.
   bool is_blind() const;
-  /// A map began so long ago without a scan that the pose is dead reckoning; the map begins with the first scan.
+  /// True if a map has been without a scan for too long, so the pose is dead reckoning; the first scan starts it.
   bool has_seen_nothing() const;
 
   ScanTracker tracker_;
   GnssMonitor gnss_;
-  /// Until it is taken up.
+  /// Previous map, until it is resumed.
   std::optional<Memory> memory_;
   std::int64_t last_scan_ns_ = 0;
 };

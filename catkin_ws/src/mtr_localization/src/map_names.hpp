@@ -1,5 +1,5 @@
 /// @file
-/// The words that localization and its map share: poses in the plane, points of scans, surfels and key frames.
+/// Shared types of localization and map: planar poses, scan points, surfels and key frames.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// The way that the wheels went while nobody listened.
+/// Motion by wheel odometry during a restart of localization.
 // SPDX-License-Identifier: Apache-2.0
 #include "memory.hpp"
 
@@ -11,13 +11,13 @@ namespace mtr_localization {
 namespace {
 
 constexpr std::int64_t kKeepEveryNs = 500'000'000;
-// A robot whose localization ends brakes within 0.5 m, and at most half a second passes since the pose was kept. One
-// that turns at 1.5 rad/s stands 0.9 rad later: 0.3 s until the silence is noticed, 0.1 s until it brakes.
+// When localization ends, the robot brakes within 0.5 m, and the stored pose is at most 0.5 s old. At 1.5 rad/s it
+// turns by up to 0.9 rad: 0.3 s until the silence is detected, 0.1 s until it brakes.
 constexpr double kMaxLedM = 1.0;
 constexpr double kMaxLedRad = 1.0;
-// Beside a gyro that saw the turn, wheels that say so much more or less have slipped.
+// A larger difference between the turns of wheels and gyro means slip.
 constexpr double kMaxSlippedRad = 0.5;
-// Wheels tell a way to some percent, but a turn on four wheels that slip sideways only to a half of it.
+// Wheels measure a distance to a few percent, but on four skidding wheels a turn only to about half of it.
 constexpr double kPositionSigmaM = 0.02;
 constexpr double kPositionSigmaPerM = 0.1;
 constexpr double kHeadingSigmaRad = 0.01;
@@ -35,17 +35,18 @@ std::optional<RememberedPose> led_by_wheels(const RememberedPose& from, const st
   const Eigen::Map<const PoseVector> now(wheel_odom.data());
   PoseVector way = relative(before, now);
   const double distance_m = way.head<2>().norm();
-  // What of the turn rests on the wheels alone: all of it, or what they say beyond the gyro.
+  // Part of the turn that only the wheels report: the whole turn, or the excess over the gyro.
   const double slipped_rad = wrapped(way.z() - seen_turn_rad.value_or(0.0));
   const double most_rad = seen_turn_rad ? kMaxSlippedRad : kMaxLedRad;
-  // Written so that what is no number is no way either.
+  // The negated form also rejects NaN.
   if (!(distance_m <= kMaxLedM && std::abs(slipped_rad) <= most_rad)) {
     return std::nullopt;
   }
   double aside_m = 0.0;
   double heading_sigma_rad = kHeadingSigmaRad + kHeadingSigmaPerRad * std::abs(slipped_rad);
   if (seen_turn_rad) {
-    // An arc's chord points half of its turn aside: by so much less than the wheels say, give or take as much.
+    // The chord of an arc points half of its turn sideways, so the wheel slip rotates it by half; the sigma is as
+    // large.
     way.head<2>() = Eigen::Rotation2Dd(-0.5 * slipped_rad) * way.head<2>().eval();
     way.z() = wrapped(*seen_turn_rad);
     aside_m = 0.5 * std::abs(slipped_rad) * distance_m;

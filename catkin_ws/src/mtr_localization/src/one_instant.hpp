@@ -1,5 +1,5 @@
 /// @file
-/// Which stamps are of one instant.
+/// Tolerance of equal stamps.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace mtr_localization {
 
-/// Stamps of one instant, also two equal ones, come to lie some microseconds apart on the steady clock
-/// (mtr_core/stamp_clock.hpp). In such a time the robot drives 0.1 mm at most.
+/// Messages with the same stamp may differ by microseconds on the steady clock (mtr_core/stamp_clock.hpp). In this
+/// time, the robot moves by at most 0.1 mm.
 inline constexpr std::int64_t kOneInstantNs = 50'000;
 
 }  // namespace mtr_localization

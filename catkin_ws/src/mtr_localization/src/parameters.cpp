@@ -1,5 +1,5 @@
 /// @file
-/// Check of the ranges.
+/// Range check of the parameters.
 // SPDX-License-Identifier: Apache-2.0
 #include "parameters.hpp"
 

@@ -14,35 +14,35 @@ namespace mtr_localization {
 namespace sensors = mtr_core::sensor_figures;
 using mtr_core::row_of;
 
-/// How far wheels and gyro are trusted; sources are in mtr_core/sensor_figures.py. Sigmas are 1 standard deviation;
+/// Uncertainties of wheels and gyro; the sources are in mtr_core/sensor_figures.py. Sigmas are 1 standard deviation;
 /// densities are per square root of time, distance or angle.
 struct SensorParameters {
-  /// Gyro: white noise density, random walk of the bias, error of scale.
+  /// Gyro: white noise density, random walk of the bias, scale error.
   double gyro_noise_radps_per_sqrt_hz = sensors::kAssumedGyroNoiseRadpsPerSqrtHz.value;
   double gyro_bias_walk_radps_per_sqrt_s = sensors::kAssumedGyroBiasWalkRadpsPerSqrtS.value;
   double gyro_scale_sigma = sensors::kAssumedGyroScale.value;
-  /// Wheels: error of the radius, slip along the path, shift of base_link while the base turns.
+  /// Wheels: radius error, slip along the path, shift of base_link in turns.
   double wheel_scale_sigma = sensors::kAssumedWheelScale.value;
   double slip_m_per_sqrt_m = sensors::kAssumedSlipMPerSqrtM.value;
   double turn_slip_m_per_sqrt_rad = sensors::kAssumedTurnSlipMPerSqrtRad.value;
-  /// Wheels slower than this, in m/s and rad/s, may stand still.
+  /// Upper limits of the wheel speeds at standstill, in m/s and rad/s.
   double standstill_linear_mps = 0.005;
   double standstill_angular_radps = 0.01;
-  /// Bias-corrected gyro rate above which the robot does not stand still.
+  /// Upper limit of the bias-corrected gyro rate at standstill.
   double standstill_gyro_radps = 0.03;
-  /// Wheels must rest for so long before the robot is taken to stand still: mast and tyres swing after a stop.
+  /// The wheels must rest this long before standstill is detected, because mast and tyres swing after a stop.
   double standstill_settling_s = 0.5;
-  /// Duration of standstill that measures the gyro's bias before the first valid pose.
+  /// Duration of the standstill that measures the gyro bias before the first valid pose.
   double bias_time_s = 1.0;
-  /// A longer gap in wheel odometry or IMU data is an interruption.
+  /// Longer gaps in wheel odometry or IMU data are interruptions.
   double gap_limit_s = 0.2;
-  /// Of a recording that begins while the robot drives: the gyro's bias is that of switch-on until it stands.
+  /// For recordings that start in motion: the prior of the gyro bias at switch-on is used until standstill.
   bool begins_in_motion = false;
 };
 
 using SensorRow = mtr_core::ParameterRow<SensorParameters>;
 
-/// Range and unit of each parameter.
+/// Name, range and unit of each parameter.
 inline constexpr std::array<SensorRow, 12> kSensorRows{{
     row_of("gyro_noise_radps_per_sqrt_hz", &SensorParameters::gyro_noise_radps_per_sqrt_hz,
            sensors::kAssumedGyroNoiseRadpsPerSqrtHz),
@@ -61,41 +61,42 @@ inline constexpr std::array<SensorRow, 12> kSensorRows{{
     {"gap_limit_s", &SensorParameters::gap_limit_s, 0.05, 1.0, "s"},
 }};
 
-/// How far points of scans and the map are trusted. Sigmas are 1 standard deviation.
+/// Uncertainties of scan points and map. Sigmas are 1 standard deviation.
 struct TrackingParameters {
-  /// Range of one beam, together with the surface's roughness.
+  /// Range of one beam, including the roughness of the surface.
   double range_sigma_m = sensors::kAssumedPointM.value;
   /// Direction of one beam.
   double beam_angle_sigma_rad = sensors::kAssumedReturnDirectionRad.value;
-  /// Share of the beams that count as independent: neighbours share the surface's shape and the footprint of the beam.
+  /// Share of independent beams: neighbours have the shape of the surface and the footprint in common.
   double independent_share = 0.25;
-  /// More points of one sweep than these are thinned out evenly.
+  /// Sweeps with more points are thinned out evenly.
   double max_points = 360;
   /// Largest distance between a point and its surface.
   double max_match_m = 0.4;
-  /// A scan that leaves one direction to guess by more than this, 1 sigma, is degenerate.
+  /// A scan with a larger 1 sigma in its weakest direction is degenerate.
   double degenerate_sigma_m = 0.25;
-  /// Share of what is expected in view that must be seen, or of what is seen that must be expected, over
-  /// `lost_after_s`; else the pose is lost.
+  /// The pose is lost if both shares are below the limit for `lost_after_s`: expected surfaces that are seen, and
+  /// returns that the map explains.
   double min_agreement = 0.55;
   double lost_after_s = 0.6;
-  /// The same while most of it is hidden by something nearer, which says less: a person, or the Car's body above its
-  /// tyres while the robot brakes and pitches, which takes 1 s. On level ground a view of which little more than half
-  /// agrees may be chance: while it lasts this falls to `lost_after_s`, and to 0 where it looks through surfaces.
+  /// Replaces `lost_after_s` while a nearer object hides most of the view, which is weaker evidence: a person, or the
+  /// Car's body above its tyres while the robot brakes and pitches, which lasts 1 s. On level ground, an agreement of
+  /// little more than half may be chance. While it lasts, this limit decreases to `lost_after_s`, and to 0 if beams
+  /// pass through surfaces.
   double lost_hidden_after_s = 1.5;
-  /// A position less certain than this, 1 sigma in the worst direction, is lost.
+  /// The pose is lost above this 1 sigma of the position in its worst direction.
   double lost_sigma_m = 0.3;
-  /// The search for a lost pose covers so much round the last one, in x and y; all headings. Where it does not reach, a
-  /// place that looks like the true one has no rival: it has to be larger than what a robot can be carried.
+  /// Radius of the search for a lost pose in x and y, with all headings. It must be larger than the distance over which
+  /// a robot is carried, because a look-alike place has no competitor outside of it.
   double search_radius_m = 12.0;
-  /// Mean of the two shares that a found pose must have in each view, and by how much more than any other place.
+  /// Lowest mean of both shares in each view of a found pose, and its lowest margin over every other place.
   double found_agreement = 0.6;
   double found_margin = 0.12;
 };
 
 using TrackingRow = mtr_core::ParameterRow<TrackingParameters>;
 
-/// Range and unit of each parameter.
+/// Name, range and unit of each parameter.
 inline constexpr std::array<TrackingRow, 13> kTrackingRows{{
     row_of("range_sigma_m", &TrackingParameters::range_sigma_m, sensors::kAssumedPointM),
     row_of("beam_angle_sigma_rad", &TrackingParameters::beam_angle_sigma_rad, sensors::kAssumedReturnDirectionRad),
@@ -112,32 +113,33 @@ inline constexpr std::array<TrackingRow, 13> kTrackingRows{{
     {"found_margin", &TrackingParameters::found_margin, 0.0, 1.0, ""},
 }};
 
-/// From key frames to a map.
+/// Parameters of the map.
 struct MappingParameters {
-  /// From the stamp of the order to freeze the map to the instant at which poses are in the frozen map.
+  /// Delay from the stamp of the order to freeze the map to the time from which on poses are in the frozen map.
   double freeze_delay_s = 2.0;
-  /// Drift of the map while it grows: sigma of position and heading after 1 m of travel, growing with its root. With
-  /// the Car alone in view the simulation shows half of it, among walls a tenth.
+  /// Drift of the growing map: sigma of position and heading after 1 m of travel, growing with the square root. In
+  /// simulation, the drift is half of it with the Car alone in view, and a tenth among walls.
   double mapping_drift_m_per_sqrt_m = 0.01;
   double mapping_drift_rad_per_sqrt_m = 0.003;
 };
 
 using MappingRow = mtr_core::ParameterRow<MappingParameters>;
 
-/// Range and unit of each parameter.
+/// Name, range and unit of each parameter.
 inline constexpr std::array<MappingRow, 3> kMappingRows{{
     {"mapping_drift_m_per_sqrt_m", &MappingParameters::mapping_drift_m_per_sqrt_m, 0.0, 1.0, "m/sqrt(m)"},
     {"mapping_drift_rad_per_sqrt_m", &MappingParameters::mapping_drift_rad_per_sqrt_m, 0.0, 0.1, "rad/sqrt(m)"},
     {"freeze_delay_s", &MappingParameters::freeze_delay_s, 0.1, 30.0, "s"},
 }};
 
-/// Everything that localization is started with.
+/// All parameters of localization.
 struct Parameters {
   SensorParameters sensors;
   TrackingParameters tracking;
   MappingParameters mapping;
   mtr_surfel_map::AdjustmentParameters adjustment;
-  /// Sweeps, orders and maps take effect at times that follow from their stamps alone: in simulation and offline.
+  /// In lock-step, sweeps, orders and maps take effect at times that depend on their stamps only: simulation and
+  /// replay.
   bool lockstep = false;
 };
 
@@ -150,7 +152,7 @@ void for_each_group(P& parameters, Visit visit) {
   visit(mtr_surfel_map::kAdjustmentRows, parameters.adjustment);
 }
 
-/// Throws ConfigurationError unless each value is in its range.
+/// Throws ConfigurationError if a value is outside its range.
 void check(const Parameters& parameters);
 
 }  // namespace mtr_localization

@@ -1,5 +1,5 @@
 /// @file
-/// The way of a sample from arrival to estimate.
+/// Processing of samples from arrival to estimate.
 // SPDX-License-Identifier: Apache-2.0
 #include "pose_source.hpp"
 
@@ -11,7 +11,7 @@
 namespace mtr_localization {
 namespace {
 
-// One step of the simulated clock: what is stamped before it has arrived at its end, see docs/lock-step.md.
+// One step of the simulated clock, within which everything with an earlier stamp has arrived; see docs/lock-step.md.
 constexpr std::int64_t kLockstepLagNs = 20'000'000;
 
 std::optional<std::int64_t> lag_of(const Parameters& parameters) {
@@ -99,7 +99,7 @@ Estimate PoseSource::invalid(std::int64_t stamp_ns, const mtr_core::Problem& pro
 
 Estimate PoseSource::answer(std::int64_t stamp_ns, const mtr_core::Problem& problem) const {
   Estimate estimate = pose_at(stamp_ns);
-  // Whatever spoils it: what is no number is no place.
+  // Never report a non-finite pose as valid.
   estimate.message = problem || is_finite(estimate) ? problem : problems::kNotANumber();
   estimate.valid = !estimate.message;
   estimate.speed_mps = odometry_.speed_mps();

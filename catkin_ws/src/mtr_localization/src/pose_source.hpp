@@ -1,5 +1,5 @@
 /// @file
-/// Where poses come from: inputs go in as they arrive, estimates come out in the order of their stamps.
+/// Base of pose sources: inputs are added on arrival, estimates are returned in the order of their stamps.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,9 +19,8 @@
 
 namespace mtr_localization {
 
-/// Pose of base_link in map. One estimate per wheel sample, as soon as IMU data reaches the sample's stamp; the order
-/// in which the two arrive does not matter. How a step is made of a sample is what the classes below this one differ
-/// in.
+/// Estimates the pose of base_link in map, with one estimate per wheel sample as soon as IMU data reaches its stamp.
+/// The order of arrival does not matter. Subclasses define how a sample becomes an estimate.
 class PoseSource {
  public:
   virtual ~PoseSource() = default;
@@ -30,26 +29,26 @@ class PoseSource {
 
   std::vector<Estimate> add_imu(const ImuSample& sample);
   std::vector<Estimate> add_wheels(const WheelSample& sample);
-  /// To be called at every step of the clock: invalid estimates while a sensor is silent, none otherwise.
+  /// Must be called at every step of the clock; returns invalid estimates while a sensor is silent, otherwise none.
   std::vector<Estimate> check_silence(std::int64_t now_ns);
 
-  /// One sentence when the scan is refused, else empty.
+  /// Adds a scan. Returns one sentence if it is rejected, otherwise an empty text.
   std::string add_scan(Sweep sweep) { return scans_.add(std::move(sweep)); }
-  /// On the robot's own clock: uses scans as soon as wheels and gyro reach their end; true when there were any.
+  /// On the robot's own clock: uses scans as soon as wheels and gyro cover them. Returns true if there were any.
   bool use_scans();
-  /// False: it is refused.
+  /// Adds a satellite fix; returns false if it is rejected.
   virtual bool add_fix(const GnssFix& fix) = 0;
   void add_order(const MapOrder& order) { mapper_.add_order(order); }
 
-  /// Answer to an order to freeze the map, each once.
+  /// Returns each result of an order to freeze the map once.
   std::optional<MapResult> take_map() { return mapper_.take_result(); }
   const std::vector<KeyFrame>& key_frames() const { return mapper_.key_frames(); }
-  /// Surfaces of the map that is tracked.
+  /// Surfaces of the tracked map.
   virtual const std::vector<Surfel>& surfels() const = 0;
 
-  /// The pose at the newest wheel sample, also as a scan between two samples has corrected it; not said to be valid.
+  /// Pose at the newest wheel sample, including corrections by later scans; without a statement of validity.
   Estimate newest() const { return pose_at(history().newest().stamp_ns); }
-  /// The transform from map to odom and the grid /map are this source's to publish.
+  /// True if this source publishes the transform from map to odom, and the grid /map.
   virtual bool owns_map_frame() const = 0;
 
   MotionState motion_state() const { return odometry_.state(); }
@@ -57,14 +56,14 @@ class PoseSource {
   virtual PoseFigures figures() const;
 
  protected:
-  /// @param adjust makes a map of key frames
+  /// @param adjust makes a map from key frames
   PoseSource(const Parameters& parameters, Mapper::Adjust adjust);
 
-  /// Goes on to a sample that can be used; the estimate there.
+  /// Processes a usable sample and returns the estimate.
   virtual Estimate step(const GatedSample& sample) = 0;
-  /// Uses the scans that are due; true when there were any.
+  /// Uses the scans that are due; returns true if there were any.
   virtual bool correct_by_scans() = 0;
-  /// The newest pose, not yet said to be valid.
+  /// Returns the newest pose, without a statement of validity.
   virtual Estimate pose_at(std::int64_t stamp_ns) const = 0;
 
   const Parameters& parameters() const { return parameters_; }
@@ -78,9 +77,9 @@ class PoseSource {
   Mapper& mapper() { return mapper_; }
   const Mapper& mapper() const { return mapper_; }
 
-  /// What all estimates have in common.
+  /// Returns an estimate with the fields common to all estimates.
   Estimate estimate_of(std::int64_t stamp_ns, const PoseVector& pose, const Eigen::Matrix3d& covariance) const;
-  /// The step's answer; valid unless there is a problem, or the pose is no number.
+  /// Returns the estimate of a step; valid unless there is a problem or the pose is not finite.
   Estimate answer(std::int64_t stamp_ns, const mtr_core::Problem& problem) const;
 
  private:

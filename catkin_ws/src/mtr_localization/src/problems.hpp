@@ -1,5 +1,5 @@
 /// @file
-/// What localization says to the Operator; a test reads this table too.
+/// Messages of localization to the Operator; a contract test reads this table, too.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// The core of localization as the Python module mtr_localization_core, for simulations in one process.
+/// Core of localization as the Python module mtr_localization_core, for simulations in one process.
 // SPDX-License-Identifier: Apache-2.0
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
@@ -28,7 +28,7 @@ namespace py = pybind11;
 using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
 using Vector = std::array<double, 3>;
 
-/// Localization of one robot in lock-step: its inputs take effect at times that follow from their stamps alone.
+/// Localization of one robot in lock-step: inputs take effect at times that depend on their stamps only.
 class RobotLocalizer {
  public:
   RobotLocalizer(const std::string& urdf, bool has_rear_lidar) : localizer_(in_lockstep()) {
@@ -39,7 +39,8 @@ class RobotLocalizer {
     }
   }
 
-  /// From an object with the attributes of mtr_simulation.readings.Scan; why it is refused, else empty.
+  /// Adds an object with the attributes of mtr_simulation.readings.Scan. Returns the reason of a rejection, or an empty
+  /// text.
   std::string add_scan(bool is_rear, const py::object& scan) {
     const auto number = [&](const char* name) { return scan.attr(name).cast<double>(); };
     const auto ranges = scan.attr("ranges_m").cast<Floats>();
@@ -64,7 +65,7 @@ class RobotLocalizer {
     localizer_.add_order({stamp_ns, map_car_id, static_cast<MapOrder::Phase>(phase)});
   }
 
-  /// From objects with the attributes of mtr_simulation.readings.ImuReading and WheelOdometry.
+  /// Processes objects with the attributes of mtr_simulation.readings.ImuReading and WheelOdometry.
   std::vector<Estimate> step(std::int64_t stamp_ns, const py::object& imu, const py::object& odometry) {
     const auto rate = imu.attr("angular_velocity").cast<Vector>();
     const auto force = imu.attr("acceleration").cast<Vector>();
@@ -97,7 +98,7 @@ class RobotLocalizer {
   std::vector<mtr_description::Mount> mounts_;
 };
 
-/// Rows of x (m), y (m), direction of the normal (rad), length (m), sigma (m) and hits.
+/// Returns rows of x (m), y (m), direction of the normal (rad), length (m), sigma (m) and hits.
 Eigen::MatrixXd surfels_of(const MapResult& result) {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(result.map.surfels.size()), 6);
   Eigen::Index row = 0;
@@ -108,7 +109,7 @@ Eigen::MatrixXd surfels_of(const MapResult& result) {
   return rows;
 }
 
-/// Stamp in ns, x (m), y (m) and heading (rad) of each key frame.
+/// Returns stamp in ns, x (m), y (m) and heading (rad) of each key frame.
 std::vector<std::tuple<std::int64_t, double, double, double>> key_frames_of(const MapResult& result) {
   std::vector<std::tuple<std::int64_t, double, double, double>> frames;
   for (std::size_t i = 0; i < std::min(result.map.key_frames.size(), result.map.pose_covariances.size()); ++i) {

@@ -1,5 +1,5 @@
 /// @file
-/// Which times transforms have been sent for: tf takes no second one of a time, and complains of each.
+/// Stamps of published transforms, to avoid duplicates, which tf ignores with a warning.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace mtr_localization {
 
-/// The newest stamps, in whatever order they came: a sweep that ended before the newest pose comes after it, and one
-/// whose processing was late may end at the time of any pose of the last tenths of a second.
+/// Newest stamps in order of publication. A sweep may end before the newest pose, and a delayed one at the time of any
+/// pose of the last tenths of a second.
 class RecentStamps {
  public:
-  /// Notes a stamp.
-  /// @return false when it is one of those
+  /// Stores a stamp.
+  /// @return false if it was already stored
   bool note(std::int64_t stamp_ns) {
     if (std::find(stamps_ns_.begin(), stamps_ns_.begin() + count_, stamp_ns) != stamps_ns_.begin() + count_) {
       return false;
@@ -27,7 +27,7 @@ class RecentStamps {
   }
 
  private:
-  /// A second of poses and of the sweeps of two fast LiDARs.
+  /// Covers a second of poses and of the sweeps of two fast LiDARs.
   static constexpr std::ptrdiff_t kCapacity = 150;
   std::array<std::int64_t, kCapacity> stamps_ns_{};
   std::ptrdiff_t next_ = 0;

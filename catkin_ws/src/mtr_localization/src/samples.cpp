@@ -1,5 +1,5 @@
 /// @file
-/// Plausible readings, and distance driven by wheel odometry.
+/// Plausibility of readings, and driven distance from wheel odometry.
 // SPDX-License-Identifier: Apache-2.0
 #include "samples.hpp"
 
@@ -11,7 +11,7 @@
 namespace mtr_localization {
 
 bool ImuSample::is_plausible() const {
-  // Without a yaw rate there is no heading; an IMU that shows no tilt or gravity may say so by what is no number.
+  // A yaw rate is required for the heading; unmeasured tilt rates or forces may be NaN.
   const auto is_none_or = [](double value, bool is_possible) { return std::isnan(value) || is_possible; };
   return mtr_core::is_turn_rate(yaw_rate_radps) &&
          is_none_or(tilt_rate_radps.x(), mtr_core::is_turn_rate(tilt_rate_radps.x())) &&

@@ -1,5 +1,5 @@
 /// @file
-/// What the sensors say and what localization makes of it, as plain types.
+/// Plain types of sensor samples and estimates.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace mtr_localization {
 
-/// Stamp in ns of the ROS clock.
+/// IMU sample; stamp in ns of the ROS clock.
 struct ImuSample {
   std::int64_t stamp_ns;
-  /// Gyro's rate about base_link z, counterclockwise.
+  /// Gyro rate about base_link z, counterclockwise.
   double yaw_rate_radps;
-  /// About base_link x and y.
+  /// Gyro rates about base_link x and y.
   Eigen::Vector2d tilt_rate_radps = Eigen::Vector2d::Zero();
-  /// What the accelerometer shows; +9.81 in z when level and at rest. Zero: there is none.
+  /// Accelerometer reading; +9.81 in z when level and at rest. Zero without an accelerometer.
   Eigen::Vector3d force_mps2 = Eigen::Vector3d::Zero();
 
-  /// False when the yaw rate is no number, or one of the numbers is none that a robot's IMU shows.
+  /// False if the yaw rate is NaN, or a value is outside the range of a robot's IMU.
   bool is_plausible() const;
 };
 
-/// Wheel odometry: pose in its own drifting frame, and velocity of base_link as the wheels see it.
+/// Wheel odometry: pose in its own drifting frame, and velocity of base_link from the wheels.
 struct WheelSample {
   std::int64_t stamp_ns;
   double x_m;
@@ -34,10 +34,10 @@ struct WheelSample {
   double linear_mps;
   double angular_radps;
 
-  /// False when one of the numbers is none, or a speed is one that no base has.
+  /// False if a value is not finite, or a speed is outside the range of a base.
   bool is_plausible() const;
 
-  /// Distance driven since an earlier sample, along the mean heading of the two, negative backwards; in m.
+  /// Returns the distance driven since an earlier sample, along the mean heading of both, negative backwards; in m.
   double distance_since(const WheelSample& earlier) const;
 };
 
@@ -47,13 +47,13 @@ struct GnssFix {
   /// Position of the antenna, WGS-84.
   double latitude_rad;
   double longitude_rad;
-  /// Horizontal, in the worst direction; 0: the receiver does not say.
+  /// Horizontal 1 sigma in the worst direction; 0 if the receiver does not report it.
   double sigma_m;
-  /// The antenna in base_link, m.
+  /// Position of the antenna in base_link, m.
   Eigen::Vector2d antenna = Eigen::Vector2d::Zero();
 };
 
-/// What the pose rests on.
+/// Reference of the pose.
 enum class PoseMode { kDeadReckoning, kMapping, kLocalized, kLost };
 
 /// Pose of base_link in map at the stamp, and its velocity.
@@ -61,9 +61,9 @@ struct Estimate {
   std::int64_t stamp_ns = 0;
   bool valid = false;
   PoseMode mode = PoseMode::kDeadReckoning;
-  /// The surfaces in view do not hold the pose in every direction.
+  /// True if the surfaces in view do not constrain the pose in every direction.
   bool degenerate = false;
-  /// Map that the pose is in, 0: none.
+  /// Revision of the map that the pose is in, 0 for none.
   std::uint32_t map_revision = 0;
   double x_m = 0.0;
   double y_m = 0.0;
@@ -72,11 +72,11 @@ struct Estimate {
   std::array<double, 9> covariance{};
   double speed_mps = 0.0;
   double yaw_rate_radps = 0.0;
-  /// Base_link in odom, which never jumps: by wheels and gyro, and by the wheels' own odometry. x, y (m), heading
-  /// (rad).
+  /// Pose of base_link in odom from wheels and gyro, and in the wheel odometry; neither jumps by corrections. x, y (m),
+  /// heading (rad).
   std::array<double, 3> odom{};
   std::array<double, 3> wheel_odom{};
-  /// One sentence when not valid.
+  /// One sentence if not valid.
   mtr_core::Problem message;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Tangential plane, rigid motion, and how uncertain both are.
+/// Tangent plane, rigid transform, and their uncertainty.
 // SPDX-License-Identifier: Apache-2.0
 #include "gnss/gnss_frame.hpp"
 
@@ -14,12 +14,12 @@ namespace {
 // WGS-84.
 constexpr double kSemiMajorM = 6378137.0;
 constexpr double kEccentricitySquared = 6.69437999014e-3;
-// A pair every so often, on a way round a Car 20 to 40 of them; then the frame stays as it is, so that a pose that is
-// wrong later cannot bend it.
+// Distance between pairs; a drive round a Car gives 20 to 40 of them. Then the frame is fixed, so that later pose
+// errors cannot distort it.
 constexpr double kPairEveryM = 0.5;
 constexpr std::size_t kMinPairs = 8;
 constexpr std::size_t kMaxPairs = 40;
-// The frame turns by the fixes' errors over their spread: a fifth of a radian at most.
+// The heading error of the frame is the fix error over the spread: at most a fifth of a radian.
 constexpr double kMinSpreadInSigmas = 5.0;
 
 }  // namespace

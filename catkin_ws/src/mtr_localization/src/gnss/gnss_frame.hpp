@@ -1,5 +1,5 @@
 /// @file
-/// Where fixes of a satellite receiver are in map.
+/// Transform of satellite fixes into map.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,26 +11,26 @@
 
 namespace mtr_localization {
 
-/// An antenna's position in map, m, and its 1 sigma in either direction.
+/// Position of an antenna in map, m, and its 1 sigma in either direction.
 struct GnssPosition {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double sigma_m = 0.0;
 };
 
-/// Turns geodetic positions into map, once enough fixes have been seen at known poses.
+/// Transforms geodetic positions into map, after enough fixes at known poses.
 ///
-/// The frame is found by the rigid motion of least squares (Umeyama 1991, without scale) between a plane that touches
-/// the ellipsoid at the first fix and map. Errors of satellites last for minutes, so no number of fixes averages them
-/// out: frame and fix are each as uncertain as one fix.
+/// The frame is the least-squares rigid transform (Umeyama 1991, without scale) between map and a plane tangent to the
+/// ellipsoid at the first fix. Satellite errors persist for minutes, so averaging does not remove them: frame and fix
+/// each have the uncertainty of one fix.
 class GnssFrame {
  public:
-  /// Map is another one from now on.
+  /// Forgets the frame, for a new map.
   void clear();
 
-  /// The antenna's position in map at a fix, known otherwise.
+  /// Adds a fix with the antenna position in map from another source.
   void learn(const GnssFix& fix, const Eigen::Vector2d& antenna_in_map);
 
-  /// Nothing as long as the frame is not known.
+  /// Returns the position of a fix in map, or nothing until the frame is known.
   std::optional<GnssPosition> in_map(const GnssFix& fix) const;
 
  private:
@@ -40,7 +40,7 @@ class GnssFrame {
     double sigma_m;
   };
 
-  /// East and north of the first fix, m.
+  /// Returns east and north relative to the first fix, m.
   Eigen::Vector2d level_of(const GnssFix& fix) const;
   void fit();
 

@@ -1,5 +1,5 @@
 /// @file
-/// Learns the receiver's frame while the LiDARs hold the pose, and holds fixes against the pose.
+/// Learns the frame of the receiver while the LiDARs determine the pose, and checks fixes against the pose.
 // SPDX-License-Identifier: Apache-2.0
 #include "gnss/gnss_monitor.hpp"
 
@@ -13,21 +13,21 @@
 namespace mtr_localization {
 namespace {
 
-// Fixes come at 1 to 10 Hz, some of them late; like orders they take effect this long after their stamp, whoever is
-// first to hear of them.
+// Fixes arrive at 1 to 10 Hz, some of them late. Like orders, they take effect this long after their stamp, independent
+// of the order of arrival.
 constexpr std::int64_t kLagNs = 100'000'000;
-// A receiver in the street without corrections is within 2 to 5 m.
+// A receiver without corrections has an error of 2 to 5 m in a street.
 constexpr double kMaxSigmaM = 5.0;
-// Corrected receivers (RTK) claim 1 cm and keep to twice that among buildings.
+// Corrected receivers (RTK) claim 1 cm; among buildings their error is below twice that.
 constexpr double kMinSigmaM = 0.02;
 constexpr double kTwiceAsUncertain = 2.0;
-// Reflections by cars and walls shift fixes for some seconds: only what is far beyond sigma, and stays, speaks.
+// Reflections from cars and walls shift fixes for some seconds, so only large and persistent deviations count.
 constexpr double kFarInSigmas = 5.0;
 constexpr double kFarM = 1.0;
 constexpr int kContradictions = 5;
-// A fix that is no farther off speaks for the pose.
+// A fix within this distance confirms the pose.
 constexpr double kNearInSigmas = 3.0;
-// A pose as good as this teaches the frame, and a fix as good as this speaks for a pose.
+// A pose must be this accurate to teach the frame, and a fix to confirm a pose.
 constexpr double kKnownSigmaM = 0.1;
 
 Eigen::Matrix<double, 2, 3> antenna_by_pose(const PoseVector& pose, const Eigen::Vector2d& antenna) {
@@ -65,7 +65,7 @@ mtr_core::Problem GnssMonitor::use_due(const ScanTracker& tracker, FilterHistory
   while (!waiting_.empty() && waiting_.front().stamp_ns + kLagNs <= history.newest().stamp_ns) {
     const GnssFix fix = waiting_.front();
     waiting_.pop_front();
-    // One that is older than all that is remembered comes too late.
+    // A fix older than the history is too late.
     if (!problem && fix.stamp_ns >= history.oldest().stamp_ns) {
       problem = use(fix, tracker, history);
     }

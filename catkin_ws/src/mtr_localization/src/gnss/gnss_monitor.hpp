@@ -1,5 +1,5 @@
 /// @file
-/// What fixes of a satellite receiver do to the pose.
+/// Effect of satellite fixes on the pose.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,21 +12,21 @@
 
 namespace mtr_localization {
 
-/// A receiver is a sensor that errs by centimetres to metres for minutes: LiDARs that hold the pose are better. So a
-/// fix corrects only a pose that is twice as uncertain as itself, which a row of fixes with one error cannot make too
-/// sure, and several fixes far from the pose mean that it is lost.
+/// Combines a satellite receiver with the pose. Its error of centimetres to metres persists for minutes, so the LiDARs
+/// take precedence. A fix corrects only a pose that is at least twice as uncertain, so that repeated fixes with one
+/// common error cannot make it overconfident. Several fixes far from the pose mean that the pose is lost.
 class GnssMonitor {
  public:
-  /// False: refused, because it is not a position, says not how uncertain it is, or is too uncertain.
+  /// Returns false for a rejected fix: not a position, without uncertainty, or too uncertain.
   bool add(const GnssFix& fix);
 
-  /// Another map begins.
+  /// Starts again, for a new map.
   void clear();
 
-  /// Uses the fixes that are due at the history's newest step; one sentence when they say that the pose is wrong.
+  /// Applies the fixes that are due at the newest step; returns a problem if they contradict the pose.
   mtr_core::Problem use_due(const ScanTracker& tracker, FilterHistory& history);
 
-  /// Time of the newest precise fix that was where the pose is; 0: none was on this map.
+  /// Time of the newest accurate fix that confirmed the pose on this map; 0 if there is none.
   std::int64_t agreed_ns() const { return agreed_ns_; }
 
   const GnssFigures& figures() const { return figures_; }

@@ -1,5 +1,5 @@
 /// @file
-/// Distance, angle and rest since the last key frame.
+/// Distance, angle and standstill since the last key frame.
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/key_frame_selector.hpp"
 
@@ -10,14 +10,13 @@
 namespace mtr_localization {
 namespace {
 
-// A key frame while driving comes so often: each piece of surface is then seen some ten times at each of the distances
-// that occur.
+// Spacing of key frames while driving: each piece of surface is then seen about ten times at each occurring distance.
 constexpr double kEveryM = 0.3;
 constexpr double kEveryRad = 0.25;
-// A place of rest so far from the last key frame is worth one of its own.
+// A place of rest at this distance from the last key frame becomes a key frame of its own.
 constexpr double kRestEveryM = 0.1;
 constexpr double kRestEveryRad = 0.1;
-// Scans of one place: 0.4 s at 25 Hz, after which the surfaces' own errors count more than the LiDAR's noise.
+// Averaged scans per place: 0.4 s at 25 Hz; with more, surface errors dominate the LiDAR noise.
 constexpr int kScansAtRest = 10;
 
 double square(double value) { return value * value; }
@@ -85,11 +84,11 @@ Eigen::Matrix3d KeyFrameSelector::motion_covariance(double duration_s, double gy
                          square(gyro_bias_sigma_radps * duration_s) +
                          square(parameters_.gyro_scale_sigma * turned_rad_) + led_(2, 2);
   const double turning = square(parameters_.turn_slip_m_per_sqrt_rad) * turned_rad_;
-  // The wheels' scale is left out: it is common to all motions and an unknown of the adjustment.
+  // The wheel scale is excluded, because it is common to all motions and estimated by the adjustment.
   const double along = square(parameters_.slip_m_per_sqrt_m) * distance_m_;
-  // Across: slip of the tyres, and the mean heading on the way.
+  // Lateral: slip of the tyres, and the mean heading error on the path.
   const double across = along + heading * square(0.5 * distance_m_);
-  // A way is led in odom's direction, and is as uncertain in any other.
+  // Bridged motions are given in odom; their covariance is treated as isotropic.
   return Eigen::Vector3d(along + turning + led_(0, 0), across + turning + led_(1, 1), heading).asDiagonal();
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Chooses which scans become key frames.
+/// Selection of key frames from scans.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,32 +13,33 @@
 
 namespace mtr_localization {
 
-/// A scan that may become a key frame.
+/// Scan that may become a key frame.
 struct KeyFrameCandidate {
   ScanPoints scan;
   PoseVector pose = PoseVector::Zero();
-  /// Base_link in odom.
+  /// Pose of base_link in odom.
   PoseVector odom = PoseVector::Zero();
   bool standing = false;
   double gyro_bias_sigma_radps = 0.0;
 };
 
-/// A key frame every few decimetres or degrees, and one wherever the robot comes to rest, which is the mean of several
+/// Selects a key frame at a fixed spacing of distance or angle, and one at each stop, which is the mean of several
 /// scans.
 class KeyFrameSelector {
  public:
   explicit KeyFrameSelector(const SensorParameters& parameters) : parameters_(parameters) {}
 
-  /// The next candidate is the first of a map.
+  /// Starts a new map with the next candidate.
   void restart();
 
-  /// The robot moved so far along its path and turned so much.
+  /// Adds driven distance and absolute turn.
   void travel(double distance_m, double angle_rad);
 
-  /// It moved unseen. @param covariance of the way in odom: x (m), y (m), heading (rad)
+  /// Adds a motion that was not measured.
+  /// @param covariance of the motion in odom: x (m), y (m), heading (rad)
   void lead(const Eigen::Matrix3d& covariance) { led_ += covariance; }
 
-  /// Takes the next candidate; the key frame that it completes, if any.
+  /// Adds a candidate and returns the key frame that it completes, if any.
   std::optional<KeyFrame> add(const KeyFrameCandidate& candidate);
 
  private:
@@ -47,12 +48,12 @@ class KeyFrameSelector {
   Eigen::Matrix3d motion_covariance(double duration_s, double gyro_bias_sigma_radps) const;
 
   SensorParameters parameters_;
-  /// Base_link in odom and time of the last key frame.
+  /// Pose of base_link in odom and time of the last key frame.
   std::optional<PoseVector> last_odom_;
   std::int64_t last_ns_ = 0;
   double distance_m_ = 0.0;
   double turned_rad_ = 0.0;
-  /// Of the ways since then that nobody saw.
+  /// Covariance of unmeasured motions since the last key frame.
   Eigen::Matrix3d led_ = Eigen::Matrix3d::Zero();
   ScanMean resting_;
 };

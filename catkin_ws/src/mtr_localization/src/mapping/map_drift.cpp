@@ -1,5 +1,5 @@
 /// @file
-/// Propagation of the growing map's drift.
+/// Propagation of the drift of the growing map.
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/map_drift.hpp"
 
@@ -16,7 +16,7 @@ MapDrift::MapDrift(const Parameters& parameters)
     : per_metre_(square(parameters.mapping.mapping_drift_m_per_sqrt_m),
                  square(parameters.mapping.mapping_drift_m_per_sqrt_m),
                  square(parameters.mapping.mapping_drift_rad_per_sqrt_m)),
-      // New surfaces are placed by the gyro first, and their matches keep its error.
+      // The gyro places new surfaces first, so their matches keep its error.
       heading_per_second_(square(parameters.sensors.gyro_noise_radps_per_sqrt_hz)) {}
 
 void MapDrift::travel(const Motion& motion, double heading_rad) {

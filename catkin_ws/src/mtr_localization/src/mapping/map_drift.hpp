@@ -1,5 +1,5 @@
 /// @file
-/// Uncertainty of a pose in a map that grows: the map bends with its errors and still agrees with itself.
+/// Uncertainty of a pose in a growing map, which may be distorted although it is consistent.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,18 +10,19 @@
 
 namespace mtr_localization {
 
-/// Random walk of position and heading over the path since the map began. A heading error displaces all of the path
-/// after it, so the position becomes uncertain faster than its own walk.
+/// Random walk of position and heading over the path since the start of the map. A heading error displaces the whole
+/// path after it, so the position uncertainty grows faster than its own random walk.
 class MapDrift {
  public:
   explicit MapDrift(const Parameters& parameters);
 
   void restart() { covariance_.setZero(); }
 
-  /// Propagates over one motion. @param heading_rad of the robot in map
+  /// Propagates over one motion.
+  /// @param heading_rad of the robot in map
   void travel(const Motion& motion, double heading_rad);
 
-  /// Of x (m), y (m), heading (rad), in map.
+  /// Covariance of x (m), y (m), heading (rad), in map.
   const Eigen::Matrix3d& covariance() const { return covariance_; }
 
  private:

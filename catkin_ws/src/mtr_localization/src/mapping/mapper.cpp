@@ -1,5 +1,5 @@
 /// @file
-/// Orders, travel and the adjustment's thread.
+/// Orders, travelled distance and the adjustment thread.
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/mapper.hpp"
 
@@ -12,10 +12,9 @@
 namespace mtr_localization {
 namespace {
 
-// Orders come every 100 ms and take effect one period after their stamp, whoever is first to receive them.
+// Orders arrive every 100 ms and take effect one period after their stamp, independent of the order of arrival.
 constexpr std::int64_t kOrderLagNs = 100'000'000;
-// A robot that stops when it is lost goes less far. One that went on and was not sure of its place again has a way
-// round with an open end.
+// A robot that stops when lost travels less. If it continues without relocalization, the path has an open end.
 constexpr double kMaxLostTravelM = 1.0;
 
 }  // namespace

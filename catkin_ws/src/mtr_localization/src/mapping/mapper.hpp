@@ -1,5 +1,5 @@
 /// @file
-/// From orders and key frames to maps.
+/// Mapping: orders and key frames become maps.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace mtr_localization {
 
-/// What the mapper shall do, as ordered by the Car locator; repeated, so each is a desired state.
+/// State requested by the Car locator; orders are repeated, so each is a desired state.
 struct MapOrder {
   enum class Phase { kIdle, kCollect, kFreeze };
   std::int64_t stamp_ns = 0;
@@ -26,9 +26,9 @@ struct MapOrder {
   Phase phase = Phase::kIdle;
 };
 
-/// The answer to an order to freeze the map.
+/// Result of an order to freeze the map.
 struct MapResult {
-  /// Robot time from which poses are in this map.
+  /// Robot time from which on poses are in this map.
   std::int64_t stamp_ns = 0;
   std::uint64_t map_car_id = 0;
   std::uint32_t revision = 0;
@@ -36,43 +36,45 @@ struct MapResult {
   OccupancyGrid grid;
 };
 
-/// Key frames of one map as ordered, and their adjustment in a thread of its own.
+/// Collects the key frames of one map on order and adjusts them in a thread.
 class Mapper {
  public:
-  /// Makes a map of key frames; runs in the thread.
+  /// Makes a map from key frames; runs in the thread.
   using Adjust = std::function<AdjustedMap(const std::vector<KeyFrame>&)>;
 
   Mapper(const Parameters& parameters, Adjust adjust);
 
-  /// Poses are in a map of before, until another is ordered.
+  /// Resumes with a previous map until another one is ordered.
   void go_on(std::uint64_t map_car_id, std::uint32_t revision);
 
   void add_order(const MapOrder& order) { orders_.push_back(order); }
 
-  /// The robot moved so during one step, or its motion is unknown. @param heading_rad of the robot in map @param lost
-  /// its pose is
+  /// Adds the motion of one step, if it is known.
+  /// @param heading_rad of the robot in map
+  /// @param lost true if the pose is lost
   void travel(const FilterInput& input, double heading_rad, bool lost);
 
-  /// It moved unseen. @param covariance of the way in odom: x (m), y (m), heading (rad)
+  /// Adds a motion that was not measured.
+  /// @param covariance of the motion in odom: x (m), y (m), heading (rad)
   void lead(const Eigen::Matrix3d& covariance) { selector_.lead(covariance); }
 
-  /// Carries out the orders that are due; true when a new map begins.
+  /// Executes orders that are due; returns true when a new map starts.
   bool begins(std::int64_t now_ns);
 
-  /// Takes the next scan; the key frame that it completes, else null. Valid until the next call.
+  /// Adds a scan. Returns the key frame that it completes, or null; valid until the next call.
   const KeyFrame* add(const KeyFrameCandidate& candidate);
 
-  /// The adjusted map from the instant on at which poses are to be in it, once; null at any other time. It may be one
-  /// that cannot be trusted, see its `valid`. There until take_result. In lock-step it waits for the thread.
+  /// Returns the adjusted map once, at the time from which on poses are in it, otherwise null. It may be invalid, see
+  /// `valid`. The pointer is valid until take_result. In lock-step, the call waits for the thread.
   const AdjustedMap* finish(std::int64_t now_ns);
 
-  /// The newest answer to an order to freeze, each once.
+  /// Returns each result of an order to freeze once.
   std::optional<MapResult> take_result();
 
   const std::vector<KeyFrame>& key_frames() const { return key_frames_; }
-  /// Map that poses are in, 0: none.
+  /// Revision of the map that poses are in, 0 for none.
   std::uint32_t revision() const { return revision_; }
-  /// Drift of the growing map since its beginning: x (m), y (m), heading (rad).
+  /// Drift of the growing map since its start: x (m), y (m), heading (rad).
   const Eigen::Matrix3d& drift_covariance() const { return drift_.covariance(); }
 
  private:
@@ -91,7 +93,7 @@ class Mapper {
   std::uint64_t map_car_id_ = 0;
   std::vector<KeyFrame> key_frames_;
   MapDrift drift_;
-  /// Since the pose was lost; 0 when it is not.
+  /// Distance travelled since the pose was lost; 0 otherwise.
   double lost_travel_m_ = 0.0;
   /// Map and grid without stamp, id and revision.
   std::future<MapResult> adjusting_;

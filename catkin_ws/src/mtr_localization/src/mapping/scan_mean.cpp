@@ -1,5 +1,5 @@
 /// @file
-/// Mean of each beam without the scans in which something came in its way.
+/// Mean of each beam, without scans in which an object passed.
 // SPDX-License-Identifier: Apache-2.0
 #include "mapping/scan_mean.hpp"
 
@@ -11,11 +11,11 @@
 namespace mtr_localization {
 namespace {
 
-// Half the step between beams of a LiDAR of this class, 0.25 to 0.5 degrees; a robot at rest turns less.
+// Half the angle between beams of such a LiDAR, 0.25 to 0.5 degrees; a stationary robot turns less.
 constexpr double kBeamRad = 0.003;
-// Half the distance between two LiDARs of one robot.
+// Half the distance between the two LiDARs of a robot.
 constexpr double kLidarM = 0.1;
-// Ranges of one surface lie within this of their median: 5 sigma of a LiDAR with 20 mm.
+// Ranges of one surface are within this of their median: 5 sigma of a LiDAR with 20 mm noise.
 constexpr double kSameSurfaceM = 5.0 * mtr_core::sensor_figures::kWorstRangeNoiseM.value;
 
 }  // namespace

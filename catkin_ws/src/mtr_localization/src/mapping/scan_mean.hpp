@@ -1,5 +1,5 @@
 /// @file
-/// Mean of scans that were taken from one place.
+/// Mean of several scans from one place.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace mtr_localization {
 
-/// Averages each beam over several scans of a robot at rest.
+/// Averages each beam over several scans of a stationary robot.
 class ScanMean {
  public:
   void clear();
   void add(const ScanPoints& scan);
   int scans() const { return scans_; }
 
-  /// Beams that returned from one distance in at least half of the scans; stamp of the last scan.
+  /// Returns the beams with a consistent range in at least half of the scans; the stamp is the one of the last scan.
   ScanPoints mean() const;
 
  private:
-  /// LiDAR and beam, by where the beam starts and where it leads.
+  /// Key of a beam: LiDAR position and beam direction.
   using Beam = std::pair<std::int64_t, std::int64_t>;
 
   static Beam beam_of(const ScanPoint& point);

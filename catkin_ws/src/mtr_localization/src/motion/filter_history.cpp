@@ -1,5 +1,5 @@
 /// @file
-/// Keeps the filter's past steps and lives through them again after a correction.
+/// History of filter steps, which are replayed after a correction.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/filter_history.hpp"
 
@@ -12,7 +12,7 @@
 namespace mtr_localization {
 namespace {
 
-// The slowest sweep (0.2 s) that comes two sweeps late.
+// Covers the slowest sweep (0.2 s) with a delay of two sweeps.
 constexpr std::int64_t kKeptNs = 600'000'000;
 
 void apply(const FilterInput& input, PoseFilter& filter) {

@@ -1,5 +1,5 @@
 /// @file
-/// The filter's recent past, so that a scan can correct the time at which it was taken.
+/// Recent history of the filter, so that a scan can correct the state at its own time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,36 +13,36 @@
 
 namespace mtr_localization {
 
-/// Input of the filter over one interval: that the robot moved, stood, or nothing.
+/// Input of the filter over one interval: moving, stationary, or unknown.
 struct FilterInput {
   enum class Kind { kNothing, kMove, kStand };
   Kind kind = Kind::kNothing;
-  /// In an interval of standing only the duration and the gyro's angle count.
+  /// While stationary, only the duration and the gyro angle are used.
   Motion motion{0.0, 0.0, 0.0};
-  /// Rise of base_link's x and y axes per metre, at its end.
+  /// Rise of base_link's x and y axes per metre, at the end of the interval.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  /// Its 1 sigma along each axis.
+  /// 1 sigma of the slope along each axis.
   double slope_sigma = 0.0;
 };
 
-/// State of the filter at one wheel sample.
+/// Filter state at one wheel sample.
 struct FilterStep {
   std::int64_t stamp_ns;
-  /// Since the step before.
+  /// Input since the previous step.
   FilterInput input;
   PoseFilter filter;
-  /// Pose by wheels and gyro alone, which never jumps: base_link in odom.
+  /// Pose of base_link in odom from wheels and gyro only; it never jumps.
   PoseVector odom;
 };
 
-/// Steps of the last half second, oldest first; there is always one.
+/// Steps of the last 0.6 s, oldest first; never empty.
 class FilterHistory {
  public:
   FilterHistory(const PoseFilter& filter, std::int64_t stamp_ns) { restart(filter, stamp_ns, PoseVector::Zero()); }
 
-  /// Forgets the past; by value, for they may be of it.
+  /// Clears the history. Arguments are copied because they may alias its elements.
   void restart(PoseFilter filter, std::int64_t stamp_ns, PoseVector odom);
-  /// The newest step is the only one from now on.
+  /// Keeps the newest step only.
   void forget_past() { restart(newest().filter, newest().stamp_ns, newest().odom); }
   void advance(std::int64_t stamp_ns, const FilterInput& input);
 
@@ -51,12 +51,12 @@ class FilterHistory {
   std::size_t size() const { return steps_.size(); }
   const FilterStep& at(std::size_t index) const { return steps_[index]; }
 
-  /// Index of the step nearest to a time.
+  /// Returns the index of the step nearest to a time.
   std::size_t nearest(std::int64_t time_ns) const;
-  /// Base_link in odom at a time; after the newest step with the velocity of that step.
+  /// Returns the pose of base_link in odom at a time; after the newest step, extrapolated with its velocity.
   PoseVector odom_at(std::int64_t time_ns) const;
 
-  /// Changes the filter at a step, and what came of it since.
+  /// Changes the filter at a step and replays the later steps.
   void change(std::size_t index, const std::function<void(PoseFilter&)>& change);
   void change_newest(const std::function<void(PoseFilter&)>& change) { change(steps_.back().filter); }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Least squares with what is known beforehand.
+/// Recursive least squares with a prior.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/ground_level.hpp"
 
@@ -13,15 +13,15 @@
 namespace mtr_localization {
 namespace {
 
-// What is known before anything is measured, 1 sigma: the accelerometer's bias, and car parks that drain at 1 to 2 %.
+// Prior, 1 sigma: bias of the accelerometer, and car parks with a drainage slope of 1 to 2 %.
 constexpr double kBiasSigma = mtr_core::sensor_figures::kAssumedAccelerometerBias;
 constexpr double kGroundSigma = 0.015;
-// One tilt against the plane is no surer than this: 0.1 deg.
+// Lower bound of the sigma of one tilt relative to the plane: 0.1 deg.
 constexpr double kMinSigma = 0.002;
-// Slopes of neighbouring places are alike, so that their mean is not that of the plane: of the scatter of one slope so
-// much is left. Measured on ground with slopes of 1 deg, of 12 mrad along each axis 5 to 7.
+// Slopes of neighbouring places are correlated, so this share of the scatter of a single slope remains. Measured on
+// ground with slopes of 1 deg: 5 to 7 of 12 mrad remain along each axis.
 constexpr double kLeft = 0.5;
-// The last 300 count: 100 m of way.
+// Exponential forgetting over about 300 samples, or 100 m of path.
 constexpr double kKept = 1.0 - 1.0 / 300.0;
 
 Eigen::Matrix<double, 2, 4> slope_by_unknowns(double heading_rad) {
@@ -38,7 +38,7 @@ void GroundLevel::add(double heading_rad, const Eigen::Vector2d& slope) {
   information_vector_ = kKept * information_vector_ + by_unknowns.transpose() * slope;
   squares_ = kKept * squares_ + slope.squaredNorm();
   count_ = kKept * count_ + 2.0;
-  // Uneven ground scatters more than flat one.
+  // The scatter is larger on uneven ground.
   const double left = squares_ - 2.0 * unknowns_.dot(information_vector_) + unknowns_.dot(information_ * unknowns_);
   const double variance = std::max(kMinSigma * kMinSigma, left / count_);
   sigma_ = std::max(kMinSigma, kLeft * std::sqrt(variance));

@@ -1,5 +1,5 @@
 /// @file
-/// Which tilt is that of the place, and which the sensor's error.
+/// Separation of ground slope and accelerometer bias.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,18 +7,19 @@
 
 namespace mtr_localization {
 
-/// The Car stands on the same ground as the robot: what counts is the tilt against that ground's mean plane. Over many
-/// places and headings the tilt that turns with the robot is the accelerometer's bias, and the one that does not is
-/// the slope of the ground; both are found by least squares, of which the older counts less and less.
+/// The Car and the robot have the same ground, so tilt is measured against its mean plane. Over many places and
+/// headings, the tilt that turns with the robot is the accelerometer bias, and the constant part is the slope of the
+/// ground. Both are estimated by least squares with exponential forgetting.
 class GroundLevel {
  public:
-  /// The robot is at another place or heading. @param slope rise of base_link's x and y axes per metre
+  /// Adds the slope at another place or heading.
+  /// @param slope rise of base_link's x and y axes per metre
   void add(double heading_rad, const Eigen::Vector2d& slope);
 
-  /// Slope against the ground.
+  /// Returns the slope relative to the ground plane.
   Eigen::Vector2d relative(double heading_rad, const Eigen::Vector2d& slope) const;
 
-  /// 1 sigma of that slope along each axis: uneven ground tells less of its mean plane.
+  /// 1 sigma of that slope along each axis; it is larger on uneven ground.
   double sigma() const { return sigma_; }
 
  private:

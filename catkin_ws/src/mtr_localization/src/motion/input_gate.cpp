@@ -1,5 +1,5 @@
 /// @file
-/// Order, gaps and jumps of the samples.
+/// Order, gaps and jumps of samples.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/input_gate.hpp"
 
@@ -16,12 +16,12 @@ namespace {
 
 using mtr_core::kMaxWheelsMps;
 
-// The odometry's noise, however short the interval is.
+// Noise of the odometry, independent of the interval.
 constexpr double kJitterM = 0.01;
-// A driver on a busy machine stamps late: what was driven in 40 ms then seems to have been driven in 1.
+// A driver on a busy machine may stamp late, so that the motion of 40 ms appears to happen in 1 ms.
 constexpr double kStampedLateS = 0.05;
 
-// Six readings of a sensor with noise are seldom all the same twice, and never so often; in motion.
+// This number of identical consecutive readings means a frozen sensor if the wheels move: real readings have noise.
 constexpr int kFrozenSamples = 3;
 constexpr double kMovesMps = 0.02;
 constexpr double kTurnsRadps = 0.05;
@@ -38,7 +38,7 @@ InputGate::InputGate(double gap_limit_s) : gap_limit_ns_(std::llround(gap_limit_
 
 void InputGate::add_imu(const ImuSample& sample) {
   if (is_frozen(sample)) {
-    // As if it were silent, which it is.
+    // A frozen sensor counts as silent.
     return;
   }
   if (!gyro_.add(sample)) {
@@ -52,13 +52,13 @@ bool InputGate::is_frozen(const ImuSample& sample) {
                        sample.yaw_rate_radps == newest_imu_->yaw_rate_radps;
   imu_repeats_ = repeats ? imu_repeats_ + 1 : 0;
   newest_imu_ = sample;
-  // One that shows no gravity is none that could be told by it.
+  // Sensors without an accelerometer report no force; they cannot be checked.
   return imu_repeats_ >= kFrozenSamples && !sample.force_mps2.isZero(0.0) && last_used_ && is_moving(*last_used_);
 }
 
 void InputGate::add_wheels(const WheelSample& sample) {
   if (newest_wheels_ns_ && std::abs(sample.stamp_ns - *newest_wheels_ns_) <= kOneInstantNs) {
-    // It was sent twice: a second step of that instant would have no duration, or one of nothing but the clock's slew.
+    // Duplicate message: a second step at the same time would have no duration, or only the slew of the clock.
     return;
   }
   if (newest_wheels_ns_ && sample.stamp_ns < *newest_wheels_ns_) {
@@ -67,7 +67,8 @@ void InputGate::add_wheels(const WheelSample& sample) {
     restart_ = problems::kWheelsWentBack();
   }
   if (is_frozen(sample)) {
-    // As if they were silent: scans would lead the pose on meanwhile, and the wheels once more when they go on.
+    // Frozen wheels count as silent. Otherwise, scans would move the pose, and the wheels would repeat the motion
+    // later.
     return;
   }
   newest_wheels_ns_ = sample.stamp_ns;
@@ -93,7 +94,7 @@ std::optional<GatedSample> InputGate::next() {
   WheelSample wheels = pending_.front();
   const std::int64_t imu_ns = gyro_.newest_received_ns().value_or(0);
   if (imu_ns < wheels.stamp_ns && wheels.stamp_ns - imu_ns <= kOneInstantNs) {
-    // Else this sample would wait for the next one of the IMU, a whole period.
+    // Without this, the sample would wait a whole period for the next IMU sample.
     wheels.stamp_ns = imu_ns;
   }
   const bool has_imu = imu_ns >= wheels.stamp_ns;
@@ -147,7 +148,7 @@ mtr_core::Problem InputGate::interruption_before(const WheelSample& wheels) {
   }
   const double distance_m = std::hypot(wheels.x_m - last_used_->x_m, wheels.y_m - last_used_->y_m);
   const double speed_mps = std::max(std::abs(last_used_->linear_mps), std::abs(wheels.linear_mps));
-  // An odometry that was faster was reset, not driven.
+  // A larger distance means that the odometry was reset.
   if (distance_m >
       kMaxWheelsMps * seconds(wheel_gap_ns) + std::min(speed_mps, kMaxWheelsMps) * kStampedLateS + kJitterM) {
     return problems::kWheelsJumped({{"distance_m", distance_m}});
@@ -159,7 +160,7 @@ mtr_core::Problem InputGate::silence(std::int64_t now_ns) const {
   if (!newest_wheels_ns_) {
     return problems::kWaitingForWheels();
   }
-  // What was repeated before it was seen to be frozen had said nothing either.
+  // For frozen wheels, the silence includes the repetitions before they were detected.
   const std::int64_t since_ns = wheels_are_frozen_ ? fresh_wheels_ns_ : *newest_wheels_ns_;
   return now_ns - since_ns > gap_limit_ns_ ? problems::kWheelsSilent() : mtr_core::Problem{};
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Wheels and gyro joined by their stamps; what is late, silent or makes no sense is told apart from what can be used.
+/// Time alignment of wheels and gyro, with detection of late, missing and implausible samples.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,54 +14,55 @@
 
 namespace mtr_localization {
 
-/// What the gyro saw over a time: integral of its rate, without its bias taken off.
+/// Integral of the gyro rate over a time, including its bias.
 struct GyroTurn {
   double duration_s = 0.0;
   double angle_rad = 0.0;
 };
 
-/// A wheel sample whose turn has come.
+/// Wheel sample that is ready for processing.
 struct GatedSample {
   WheelSample wheels;
-  /// Why it cannot be used; none when it can.
+  /// Reason why the sample is not usable, or empty.
   mtr_core::Problem problem;
-  /// Wheels or gyro were silent or jumped since the last sample that could be used.
+  /// Reason of an interruption (silence or jump of wheels or gyro) since the last usable sample, or empty.
   mtr_core::Problem interruption;
-  /// Of an interruption of the wheels alone: how the robot turned meanwhile.
+  /// Turn of the robot during an interruption of the wheels only.
   std::optional<GyroTurn> turn_meanwhile = {};
 };
 
-/// Gives each wheel sample as soon as IMU data reaches its stamp; the order in which the two arrive does not matter.
+/// Releases each wheel sample when IMU data covers its stamp, independent of the order of arrival.
 class InputGate {
  public:
-  /// @param gap_limit_s a longer gap in either is an interruption
+  /// @param gap_limit_s longer gaps in either input are interruptions
   explicit InputGate(double gap_limit_s);
 
   void add_imu(const ImuSample& sample);
   void add_wheels(const WheelSample& sample);
 
-  /// The next wheel sample, unless it still waits for the IMU.
+  /// Returns the next wheel sample, or nothing while it waits for the IMU.
   std::optional<GatedSample> next();
 
-  /// The sample has been used: the gyro's rates before it are not needed any more.
+  /// Drops the gyro rates before a processed sample.
   void release(const GatedSample& sample) { gyro_.forget_before(sample.wheels.stamp_ns); }
 
-  /// A problem while wheel odometry is silent.
+  /// Returns a problem while wheel odometry is silent.
   mtr_core::Problem silence(std::int64_t now_ns) const;
 
-  /// Those that are newer than all before: late data counts for the pose, but consumers already know of later times.
+  /// Returns the estimates newer than all previous ones: late data improves the pose, but consumers must not see time
+  /// go back.
   std::vector<Estimate> in_order(std::vector<Estimate> estimates);
 
   const YawRateHistory& gyro() const { return gyro_; }
 
  private:
-  /// The sensor, or its driver, says the same again and again although the wheels move.
+  /// True if the IMU repeats identical values although the wheels move.
   bool is_frozen(const ImuSample& sample);
-  /// The base's driver says the same again and again: a place that does not change at a speed.
+  /// True if the wheel odometry repeats an unchanged position at a nonzero speed.
   bool is_frozen(const WheelSample& sample);
   mtr_core::Problem problem_with(const WheelSample& wheels) const;
   mtr_core::Problem interruption_before(const WheelSample& wheels);
-  /// None where the gyro was silent, too.
+  /// Returns nothing if the gyro was silent, too.
   std::optional<GyroTurn> turn_before(const WheelSample& wheels) const;
 
   std::int64_t gap_limit_ns_;
@@ -71,13 +72,13 @@ class InputGate {
   std::optional<WheelSample> newest_wheels_;
   int wheel_repeats_ = 0;
   bool wheels_are_frozen_ = false;
-  /// Stamp of the newest wheel sample that did not say what the one before it said.
+  /// Stamp of the newest wheel sample that differed from its predecessor.
   std::int64_t fresh_wheels_ns_ = 0;
   std::deque<WheelSample> pending_;
   std::optional<WheelSample> last_used_;
   std::optional<std::int64_t> newest_wheels_ns_;
   std::optional<std::int64_t> emitted_ns_;
-  /// Why the next sample does not continue what was before.
+  /// Reason why the next sample does not continue the previous ones.
   mtr_core::Problem restart_;
 };
 

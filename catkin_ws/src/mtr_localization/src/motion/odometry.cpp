@@ -1,5 +1,5 @@
 /// @file
-/// One interval of wheels and gyro as the filter's input, with an answer to every interruption.
+/// Conversion of an interval of wheels and gyro to filter input, with handling of interruptions.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/odometry.hpp"
 
@@ -11,12 +11,12 @@
 namespace mtr_localization {
 namespace {
 
-// Wheel motion over an interruption up to which the robot is taken not to have moved.
+// Wheel motion over an interruption below which the robot counts as stationary.
 constexpr double kUnmovedM = 0.01;
 constexpr double kUnmovedRad = 0.02;
-// Gyro rate at rest up to which it can be a bias, rad/s: 4 sigma of the bias at switch-on.
+// Largest gyro rate at rest that may be a bias, rad/s: 4 sigma of the bias at switch-on.
 constexpr double kMaxBiasRadps = 4.0 * mtr_core::sensor_figures::kAssumedGyroBiasAtStartRadps;
-// The ground's level is learned from tilts of places or headings that differ so much.
+// Distance and turn between the tilt samples for the ground level.
 constexpr double kLevelEveryM = 0.3;
 constexpr double kLevelEveryRad = 0.3;
 
@@ -86,7 +86,7 @@ Eigen::Vector2d Odometry::slope_at(const WheelSample& wheels, const ImuSample& i
 }
 
 double Odometry::rate_for_standstill() const {
-  // As long as the bias is unknown, only a rate beyond any bias betrays a turn.
+  // While the bias is unknown, only a rate above any possible bias proves a turn.
   const bool bias_unknown = state_ == MotionState::kStarting && std::abs(gyro_rate_radps_) <= kMaxBiasRadps;
   return bias_unknown ? 0.0 : filter().corrected_rate(gyro_rate_radps_);
 }

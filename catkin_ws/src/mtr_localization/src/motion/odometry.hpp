@@ -1,5 +1,5 @@
 /// @file
-/// Motion by wheels and gyro: the filter's prediction, and how far it can be trusted.
+/// Motion from wheels and gyro: prediction of the filter, and its reliability.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,12 +18,12 @@
 
 namespace mtr_localization {
 
-/// How far wheels and gyro can be trusted.
+/// Reliability of wheels and gyro.
 ///
-/// Starting -> tracking: the gyro's bias is known after standstill.
-/// Tracking -> interrupted: a gap in the data while the robot stood still; -> tracking after standstill.
-/// Tracking or interrupted -> lost: it moved unseen. With a map the scans find the pose again; without one it is frozen
-/// until the Car is mapped anew, for any other would be a guess.
+/// Starting -> tracking: the gyro bias is known after standstill.
+/// Tracking -> interrupted: a data gap while stationary; -> tracking after standstill.
+/// Tracking or interrupted -> lost: the robot moved during a gap. With a map, scans restore the pose. Without a map,
+/// the pose is frozen until the Car is mapped again, because any other pose would be a guess.
 enum class MotionState { kStarting, kTracking, kInterrupted, kLost };
 
 /// Predicts from one wheel sample to the next.
@@ -31,14 +31,16 @@ class Odometry {
  public:
   explicit Odometry(const SensorParameters& parameters);
 
-  /// Goes on to a sample that can be used. @param gyro covers the time since the one before. @param has_map scans can
-  /// find a pose again. Returns the reason when they must: the robot moved unseen.
+  /// Predicts to a usable sample. Returns the reason if the robot moved unobserved, so that scans must restore the
+  /// pose.
+  /// @param gyro covers the time since the previous sample
+  /// @param has_map scans can restore a pose
   mtr_core::Problem predict(const GatedSample& sample, const YawRateHistory& gyro, bool has_map);
 
-  /// The robot is there in odom: what led it there was no motion that could be predicted.
+  /// Sets the pose in odom after a motion that could not be predicted.
   void lead(const PoseVector& odom);
 
-  /// A new map begins here: a pose that was lost does not matter any more.
+  /// Starts a new map at the present pose; a lost pose is then irrelevant.
   void begin_map();
 
   FilterHistory& history() { return history_; }
@@ -46,13 +48,13 @@ class Odometry {
   const PoseFilter& filter() const { return history_.newest().filter; }
 
   MotionState state() const { return state_; }
-  /// None while tracking.
+  /// Empty while tracking.
   const mtr_core::Problem& problem() const { return problem_; }
   bool standing() const { return standstill_.standing(); }
-  /// A sample has been used.
+  /// True after the first usable sample.
   bool has_begun() const { return last_.has_value(); }
 
-  /// Base_link in the wheels' own odometry: x, y (m), heading (rad).
+  /// Pose of base_link in the wheel odometry: x, y (m), heading (rad).
   std::array<double, 3> wheel_odom() const;
   double speed_mps() const { return filter().corrected_speed(last_->linear_mps); }
   double yaw_rate_radps() const { return filter().corrected_rate(gyro_rate_radps_); }
@@ -70,7 +72,7 @@ class Odometry {
   StandstillDetector standstill_;
   TiltFilter tilt_;
   GroundLevel level_;
-  /// Where the ground's level was learned last.
+  /// Pose at the last update of the ground level.
   PoseVector leveled_odom_ = PoseVector::Zero();
   std::optional<WheelSample> last_;
   double gyro_rate_radps_ = 0.0;

@@ -1,5 +1,5 @@
 /// @file
-/// Prediction by wheels and gyro, correction by standing still and by scans.
+/// Prediction with wheels and gyro; corrections at standstill and by scans.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/pose_filter.hpp"
 
@@ -88,8 +88,8 @@ void PoseFilter::stand(double duration_s, double gyro_rate_radps) {
 }
 
 void PoseFilter::correct(const PoseCorrection& correction) {
-  // With P the pose's covariance and H the information, (inv(P) + H) in forms that need neither inverse: P is singular
-  // at the start, H when the scan leaves a direction free.
+  // With P the pose covariance and H the information, this computes (inv(P) + H) without inverses of either. P is
+  // singular at the start, and H is singular if the scan does not constrain a direction.
   const Eigen::Matrix3d pose_covariance = prior_covariance();
   const Eigen::Matrix3d weight = (Eigen::Matrix3d::Identity() + correction.information * pose_covariance).inverse();
   const Eigen::Matrix<double, kStates, 3> gain = covariance_.leftCols<3>() * weight;

@@ -1,5 +1,5 @@
 /// @file
-/// Extended Kalman filter of the pose under wheel and gyro motion, corrected by what the LiDARs see.
+/// Extended Kalman filter of the pose with wheels and gyro as input and LiDAR scans as corrections.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,82 +9,82 @@
 
 namespace mtr_localization {
 
-/// Motion of one interval as the sensors see it.
+/// Motion of one interval as measured.
 struct Motion {
   double duration_s;
   /// Along base_link x by the wheels, negative backwards.
   double distance_m;
-  /// Integral of the gyro's rate, bias included.
+  /// Integral of the gyro rate, including its bias.
   double gyro_angle_rad;
 };
 
 inline constexpr int kMaxErrorSources = 96;
 
-/// What a scan says about the pose, in information form, as the sum of its beams: with the Jacobian J and the weights W
-/// of the residuals r at the prior pose, `information` is J' W J and `information_vector` is -J' W r, both in x (m),
+/// Correction by a scan in information form, summed over its beams. With the Jacobian J and the weights W of the
+/// residuals r at the prior pose, `information` is J' W J and `information_vector` is -J' W r. Both refer to x (m),
 /// y (m), heading (rad). See ScanMatcher.
 struct PoseCorrection {
   Eigen::Vector3d information_vector = Eigen::Vector3d::Zero();
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  /// Information vector by an error of 1 sigma of each lasting error source; one column per source, or no column.
+  /// Change of the information vector by 1 sigma of each persistent error source; one column per source, or empty.
   Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, kMaxErrorSources> vector_by_source{3, 0};
 };
 
 /// Pose of base_link in map with the errors of its sensors.
 ///
-/// State: x, y, heading, gyro bias, wheel scale error, gyro scale error. The sensors' errors are states and not noise,
-/// because they persist: what they do to the pose grows with distance and time rather than with their square roots,
-/// and a bias found at standstill corrects the heading that it has spoilt on the way.
+/// State: x, y, heading, gyro bias, wheel scale error, gyro scale error. The sensor errors are states instead of noise,
+/// because they persist. Their effect on the pose grows with distance and time, not with the square roots, and a bias
+/// measured at standstill also corrects the heading errors that it caused before.
 ///
-/// Surfaces of a map are wrong by errors that last as long as the map: no number of scans averages them out. They are
-/// considered and not estimated (Schmidt's filter, Jazwinski 1970, 8.4, without its change of the gain): the filter
-/// keeps what an error of 1 sigma of each source does to its state, and adds it to the covariance that it tells.
+/// Errors of map surfaces persist as long as the map, so more scans do not average them out. They are considered but
+/// not estimated (Schmidt filter, Jazwinski 1970, 8.4, without its change of the gain). The filter stores the effect of
+/// 1 sigma of each source on its state, and adds it to the reported covariance.
 class PoseFilter {
  public:
   explicit PoseFilter(const SensorParameters& parameters);
 
-  /// Change of pose by a motion, in base_link before it, as far as the sensors' errors are known.
+  /// Returns the change of pose by a motion, in base_link before it, corrected by the estimated sensor errors.
   Eigen::Vector3d step_of(const Motion& motion) const;
 
-  /// The robot moved.
+  /// Predicts over a motion.
   void move(const Motion& motion);
 
-  /// The robot stood still for a time while the gyro showed this rate.
+  /// Updates the bias with the gyro rate at standstill.
   void stand(double duration_s, double gyro_rate_radps);
 
-  /// What a scan says about the present pose.
+  /// Corrects the present pose with a scan.
   void correct(const PoseCorrection& correction);
 
-  /// The robot was moved by something that neither wheels nor gyro tell.
+  /// Adds noise for a motion that neither wheels nor gyro measured.
   void add_pose_noise(const Eigen::Matrix3d& covariance) { covariance_.topLeftCorner<3, 3>() += covariance; }
 
-  /// The pose is known from elsewhere, independently of what was known before; the sensors' errors stay.
+  /// Sets the pose from an independent source; the sensor errors are kept.
   void set_pose(const Eigen::Vector3d& pose, const Eigen::Matrix3d& covariance);
 
-  /// The number of lasting error sources that later corrections speak of; forgets those before.
+  /// Sets the number of persistent error sources of later corrections, and forgets the previous sources.
   void consider_sources(int count);
 
-  /// x (m), y (m), heading (rad) within (-pi, pi].
+  /// Returns x (m), y (m), heading (rad) within (-pi, pi].
   Eigen::Vector3d pose() const;
-  /// Covariance of the pose without lasting errors: what the next scan is weighed against.
+  /// Returns the pose covariance without persistent errors, as the prior of the next scan.
   Eigen::Matrix3d prior_covariance() const { return covariance_.topLeftCorner<3, 3>(); }
   double x_m() const { return state_[kX]; }
   double y_m() const { return state_[kY]; }
-  /// Within (-pi, pi].
+  /// Heading within (-pi, pi].
   double heading_rad() const;
   double gyro_bias_radps() const { return state_[kBias]; }
   double gyro_bias_sigma_radps() const;
-  /// Relative error of the wheels' distance.
+  /// Relative error of the wheel distance.
   double wheel_scale() const { return state_[kWheelScale]; }
 
-  /// True rate of turn for a rate that the gyro shows.
+  /// Returns the true turn rate for a measured one.
   double corrected_rate(double gyro_rate_radps) const;
-  /// True speed for a speed that the wheels show.
+  /// Returns the true speed for a measured one.
   double corrected_speed(double wheel_speed_mps) const;
 
-  /// Covariance of x (m), y (m), heading (rad), with lasting errors.
+  /// Returns the covariance of x (m), y (m), heading (rad) with persistent errors.
   Eigen::Matrix3d pose_covariance() const;
-  /// Of the position, in its worst direction.
+  /// Returns 1 sigma of the position in its worst direction.
   double position_sigma_m() const;
 
  private:
@@ -100,7 +100,7 @@ class PoseFilter {
   Eigen::Matrix<double, kStates, Eigen::Dynamic, 0, kStates, kMaxErrorSources> by_source_{kStates, 0};
 };
 
-/// 1 sigma of a position in its worst direction.
+/// Returns 1 sigma of a position in its worst direction.
 double worst_sigma_m(const Eigen::Matrix2d& covariance);
 
 }  // namespace mtr_localization

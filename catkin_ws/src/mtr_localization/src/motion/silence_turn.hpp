@@ -1,5 +1,5 @@
 /// @file
-/// When a look for silent sensors counts.
+/// Validity of checks for silent sensors.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace mtr_localization {
 
-/// A node that was woken late looks at the time before it has read what was said meanwhile. So its first look after
-/// that says nothing; the next one counts whatever it was, for a node that is always late has to notice silence, too.
+/// Excuses the first check after a delay, because a delayed node checks before it has read the messages that arrived in
+/// between. The next check always counts, so that a permanently delayed node detects silence, too.
 class SilenceTurn {
  public:
-  /// @param period_ns between two looks of a node that is in time
+  /// @param period_ns time between two checks of a node that is on time
   explicit SilenceTurn(std::int64_t period_ns) : late_ns_(period_ns + period_ns / 2) {}
 
-  /// True when a look at now_ns counts.
+  /// Returns true if a check at now_ns counts.
   bool counts(std::int64_t now_ns) {
     const bool is_late = now_ns > in_time_until_ns_;
     in_time_until_ns_ = now_ns + late_ns_;
@@ -25,7 +25,7 @@ class SilenceTurn {
 
  private:
   std::int64_t late_ns_;
-  // The first look is never late.
+  // The first check is never late.
   std::int64_t in_time_until_ns_ = std::numeric_limits<std::int64_t>::max();
   bool is_excused_ = false;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// Detection of standstill.
+/// Detection of standstill from wheels and gyro.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/standstill.hpp"
 

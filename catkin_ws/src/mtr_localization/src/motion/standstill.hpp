@@ -1,5 +1,5 @@
 /// @file
-/// Whether the robot stands still.
+/// Standstill detector.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,24 +11,24 @@
 
 namespace mtr_localization {
 
-/// Standstill: wheels at rest for the settling time, and the gyro quiet.
+/// Detects standstill: wheels at rest for the settling time, and a quiet gyro.
 class StandstillDetector {
  public:
   explicit StandstillDetector(const SensorParameters& parameters) : parameters_(parameters) {}
 
-  /// Takes the next samples; the rate is the gyro's without its bias.
+  /// Adds the next samples; the rate is corrected by the gyro bias.
   void update(const WheelSample& wheels, double yaw_rate_radps);
 
   /// Forgets the past, as after a gap.
   void reset() { resting_since_ns_.reset(); }
 
-  /// True when the newest samples show no motion.
+  /// True if the newest samples show no motion.
   bool resting() const { return resting_since_ns_.has_value(); }
 
-  /// True when the robot has rested for the settling time.
+  /// True if the robot has rested for the settling time.
   bool standing() const { return standing_s() >= 0.0; }
 
-  /// Time since the robot has been taken to stand still, s; negative when it does not.
+  /// Time since the start of the standstill, s; negative while the robot moves.
   double standing_s() const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Rotation by the gyro, drawn towards gravity.
+/// Integration of the gyro, corrected towards gravity.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/tilt_filter.hpp"
 
@@ -10,15 +10,15 @@ namespace mtr_localization {
 namespace {
 
 constexpr double kGravityMps2 = 9.81;
-// A specific force that differs more from gravity is a blow, a sensor that hangs upside down, or none. While driving
-// and braking in simulation it differed across by at most 2.1; a robot that is put down shows 10 and more.
+// A larger deviation from gravity is a shock, or an IMU that is mounted upside down or broken. Driving and braking in
+// simulation deviate by at most 2.1 laterally; a robot that is put down by 10 and more.
 constexpr double kMaxDifferenceMps2 = 2.5;
-// A difference that lasts longer is no blow: the filter itself was wrong.
+// A longer deviation is not a shock, but an error of the filter.
 constexpr double kMaxBlowS = 1.0;
-// Time after which gravity counts more than the gyro. Measured in simulation on ground with slopes of 1 deg: the error
-// beside the accelerometer's own bias is 0.1 deg with 1 to 4 s.
+// Time constant from gyro to gravity. Measured in simulation on slopes of 1 deg: with 1 to 4 s, the error without the
+// accelerometer bias is 0.1 deg.
 constexpr double kSettlingS = 2.0;
-// The gyro's bias is the mean over so long a standstill.
+// Averaging time of the gyro bias at standstill.
 constexpr double kBiasMeanS = 5.0;
 
 }  // namespace
@@ -38,7 +38,7 @@ void TiltFilter::advance(double duration_s, const ImuSample& imu, double speed_m
     is_known_ = true;
     return;
   }
-  // Turning about y by a positive angle lowers the nose.
+  // A positive turn about y lowers the nose.
   const Eigen::Vector2d rise_rate(-imu.tilt_rate_radps.y(), imu.tilt_rate_radps.x());
   if (standing) {
     measure_bias(duration_s, rise_rate);

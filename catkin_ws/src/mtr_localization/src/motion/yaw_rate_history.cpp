@@ -1,5 +1,5 @@
 /// @file
-/// Retrieval and integration of the gyro's rate.
+/// Lookup and integration of the gyro rate.
 // SPDX-License-Identifier: Apache-2.0
 #include "motion/yaw_rate_history.hpp"
 

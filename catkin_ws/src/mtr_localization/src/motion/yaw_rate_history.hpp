@@ -1,5 +1,5 @@
 /// @file
-/// The gyro's rate over time.
+/// Gyro rate over time.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,36 +11,36 @@
 
 namespace mtr_localization {
 
-/// Recent samples of the gyro, oldest first. A sample that is not plausible is received but not kept.
+/// Recent samples of the gyro, oldest first. Implausible samples are received but not stored.
 ///
-/// A sample is the mean rate since the one before it: gyros filter at the rate at which they are read.
+/// A sample is the mean rate since the previous one, because gyros filter at their output rate.
 class YawRateHistory {
  public:
-  /// Takes the next sample; a second one of an instant is left out. False: its stamp lies before the last one, and
-  /// history begins anew with it.
+  /// Adds the next sample; a second sample at the same time is ignored. Returns false if its stamp is before the last
+  /// one; the history then restarts with it.
   bool add(const ImuSample& sample);
 
-  /// Stamp of the newest sample received, good or not.
+  /// Stamp of the newest received sample, plausible or not.
   std::optional<std::int64_t> newest_received_ns() const { return newest_received_ns_; }
 
-  /// True when the newest sample received is plausible.
+  /// True if the newest received sample is plausible.
   bool newest_is_good() const;
 
-  /// True when samples before, or at, and after, or at, the time are kept.
+  /// True if stored samples enclose the time.
   bool covers(std::int64_t time_ns) const;
 
-  /// Sample whose time a covered time lies in.
+  /// Returns the sample whose interval contains a covered time.
   const ImuSample& sample_at(std::int64_t time_ns) const;
-  /// Rate at a covered time, rad/s.
+  /// Returns the rate at a covered time, rad/s.
   double rate_at(std::int64_t time_ns) const { return sample_at(time_ns).yaw_rate_radps; }
 
-  /// Integral of the rate between two covered times, rad.
+  /// Returns the integral of the rate between two covered times, rad.
   double integral(std::int64_t from_ns, std::int64_t to_ns) const;
 
-  /// Longest time without a sample between two covered times, ns.
+  /// Returns the longest time without a sample between two covered times, ns.
   std::int64_t max_gap_ns(std::int64_t from_ns, std::int64_t to_ns) const;
 
-  /// Drops what is not needed for times from the given one on.
+  /// Drops samples that are not needed for times from the given one on.
   void forget_before(std::int64_t time_ns);
 
  private:

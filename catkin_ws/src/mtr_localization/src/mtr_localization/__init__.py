@@ -1,2 +1,2 @@
-"""Localization's tools in Python: offline replay."""
+"""Python tools of localization: offline replay."""
 # SPDX-License-Identifier: Apache-2.0

@@ -28,12 +28,12 @@ from .any_bag.frames import yaw_of
 from .any_bag.sources import Asked, is_own
 from .replay_faults import GAP_LIMIT_S, Topics, causes, faults, is_useless, shows_nothing
 
-# The first of a drive tells whether its sensors fit together.
+# Duration at the start of a drive that is sufficient to compare its sensors.
 COMPARED_S = 60.0
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Replay and print what came of it; the exit status is 1 after one sentence when the bag cannot be used."""
+    """Replay a bag and print the result; exit status 1 after one sentence if the bag is not usable."""
     options = parser().parse_args(arguments)
     programs = find_node("mtr_localization", "replay_bag")
     if not programs:
@@ -62,9 +62,9 @@ class Conversion(NamedTuple):
     Attributes:
         topics: of the bag.
         parameters: parameters of localization that replace missing inputs.
-        remarks: sentences on the inputs that were found.
+        remarks: sentences about the inputs.
         comparison: lines that compare its sensors with each other.
-        faults: sentences on inputs that cannot be used.
+        faults: sentences about unusable inputs.
     """
 
     topics: Topics
@@ -75,12 +75,12 @@ class Conversion(NamedTuple):
 
 
 def topics_of(found: Found) -> Topics:
-    """Topics of another robot's bag; the front LiDAR is its first."""
+    """Return the topics of another robot's bag; the front LiDAR is the first."""
     return Topics(dict(zip(("front", "rear"), found.mounts)), found.odometry, found.imu)
 
 
 def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Conversion, start_s: float) -> int:
-    """The exit status of the replay of a bag with our topics."""
+    """Run the replay of a bag with standard topics and return the exit status."""
     given = [f"{name}={value}" for name, value in conversion.parameters.items()]
     done = subprocess.run([program, *arguments_of(options, bag, given, start_s)], check=False)
     if done.returncode != 0:
@@ -91,7 +91,7 @@ def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Co
     sentences = faults(summary, conversion.topics, gap_limit_s, conversion.faults)
     print("\n".join([*sentences, *conversion.remarks]))
     if summary["scans_used"] and not shows_nothing(summary):
-        # Advice from scans that cannot be used would only mislead.
+        # Advice from unusable scans would be misleading.
         if not causes(summary, conversion.topics, gap_limit_s, conversion.faults):
             print("\n".join(conversion.comparison))
         report(options, bag, summary)
@@ -99,14 +99,16 @@ def replayed(program: str, options: argparse.Namespace, bag: str, conversion: Co
 
 
 def gap_limit_of(options: argparse.Namespace) -> float:
-    """Longest interval of odometry that localization accepts, in s."""
+    """Return the longest interval of odometry that localization accepts, in s."""
     given = [text.partition("=")[2] for text in options.parameter if text.startswith("gap_limit_s=")]
     return float(given[-1]) if given else GAP_LIMIT_S
 
 
 def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
-    """What LiDARs, wheels and gyro of a converted bag say of each other, a line each: mounts that contradict what is
-    seen are among it. Nothing without mtr_bringup, whose preflight judges."""
+    """Return lines that compare LiDARs, wheels and gyro of a converted bag, including mounts that contradict the scans.
+
+    Empty without mtr_bringup, whose preflight makes the comparison.
+    """
     try:
         from mtr_bringup.preflight.motion.judge import MotionJudge
         from mtr_bringup.recording.motion import motion_in
@@ -126,13 +128,13 @@ def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
 
 
 def show(share: float) -> None:
-    """Of the conversion, for a person at a terminal."""
+    """Show the progress of the conversion on a terminal."""
     if sys.stderr.isatty():
         print(f"\rreading {100.0 * share:3.0f} %", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
 
 
 def seen_in(path: str) -> Tuple[Dict[str, str], float]:
-    """Types of the bag's topics, and when it begins, in s."""
+    """Return the types of the bag's topics, and its start time in s."""
     reason = unusable(pathlib.Path(path))
     if reason:
         raise BagUnusable(reason)
@@ -145,7 +147,7 @@ def seen_in(path: str) -> Tuple[Dict[str, str], float]:
 
 
 class Help(argparse.Action):
-    """Prints the options, and the parameters of localization as the program itself tells them."""
+    """Action that prints the options and the parameters of localization."""
 
     def __call__(self, command_line: argparse.ArgumentParser, *_: Any) -> None:
         command_line.print_help()
@@ -154,13 +156,13 @@ class Help(argparse.Action):
             print("\nThe program replay_bag is not built, so its parameters are not told.")
             command_line.exit()
         told = subprocess.run([programs[0], "--help"], check=True, text=True, capture_output=True).stdout
-        # Its own usage is in the options above.
+        # Skip the usage line of the program.
         print(told[told.index("\n"):], end="")
         command_line.exit()
 
 
 def parser() -> argparse.ArgumentParser:
-    """The command line."""
+    """Return the parser of the command line."""
     parsed = argparse.ArgumentParser(prog="replay", description=__doc__, add_help=False)
     parsed.add_argument("-h", "--help", action=Help, nargs=0, help="show this and each parameter, and end")
     parsed.add_argument("bag", help="recorded drive: scans, IMU, wheel odometry")
@@ -195,13 +197,13 @@ def parser() -> argparse.ArgumentParser:
 
 
 def asked_of(options: argparse.Namespace) -> Asked:
-    """What the person said of the bag."""
+    """Return the user's selection of topics and frames."""
     return Asked(options.front_scan, options.rear_scan, options.odometry, options.imu, options.base_frame, options.urdf,
                  options.scan_delay, options.time_increment)
 
 
 def arguments_of(options: argparse.Namespace, bag: str, parameters: List[str], start_s: float) -> List[str]:
-    """The part of the command line that the replay itself takes. parameters: NAME=VALUE before those of the person."""
+    """Return the arguments of the replay program. parameters: NAME=VALUE, before those of the user."""
     arguments = [bag, "--out", str(options.out)]
     arguments += ["--front-only"] if options.front_only else []
     end = options.loop_end if options.loop_end_after is None else f"{start_s + options.loop_end_after:.9f}"
@@ -228,7 +230,7 @@ def report(options: argparse.Namespace, bag: str, summary: Dict[str, Any]) -> No
 
 
 def car_lines(options: argparse.Namespace, bag: str) -> List[str]:
-    """The Car, or a sentence on why there is none."""
+    """Return lines about the Car, or a sentence with the reason why it was not found."""
     try:
         from mtr_car_locator.conversions import scans_in
         from mtr_car_locator.offline import fit_files, summary_of

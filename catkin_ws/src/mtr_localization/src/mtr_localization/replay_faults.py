@@ -1,4 +1,4 @@
-"""Sentences on what made a replay's poses invalid, and how to replay the bag with success."""
+"""Sentences about the causes of invalid poses in a replay, and how to fix the replay."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence
 
@@ -6,18 +6,21 @@ STAND_STILL = "localization.stand_still"
 FEW_SURFACES = "surfel_map.few_surfaces"
 IMU_SILENT, IMU_NOT_A_NUMBER = "localization.imu_silent", "localization.imu_not_a_number"
 WHEELS_SILENT, WHEELS_NOT_FINITE = "localization.wheels_silent", "localization.wheels_not_finite"
-# A shorter silence costs some poses, and the rest needs no remark.
+# A shorter silence costs few poses and is not reported.
 MAX_SILENT_SHARE = 0.05
-# A few scans are always late: those under way while the pose is set to that of a new map.
+# A few scans are always late: those in progress while the pose is transferred to a new map.
 MAX_LATE_SHARE = 0.05
 # Default of the parameter gap_limit_s, see src/parameters.hpp.
 GAP_LIMIT_S = 0.2
-# Intervals scatter about their mean: closer to the limit than this, many are longer.
+# Intervals vary around their mean; above this share of the limit, many are too long.
 NEAR_LIMIT = 0.95
 
 
 class Topics(NamedTuple):
-    """Topics of the inputs; a LiDAR's key is "front" or "rear". Without an IMU the wheels' turn replaces the gyro."""
+    """Topics of the inputs; keys of scans are "front" and "rear".
+
+    Without an IMU, the turn of the wheels replaces it.
+    """
 
     scans: Dict[str, str]
     odometry: str
@@ -26,33 +29,33 @@ class Topics(NamedTuple):
 
 def faults(summary: Dict[str, Any], topics: Topics, gap_limit_s: float = GAP_LIMIT_S,
            known: Sequence[str] = ()) -> List[str]:
-    """Sentences, the most important first; empty when the replay needs no remark.
+    """Return sentences, the most important first; empty if the replay has no faults.
 
     Args:
         summary: content of summary.json.
-        gap_limit_s: longest interval of odometry and IMU that the replay accepted.
-        known: sentences on inputs, found before the replay.
+        gap_limit_s: longest accepted interval of odometry and IMU in the replay.
+        known: sentences about inputs from before the replay.
     """
     found = causes(summary, topics, gap_limit_s, known)
-    # Scans wait for odometry and IMU: without those they are late, and the gyro's bias is not measured.
+    # Without odometry and IMU, scans are late and the gyro bias is not measured, so such advice is dropped.
     advice = [] if found else [*_late_scans(summary), *_no_standstill(summary)]
     return [*found, *_refused_scans(summary, topics), *advice, *_unused_scans(summary, topics)]
 
 
 def causes(summary: Dict[str, Any], topics: Topics, gap_limit_s: float = GAP_LIMIT_S,
            known: Sequence[str] = ()) -> List[str]:
-    """Sentences on inputs that are slow or silent, for arguments as in faults(); other advice would mislead."""
+    """Return sentences about slow or silent inputs; arguments as in faults(). Other advice would be misleading."""
     found = [*known, *_slow_odometry(summary, topics, gap_limit_s), *_slow_imu(summary, topics, gap_limit_s)]
     return found or _silent_sensors(summary, topics)
 
 
 def is_useless(summary: Dict[str, Any]) -> bool:
-    """True when no pose may be relied on."""
+    """Return True if no pose is reliable."""
     return not summary["scans_used"] or not summary["poses_valid"] or shows_nothing(summary)
 
 
 def shows_nothing(summary: Dict[str, Any]) -> bool:
-    """True when the key-frames of a new map contain no surface: the poses follow the wheels alone."""
+    """Return True if the key frames of a new map contain no surface, so that poses are dead reckoning."""
     return summary.get("surfels") == 0 and any(message["code"] == FEW_SURFACES for message in summary["messages"])
 
 
@@ -101,7 +104,7 @@ def _slow_imu(summary: Dict[str, Any], topics: Topics, gap_limit_s: float) -> Li
 
 
 def _interval_s(summary: Dict[str, Any], samples: str) -> float:
-    """Mean interval; 0 when there are too few samples."""
+    """Return the mean interval; 0 for too few samples."""
     count = summary.get(samples, 0)
     return float(summary["duration_s"] / (count - 1)) if count >= 2 else 0.0
 

@@ -1,5 +1,5 @@
 /// @file
-/// Topics of a bag as events in the order of their stamps.
+/// Conversion of bag topics to events in the order of their stamps.
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/bag_reader.hpp"
 
@@ -24,7 +24,7 @@ namespace {
 namespace names = mtr_core::names;
 
 const char kStaticFrames[] = "/tf_static";
-// Messages were recorded at most so much later than they were complete, or than others.
+// Upper bound of the recording delay of a message after its completion, and relative to other messages.
 constexpr std::int64_t kDisorderNs = 500'000'000;
 
 template <typename M>
@@ -121,14 +121,14 @@ void BagReader::read_fix(const rosbag::MessageInstance& message) {
     const GnssFix sample = gnss_fix_of(*fix, pose_of(mount.transform).head<2>());
     wait(sample.stamp_ns, sample);
   } catch (const tf2::TransformException&) {
-    // The bag does not say where the antenna is: of no use.
+    // Without the mount of the antenna in the bag, fixes are not usable.
   }
 }
 
 void BagReader::read_scan(const rosbag::MessageInstance& message, Lidar lidar) {
   const sensor_msgs::LaserScan::ConstPtr scan = message_of<sensor_msgs::LaserScan>(message);
   Sweep sweep = sweep_of(*scan, lidar, mount_of(scan->header.frame_id, lidar));
-  // Asked before the sweep is moved away: its end needs the count of its beams.
+  // Computed before the move, because it requires the number of beams.
   const std::int64_t end_ns = sweep.end_ns();
   wait(end_ns, std::move(sweep));
 }
@@ -140,7 +140,7 @@ Mount BagReader::mount_of(const std::string& frame, Lidar lidar) const {
       return *mount;
     }
   } catch (const tf2::TransformException&) {
-    // The bag does not say it: as given.
+    // Without a transform in the bag, the parameters define the mount.
     return lidar == Lidar::kFront
                ? Mount{{given.front_lidar_x_m, given.front_lidar_y_m, given.front_lidar_heading_rad}, 0.0, false}
                : Mount{{given.rear_lidar_x_m, given.rear_lidar_y_m, given.rear_lidar_heading_rad}, 0.0, false};

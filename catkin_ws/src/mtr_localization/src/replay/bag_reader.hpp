@@ -1,5 +1,5 @@
 /// @file
-/// What localization hears, from a recorded bag.
+/// Inputs of localization from a recorded bag.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,25 +24,25 @@ namespace mtr_localization::replay {
 
 using Event = std::variant<ImuSample, MapOrder, GnssFix, Sweep, WheelSample>;
 
-/// Messages in the order of the times at which each was complete, whatever order they were recorded in.
+/// Returns messages in the order of their completion times, independent of the recording order.
 class BagReader {
  public:
   explicit BagReader(const Options& options) : options_(options) {}
 
-  /// Throws std::runtime_error with one sentence when the bag cannot be read or lacks scans, IMU or wheel odometry.
+  /// Throws std::runtime_error with one sentence if the bag cannot be read, or lacks scans, IMU or wheel odometry.
   void open();
 
-  /// False at the end of the bag.
+  /// Returns false at the end of the bag.
   bool next(Event& event);
 
-  /// How much of the bag has been read.
+  /// Percentage of the bag that has been read.
   int percent() const;
 
-  /// True when the bag says itself when the way round the Car begins and ends.
+  /// True if the bag contains mapping orders, which start and end the drive round the Car.
   bool has_orders() const { return has_orders_; }
 
  private:
-  /// Time when it was complete; of one time wheel odometry comes last, because it asks for the pose.
+  /// Completion time and rank; at equal times, wheel odometry is last, because it triggers the estimate.
   using Key = std::pair<std::int64_t, std::size_t>;
 
   void require(const std::string& topic, const std::string& what);

@@ -1,5 +1,5 @@
 /// @file
-/// Turn and return of the path.
+/// Full turn and return of the path.
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/loop_detector.hpp"
 
@@ -10,9 +10,9 @@
 namespace mtr_localization::replay {
 namespace {
 
-// The way back to the first place ends beside it: as near as the Car locator's places are approached, and some more.
+// Largest distance of a loop's end from its start: the approach accuracy of the Car locator's places, with a margin.
 constexpr double kReturnedM = 0.8;
-// Turn of the direction of motion; a way out and back, or round a corner and back, turns less.
+// Turn of the direction of motion; driving out and back, or round a corner and back, gives less.
 constexpr double kTurnedRad = 0.9 * 2.0 * M_PI;
 
 bool is_loop(const std::vector<KeyFrame>& frames, std::size_t last) {

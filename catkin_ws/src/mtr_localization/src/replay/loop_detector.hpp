@@ -1,5 +1,5 @@
 /// @file
-/// Notices when a robot has driven round something.
+/// Detection of a closed loop.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace mtr_localization::replay {
 
-/// Watches the key frames as they come.
+/// Examines the key frames as they arrive.
 class LoopDetector {
  public:
-  /// True once the path has come back to where it was and turned a full turn on the way.
+  /// Returns true after the path came back to an earlier place with a full turn.
   bool closes(const std::vector<KeyFrame>& key_frames);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Start of the offline replay.
+/// Entry point of the offline replay.
 // SPDX-License-Identifier: Apache-2.0
 #include <unistd.h>
 
@@ -25,7 +25,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     const Options options = parse(arguments);
-    // For a person at a terminal.
+    // Progress is shown on a terminal only.
     const Progress progress = isatty(STDERR_FILENO) != 0 ? Progress(show) : Progress();
     write_files(Replay(options).run(progress), options.bag, options.folder);
     return 0;

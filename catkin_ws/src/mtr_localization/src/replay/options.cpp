@@ -1,5 +1,5 @@
 /// @file
-/// Parsing of the command line.
+/// Command-line parsing.
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/options.hpp"
 
@@ -24,12 +24,12 @@ double number_of(const std::string& text, const std::string& what) {
       return value;
     }
   } catch (const std::logic_error&) {
-    // Told below.
+    // Reported below.
   }
   throw std::runtime_error(what + " is '" + text + "', which is no number.");
 }
 
-/// False when no row has the name; throws ConfigurationError for a value out of range.
+/// Sets a parameter. Returns false if no row has the name; throws ConfigurationError for a value out of range.
 template <typename Rows, typename P>
 bool set(const Rows& rows, P& parameters, const std::string& name, double value) {
   for (const auto& row : rows) {
@@ -48,7 +48,7 @@ void set_parameter(Options& options, const std::string& assignment) {
   }
   const std::string name = assignment.substr(0, sign);
   const double value = number_of(assignment.substr(sign + 1), "Parameter " + name);
-  // One name may stand in several groups: noise of a sensor is one parameter to a person, whoever uses it.
+  // Several groups may share a name: the noise of a sensor is one parameter for all its users.
   bool is_known = set(kMountingRows, options.mounting, name, value);
   for_each_group(options.parameters,
                  [&](const auto& rows, auto& group) { is_known = set(rows, group, name, value) || is_known; });
@@ -57,7 +57,7 @@ void set_parameter(Options& options, const std::string& assignment) {
   }
 }
 
-/// A line for each row whose name has not been told yet.
+/// Appends a line for each row whose name is not yet listed.
 template <typename Rows, typename P>
 void tell(const Rows& rows, const P& parameters, std::set<std::string>& told, std::ostringstream& text) {
   for (const auto& row : rows) {

@@ -13,7 +13,7 @@
 
 namespace mtr_localization::replay {
 
-/// Where the LiDARs sit on the robot, for bags without /tf_static; defaults from mtr_description.
+/// Mounts of the LiDARs for bags without /tf_static; defaults from mtr_description.
 struct Mounting {
   double front_lidar_x_m = 0.12;
   double front_lidar_y_m = 0.0;
@@ -36,22 +36,22 @@ struct Options {
   std::string bag;
   std::string folder;
   bool front_only = false;
-  /// Time of the bag's stamps at which the way round the Car ends; without it by the bag's orders, or when it closes.
+  /// Stamp at which the drive round the Car ends; without it, the orders of the bag or loop closure define the end.
   std::optional<std::int64_t> loop_end_ns;
-  /// File map.bag of another replay: it is localized on, and none is made; empty: one is made.
+  /// File map.bag of another replay, used for localization; if empty, a new map is made.
   std::string map;
-  /// Where base_link is on that map at the first odometry: x, y (m), heading (rad); without it as the map remembers.
+  /// Pose of base_link on that map at the first odometry: x, y (m), heading (rad); by default the stored pose.
   std::optional<std::array<double, 3>> begin_at;
   Parameters parameters;
   Mounting mounting;
 };
 
-/// Throws std::runtime_error with one sentence for what cannot be understood.
+/// Throws std::runtime_error with one sentence for invalid arguments.
 Options parse(const std::vector<std::string>& arguments);
 
-/// Somebody asks what there is.
+/// Returns true if help is requested.
 bool asks_for_help(const std::vector<std::string>& arguments);
-/// Usage, and each parameter with its default and range, a line each.
+/// Returns the usage, and one line per parameter with its default and range.
 std::string help();
 
 }  // namespace mtr_localization::replay

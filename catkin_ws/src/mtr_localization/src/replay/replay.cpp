@@ -1,5 +1,5 @@
 /// @file
-/// Events to the localizer, its answers to the result.
+/// Feeds events to the localizer and collects its output.
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/replay.hpp"
 
@@ -14,9 +14,9 @@
 namespace mtr_localization::replay {
 namespace {
 
-// The map that is made when the bag has no orders bears this id.
+// Id of the map if the bag has no orders.
 constexpr std::uint64_t kMapCarId = 1;
-// As well as a person tells a place.
+// Accuracy of a start pose given by a person.
 constexpr double kBeginSigmaM = 0.05;
 constexpr double kBeginSigmaRad = 0.02;
 
@@ -26,7 +26,7 @@ double cpu_s(clockid_t clock) {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
-/// CPU time of the calling thread since it was made.
+/// CPU time of the calling thread since construction.
 class CpuTimer {
  public:
   double elapsed_s() const { return cpu_s(CLOCK_THREAD_CPUTIME_ID) - begun_s_; }
@@ -83,7 +83,7 @@ void Replay::go_on_with_map() {
   result_.is_map_new = false;
   has_map_ = true;
   if (options_.begin_at) {
-    // It is told for the first odometry, which has not been read yet.
+    // The start pose refers to the first odometry, which has not been read yet.
     memory_ = std::move(memory);
   } else {
     localizer_.go_on(std::move(memory));
@@ -167,7 +167,7 @@ void Replay::finish_map() {
   if (has_map_) {
     return;
   }
-  // The bag ended before its map was due: what there is shows at least what is missing.
+  // The bag ended before its map was due: adjust the available key frames to report at least what is missing.
   result_.map.map = mtr_surfel_map::adjust(localizer_.key_frames(), options_.parameters.adjustment);
   result_.map.grid = occupancy_of(result_.map.map);
   const mtr_core::Problem early{"", "The bag ends before the map takes effect.", {}, nullptr};

@@ -1,5 +1,5 @@
 /// @file
-/// A bag through the localizer.
+/// Replay of a bag through the localizer.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,30 +18,30 @@
 
 namespace mtr_localization::replay {
 
-/// A sentence of the localizer: its code, the stamp at which it came first, and how often it came.
+/// Message of the localizer: its code, first stamp and number of occurrences.
 struct Note {
   std::string code;
   std::int64_t first_ns = 0;
   int count = 0;
 };
 
-/// What the bag gave.
+/// Result of a replay.
 struct Result {
   std::vector<Estimate> trajectory;
-  /// The last map that was made; without any, invalid and with the reason.
+  /// Last map, or an invalid one with the reason.
   MapResult map;
-  /// It was made of this bag; else it came with the options.
+  /// True if the map was made from this bag, false if it was given in the options.
   bool is_map_new = true;
-  /// Sentences of the localizer, by text.
+  /// Messages of the localizer, by text.
   std::map<std::string, Note> messages;
-  /// Reasons for refused scans, by LiDAR and text.
+  /// Counts of rejected scans, by LiDAR and reason.
   std::map<std::pair<Lidar, std::string>, int> refusals;
   int imu_samples = 0;
   int wheel_samples = 0;
   int sweeps = 0;
   int sweeps_refused = 0;
   int sweeps_used = 0;
-  /// CPU time of tracking, and the longest of one answer to wheel odometry or gyro.
+  /// CPU time of tracking, and its maximum for one message of wheel odometry or gyro.
   double tracking_s = 0.0;
   double max_ms = 0.0;
   /// CPU time of the adjustment.
@@ -49,19 +49,19 @@ struct Result {
   double wall_s = 0.0;
 };
 
-/// Is told the part of the bag that has been read, in whole percent, whenever it has grown.
+/// Callback with the percentage of the bag that has been read, whenever it increases.
 using Progress = std::function<void(int percent)>;
 
-/// Feeds one bag; takes the bag's orders, or collects from the start and freezes when the path closes.
+/// Replays one bag with its orders; without orders, it collects from the start and freezes at loop closure.
 class Replay {
  public:
   explicit Replay(const Options& options) : options_(options), reader_(options), localizer_(options.parameters) {}
 
-  /// Throws std::runtime_error with one sentence when the bag cannot be used.
+  /// Throws std::runtime_error with one sentence if the bag is not usable.
   Result run(const Progress& progress = {});
 
  private:
-  /// Without one used scan the trajectory is dead reckoning, which nothing has confirmed.
+  /// Without any used scan, the trajectory is unconfirmed dead reckoning.
   void invalidate_trajectory();
   void go_on_with_map();
   void begin_at(const WheelSample& sample);
@@ -70,7 +70,7 @@ class Replay {
   void take(const GnssFix& fix);
   void take(Sweep sweep);
   void take(WheelSample sample);
-  /// Takes poses: wheel odometry's that came in time, or a gyro sample's that odometry had to wait for.
+  /// Collects the estimates of wheel odometry, or of a gyro sample for which odometry was waiting.
   void track(const std::function<std::vector<Estimate>()>& answer);
   void give_order(std::int64_t now_ns);
   void finish_map();
@@ -81,7 +81,7 @@ class Replay {
   Localizer localizer_;
   LoopDetector loop_;
   Result result_;
-  /// Until the first odometry says where the robot is in it.
+  /// Previous map, until the first odometry defines the pose on it.
   std::optional<Memory> memory_;
   bool has_map_ = false;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// CSV of the poses, JSON of the figures, and the map's own files.
+/// Output of a replay: CSV of poses, JSON of figures, and map files.
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/result_files.hpp"
 
@@ -44,7 +44,7 @@ void write_trajectory(const std::vector<Estimate>& trajectory, const std::string
   }
 }
 
-/// As TUM's tools and evo read it: time, position, quaternion; valid poses alone.
+/// Writes valid poses in the format of the TUM tools and evo: time, position, quaternion.
 void write_tum(const std::vector<Estimate>& trajectory, const std::string& path) {
   std::ofstream file = open(path);
   file << std::fixed << "# timestamp tx ty tz qx qy qz qw\n";
@@ -56,7 +56,7 @@ void write_tum(const std::vector<Estimate>& trajectory, const std::string& path)
   }
 }
 
-/// Text as JSON: control characters do not occur in sentences.
+/// Quotes a text for JSON; messages do not contain control characters.
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char character : text) {

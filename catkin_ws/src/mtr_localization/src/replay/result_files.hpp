@@ -1,5 +1,5 @@
 /// @file
-/// Files of a replay.
+/// Output files of a replay.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace mtr_localization::replay {
 
-/// Writes trajectory.csv, surfaces.csv, key_frames.csv, map.pgm, map.yaml and summary.json into the folder, which it
-/// makes. Throws std::runtime_error with one sentence.
+/// Writes trajectory.csv, surfaces.csv, key_frames.csv, map.pgm, map.yaml and summary.json into the folder, which is
+/// created. Throws std::runtime_error with one sentence.
 void write_files(const Result& result, const std::string& bag, const std::string& folder);
 
 }  // namespace mtr_localization::replay

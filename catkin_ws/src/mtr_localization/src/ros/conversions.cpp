@@ -1,5 +1,5 @@
 /// @file
-/// ROS messages to the core's types and back.
+/// Conversions between ROS messages and core types.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/conversions.hpp"
 
@@ -17,10 +17,10 @@ namespace {
 // Cosine of 5 degrees.
 constexpr double kLevel = 0.996;
 
-// A quaternion is a rotation when its norm is 1; single precision and rounding in text leave this.
+// Tolerance of the norm of a rotation quaternion, for single precision and rounding in text.
 constexpr double kNormTolerance = 0.05;
 
-/// Direction of the rotated x axis in the plane; NaN for what is no rotation, such as a quaternion of zeros.
+/// Returns the direction of the rotated x axis in the plane, or NaN for an invalid rotation, such as a zero quaternion.
 double heading_of(const geometry_msgs::Quaternion& rotation) {
   const double norm =
       std::sqrt(rotation.w * rotation.w + rotation.x * rotation.x + rotation.y * rotation.y + rotation.z * rotation.z);
@@ -49,7 +49,7 @@ std::uint8_t mode_of(PoseMode mode) {
 ImuSample imu_sample_of(const sensor_msgs::Imu& message) {
   const auto& rate = message.angular_velocity;
   const auto& force = message.linear_acceleration;
-  // REP-145: a covariance of -1 says that the sensor does not measure this.
+  // REP-145: a covariance of -1 marks a quantity that is not measured.
   const bool has_force = message.linear_acceleration_covariance[0] != -1.0;
   return {mtr_core::to_ns(message.header.stamp),
           rate.z,
@@ -61,7 +61,7 @@ GnssFix gnss_fix_of(const sensor_msgs::NavSatFix& message, const Eigen::Vector2d
   const auto& covariance = message.position_covariance;
   const bool is_known = message.status.status >= sensor_msgs::NavSatStatus::STATUS_FIX &&
                         message.position_covariance_type != sensor_msgs::NavSatFix::COVARIANCE_TYPE_UNKNOWN;
-  // Larger eigenvalue of the horizontal part.
+  // Larger eigenvalue of the horizontal covariance.
   const double mean = 0.5 * (covariance[0] + covariance[4]);
   const double variance = mean + std::hypot(0.5 * (covariance[0] - covariance[4]), covariance[1]);
   const double rad = M_PI / 180.0;

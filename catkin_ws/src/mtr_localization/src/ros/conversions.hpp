@@ -1,5 +1,5 @@
 /// @file
-/// ROS messages to the core's types and back.
+/// Conversions between ROS messages and core types.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,7 +29,7 @@ GnssFix gnss_fix_of(const sensor_msgs::NavSatFix& message, const Eigen::Vector2d
 
 MapOrder order_of(const mtr_msgs::MappingOrder& message);
 
-/// Where a LiDAR sits on base_link.
+/// Mount of a LiDAR on base_link.
 struct Mount {
   PoseVector pose = PoseVector::Zero();
   double height_m = 0.0;
@@ -38,13 +38,13 @@ struct Mount {
 
 Sweep sweep_of(const sensor_msgs::LaserScan& message, Lidar lidar, const Mount& mount);
 
-/// Where a LiDAR sits, of base_link's transform to its frame; none when it is not level.
+/// Returns the mount from the transform of base_link to the LiDAR frame, or nothing if the LiDAR is not level.
 std::optional<Mount> mount_from(const geometry_msgs::TransformStamped& base_from_lidar);
 PoseVector pose_of(const geometry_msgs::Transform& transform);
 
 mtr_msgs::LocalizedPose message_of(const Estimate& estimate);
 
-/// Transform parent_from_child, in the plane; stamp in ns, translation in m, rotation in rad.
+/// Planar transform parent_from_child; stamp in ns, translation in m, rotation in rad.
 struct Transform2 {
   std::string parent;
   std::string child;

@@ -1,5 +1,5 @@
 /// @file
-/// State of localization for /diagnostics.
+/// Diagnostic status of localization for /diagnostics.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/diagnostics.hpp"
 

@@ -1,5 +1,5 @@
 /// @file
-/// State of localization for /diagnostics.
+/// Diagnostic status of localization for /diagnostics.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace mtr_localization {
 
-/// One status: OK while valid, a warning while it waits or is degenerate, an error when lost.
+/// Returns one status: OK while valid, a warning while waiting or degenerate, an error when lost.
 diagnostic_msgs::DiagnosticArray diagnostics_of(const PoseFigures& figures, const Estimate& estimate,
                                                 const WorkLoad& load);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Topic to samples of the core.
+/// Conversion of fixes from the topic to core samples.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/gnss_input.hpp"
 

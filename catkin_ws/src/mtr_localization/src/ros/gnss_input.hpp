@@ -1,5 +1,5 @@
 /// @file
-/// Fixes of a satellite receiver, where there is one.
+/// Optional satellite receiver.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,16 +14,15 @@
 
 namespace mtr_localization {
 
-/// Subscription that gives fixes whose antenna is in the robot's description; says in one sentence why others are not
-/// used.
+/// Subscription to fixes whose antenna is in the robot description; logs one sentence about rejected fixes.
 class GnssInput {
  public:
-  /// @param take gets each fix; false: it is refused
+  /// @param take receives each fix and returns false if it is rejected
   GnssInput(ros::NodeHandle& node, const RobotFrames& frames, std::function<bool(const GnssFix&)> take);
 
  private:
   void receive(const sensor_msgs::NavSatFix& message);
-  /// Empty when the fix was taken.
+  /// Returns the reason of a rejection, or an empty text.
   std::string problem_of(const sensor_msgs::NavSatFix& message) const;
 
   const RobotFrames& frames_;

@@ -1,5 +1,5 @@
 /// @file
-/// Starts the localization node.
+/// Entry point of the localization node.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_core/run_node.hpp"
 #include "ros/node.hpp"

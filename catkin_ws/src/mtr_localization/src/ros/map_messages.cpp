@@ -1,5 +1,5 @@
 /// @file
-/// Conversion of the map, and drawing of what localization works with.
+/// Conversion of the map to messages, and markers of the localization state.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/map_messages.hpp"
 
@@ -17,7 +17,7 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kEllipseSigmas = 3.0;
-// Height of the LiDARs' plane above base_link's, so that surfaces show where the scans do.
+// Height of the scan plane above base_link, so that surfaces are drawn at the height of the scans.
 constexpr double kShownAtM = 0.2;
 
 mtr_msgs::KeyFrame message_of(const KeyFrame& frame, const Eigen::Matrix3d& covariance) {

@@ -1,5 +1,5 @@
 /// @file
-/// The frozen map as messages.
+/// Messages of the frozen map.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +15,7 @@ namespace mtr_localization {
 mtr_msgs::SurfaceMap message_of(const MapResult& result);
 nav_msgs::OccupancyGrid grid_message_of(const MapResult& result);
 
-/// What a person sees in rviz: surfaces, key frames, and the ellipse of 3 sigma round the robot.
+/// Returns markers for rviz: surfaces, key frames, and the 3-sigma ellipse of the robot.
 visualization_msgs::MarkerArray markers_of(const PoseSource& source, const Estimate& estimate);
 
 }  // namespace mtr_localization

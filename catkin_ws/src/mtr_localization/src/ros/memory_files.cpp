@@ -1,5 +1,5 @@
 /// @file
-/// What is kept when, and the thread that writes it.
+/// Storage of map and pose, and the writer thread.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/memory_files.hpp"
 
@@ -13,7 +13,7 @@
 namespace mtr_localization {
 namespace {
 
-// roslaunch starts a node again after 2 s, on a busy machine later. Longer ago somebody may have carried the robot.
+// roslaunch restarts a node after 2 s, or later on a busy machine. After a longer time the robot may have been moved.
 constexpr double kForgottenAfterS = 30.0;
 
 void remove_file(const std::string& path) {
@@ -23,7 +23,7 @@ void remove_file(const std::string& path) {
   }
 }
 
-/// What a file holds, if it is of this run.
+/// Reads a file; returns nothing if it belongs to another run or is not usable.
 template <typename Content>
 std::optional<Content> read(std::optional<Content> (*reader)(const std::string&), const std::string& path) {
   try {

@@ -1,5 +1,5 @@
 /// @file
-/// Keeps the map and the pose in files, beside the work, so that a restart goes on with them.
+/// Stores map and pose in files in the background, so that a restart can resume with them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,24 +16,24 @@
 
 namespace mtr_localization {
 
-/// Files of one run of roslaunch: a map of another run is not gone on with, for the robot may have been anywhere since.
-/// Writing waits for the disk in a thread of its own; of two writes of one file the newer counts.
+/// Files of one run of roslaunch. A map of another run is not resumed, because the robot may have been moved since. A
+/// separate thread waits for the disk; of two pending writes to one file, the newer one is executed.
 class MemoryFiles {
  public:
-  /// @param folder is made when there is something to keep; empty: nothing is kept
-  /// @param run_id of roslaunch; empty: nothing is kept
+  /// @param folder is created when needed; if empty, nothing is stored
+  /// @param run_id of roslaunch; if empty, nothing is stored
   MemoryFiles(const std::string& folder, std::string run_id);
   MemoryFiles(const MemoryFiles&) = delete;
   MemoryFiles& operator=(const MemoryFiles&) = delete;
-  /// What is still to be written is written before.
+  /// Finishes pending writes.
   ~MemoryFiles();
 
-  /// What a process of this run left; none when there is nothing of use, which is told in the log.
+  /// Returns the map of a previous process in this run, or nothing and a log message without a usable one.
   std::optional<SavedMap> map();
   std::optional<RememberedPose> pose() const;
 
   void keep_map(SavedMap map);
-  /// A pose that was answered: a valid one in an adjusted map is kept now and then, any other ends what was kept.
+  /// Stores a valid pose in an adjusted map periodically; any other pose deletes the stored one.
   void note(const Estimate& estimate);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Wiring of localization: topics to the source of poses.
+/// Wiring of localization: topics and the pose source.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/node.hpp"
 
@@ -25,9 +25,9 @@ namespace {
 namespace names = mtr_core::names;
 
 constexpr double kPeriodS = static_cast<double>(mtr_core::kLocalization.period_ns) * 1e-9;
-// Wheels and IMU publish every period; a message that is later than this may have arrived and wait to be read.
+// Wheels and IMU publish every period; after this time, a message may have arrived without having been read.
 constexpr std::int64_t kUnreadAfterNs = 5 * mtr_core::kLocalization.period_ns / 2;
-// A busy machine suspends the reading thread for less than this.
+// Longest suspension of the reading thread on a busy machine.
 constexpr double kReadWithinS = 0.25;
 
 template <typename M, typename Callback>
@@ -37,11 +37,11 @@ ros::Subscriber subscribe(ros::NodeHandle& node, const char* topic, Callback cal
       ros::TransportHints().tcpNoDelay());
 }
 
-/// Where another program has odom in map.
+/// Returns the pose of odom in map from another program.
 std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& transforms) {
   try {
     const auto transform = transforms.lookupTransform(names::kMap, names::kOdom, ros::Time(0));
-    // The newest there is, perhaps of long ago: how old such a transform usually is, nobody knows.
+    // The newest transform may be old, so its usual age is unknown.
     std::int64_t unknown_age_ns = 0;
     return StampedPose{time_of(mtr_core::to_ns(transform.header.stamp), unknown_age_ns), pose_of(transform.transform)};
   } catch (const tf2::TransformException&) {
@@ -49,8 +49,8 @@ std::optional<StampedPose> map_from_odom_in(const tf2_ros::Buffer& transforms) {
   }
 }
 
-/// The run whose memory counts; empty without roslaunch. Its own word lasts as long as the ROS master, which may
-/// outlive the robot's start.
+/// Returns the id of the run for stored files, or an empty text without roslaunch. /run_id lasts as long as the ROS
+/// master, which may outlive a start of the robot, so a separate id takes precedence.
 std::string this_run() { return ros::param::param(names::kRobotRun, ros::param::param("/run_id", std::string())); }
 
 }  // namespace
@@ -66,7 +66,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   reader.read("pose_source", parameters.pose_source, {"own", "external"});
   reader.read("memory_folder", parameters.memory_folder);
   if (parameters.pose_source == "external" && !parameters.publish_odom_tf) {
-    // The other program's transform would end at the base's odom, which drifts away from the one that is known here.
+    // The external transform would refer to the base's odom frame, which drifts away from the odom frame of this node.
     throw mtr_core::ConfigurationError(
         "Parameter pose_source is external and publish_odom_tf false; allowed is external with publish_odom_tf true, "
         "and the base has to leave odom to base_link to localization.");
@@ -75,7 +75,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
 }
 
 std::unique_ptr<PoseSource> Node::pose_source_of(NodeParameters parameters) {
-  // In a replay the clock waits for what this node computes, as offline.
+  // In a replay, the clock waits for this node, as offline.
   parameters.localization.lockstep = mtr_core::is_held();
   if (parameters.pose_source == "external") {
     return std::make_unique<ExternalPose>(parameters.localization, parameters.external,
@@ -134,7 +134,7 @@ void Node::spin() {
 }
 
 bool Node::may_have_unread(std::int64_t now_ns) const {
-  // In lock-step the clock waits for what is due.
+  // In lock-step, the clock waits until everything due has been processed.
   return !mtr_core::is_lockstep() && now_ns - std::min(newest_imu_ns_, newest_wheels_ns_) > kUnreadAfterNs;
 }
 
@@ -145,7 +145,7 @@ void Node::read_arrived() {
 
 void Node::check_silence() {
   const auto now_ns = std::exchange(silence_due_ns_, std::nullopt);
-  // In lock-step nobody is late: the clock waits.
+  // In lock-step, the clock waits, so this node is never late.
   if (now_ns && (silence_turn_.counts(*now_ns) || mtr_core::is_lockstep())) {
     publish(source_->check_silence(*now_ns));
   }
@@ -161,13 +161,13 @@ void Node::answer_waiting() {
 
 void Node::subscribe_to_time(ros::NodeHandle& node) {
   if (mtr_core::is_simulated()) {
-    // By the simulated clock's own steps, so that silence is noticed at the same instant on any machine.
+    // Check at the steps of the simulated clock, so that silence is detected at the same time on any machine.
     clock_ = node.subscribe<rosgraph_msgs::Clock>(
         "/clock", 1,
         [this](const rosgraph_msgs::Clock::ConstPtr& message) { silence_due_ns_ = mtr_core::to_ns(message->clock); },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   } else {
-    // Before the first message has come the stamps of what is sent are the ROS clock's already.
+    // Initialise the clock mapping, because stamps of messages sent before the first input are ROS times, too.
     std::int64_t age_ns = 0;
     time_of(mtr_core::to_ns(ros::Time::now()), age_ns);
     timer_ = node.createSteadyTimer(ros::WallDuration(kPeriodS), [this](const ros::SteadyTimerEvent&) {
@@ -191,7 +191,7 @@ void Node::publish(std::vector<Estimate> estimates) {
 void Node::receive_sweep(Sweep sweep) {
   sweep.stamp_ns = time_of(sweep.stamp_ns, sweep.lidar == Lidar::kFront ? ages_.front_ns : ages_.rear_ns);
   if (!mtr_core::is_lockstep() && !(!waiting_.empty() && may_have_unread(waiting_.back().stamp_ns))) {
-    // A node that was woken late has received both at once: the wheels came first.
+    // After a delay, both messages were received at once: process the wheels first.
     answer_waiting();
   }
   const std::int64_t end_ns = sweep.end_ns();
@@ -201,7 +201,7 @@ void Node::receive_sweep(Sweep sweep) {
   }
   scan_problem_ = problem;
   const WorkLoad::Timer timer;
-  // On the robot's own clock a scan is used at once; the next pose comes with the next wheel odometry.
+  // On the robot's own clock, a scan is used at once; the next pose follows with the next wheel odometry.
   if (source_->use_scans()) {
     load_.add(timer.elapsed_ms(), 1);
     if (source_->owns_map_frame()) {

@@ -1,5 +1,5 @@
 /// @file
-/// Localization as a ROS node.
+/// ROS node of localization.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -32,28 +32,28 @@
 
 namespace mtr_localization {
 
-/// Parameters from the parameter server.
+/// Parameters of the node from the parameter server.
 struct NodeParameters {
   Parameters localization;
-  /// Where the pose comes from: own, or another program.
+  /// Source of the pose: own, or external.
   std::string pose_source = "own";
   ExternalParameters external;
   ScanParameters scans;
-  /// False: the robot has none, and its description need not either.
+  /// False if the robot and its description have no rear LiDAR.
   bool rear_lidar = true;
-  /// Publish odom -> base_link; false when the base does so itself.
+  /// True to publish odom -> base_link, false if the base publishes it.
   bool publish_odom_tf = true;
-  /// Of the files with which a process that is started again in the same run goes on; empty: none.
+  /// Folder of the files for a restart within the same run; empty to store nothing.
   std::string memory_folder;
 };
 
-/// Answers each wheel odometry message; needs no tick of its own.
+/// Publishes one estimate per wheel odometry message, without a timer.
 class Node {
  public:
   /// Throws mtr_core::ConfigurationError.
   static NodeParameters read(mtr_core::ParameterReader& reader);
 
-  /// Throws mtr_core::ConfigurationError when the robot's description lacks a LiDAR, or has it where it cannot serve.
+  /// Throws mtr_core::ConfigurationError if a LiDAR is missing in the robot description or not level.
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
   /// Returns at shutdown.
@@ -68,17 +68,18 @@ class Node {
   void receive_order(const mtr_msgs::MappingOrder& message);
   void answer(const WheelSample& wheels);
   void answer_waiting();
-  /// True when the newest message of wheels or IMU is so old at a time that one more may have arrived unread.
+  /// True if the newest wheel or IMU message is so old that another one may have arrived unread.
   bool may_have_unread(std::int64_t now_ns) const;
-  /// Runs the callbacks of all that has arrived; not from within one. What the wheels said is waiting_ then.
+  /// Runs the callbacks of all arrived messages; must not be called from a callback. Wheel samples are then in
+  /// waiting_.
   void read_arrived();
-  /// After all that has come was taken: a node that was woken late would else call silent what has spoken meanwhile.
+  /// Checks after all arrived messages were processed; otherwise a delayed node would report sensors as silent.
   void check_silence();
   void publish(std::vector<Estimate> estimates);
-  /// Publishes what came of the wheels or the gyro, whichever was the later; its work counts as load.
+  /// Publishes the estimates of wheels or gyro, whichever arrived later; adds the work to the load.
   void publish_measured(const std::function<std::vector<Estimate>()>& answer);
 
-  /// Of the message of each producer that came last, see mtr_core::StampClock::time_of.
+  /// Age of the last message of each producer, see mtr_core::StampClock::time_of.
   struct Ages {
     std::int64_t imu_ns = 0;
     std::int64_t wheels_ns = 0;

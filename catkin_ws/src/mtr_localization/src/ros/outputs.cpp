@@ -1,5 +1,5 @@
 /// @file
-/// Estimates and maps to topics.
+/// Publication of estimates and maps.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/outputs.hpp"
 
@@ -71,7 +71,7 @@ const std::array<double, 3>& Outputs::odom_of(const Estimate& estimate) const {
 }
 
 void Outputs::publish_map_from_odom(std::int64_t stamp_ns, const Estimate& corrected) {
-  // Sweeps of two LiDARs may end at one instant, or at that of a pose.
+  // Sweeps of two LiDARs may end at the same time, or at the time of a pose.
   if (map_stamps_.note(stamp_ns)) {
     transforms_.sendTransform(map_from_odom_message(stamp_ns, corrected, odom_of(corrected)));
   }

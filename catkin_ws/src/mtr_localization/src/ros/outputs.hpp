@@ -20,20 +20,20 @@ namespace mtr_localization {
 
 class Outputs {
  public:
-  /// @param publish_odom_tf also odom -> base_link, which else the base publishes itself
-  /// @param memory takes what a restart goes on with; has to outlive this
+  /// @param publish_odom_tf also publish odom -> base_link, if the base does not
+  /// @param memory stores the state for a restart; must outlive this object
   Outputs(ros::NodeHandle& node, bool publish_odom_tf, MemoryFiles& memory);
 
-  /// A map that a process of before has made.
+  /// Publishes the map of a previous process.
   void publish_map_of_before(const SavedMap& saved);
 
-  /// A new map before the first pose that is in it, then the estimates.
+  /// Publishes a new map before the first pose in it, then the estimates.
   void publish(PoseSource& source, const std::vector<Estimate>& estimates, const WorkLoad& load);
-  /// Between two estimates: where odom is by the pose that the newest scan has corrected.
+  /// Publishes the pose of odom after a scan corrected it between two estimates.
   void publish_map_from_odom(std::int64_t stamp_ns, const Estimate& corrected);
 
  private:
-  /// Base_link in the odom of tf: x, y (m), heading (rad).
+  /// Pose of base_link in the odom frame of tf: x, y (m), heading (rad).
   const std::array<double, 3>& odom_of(const Estimate& estimate) const;
   void publish_map(const MapResult& result, bool with_grid);
   void publish_transforms(const Estimate& estimate, bool with_map);

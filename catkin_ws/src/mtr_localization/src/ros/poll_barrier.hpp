@@ -1,5 +1,5 @@
 /// @file
-/// Waits until everything that has arrived at this process has been read.
+/// Waiting until all messages that have arrived at this process are read.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,8 +11,9 @@
 
 namespace mtr_localization {
 
-/// One thread of roscpp reads all connections, one after the other. On a busy machine it is suspended between two of
-/// them, so that the wheels' messages of half a second are there while those of the IMU still wait in their socket.
+/// Flushes the receive sockets. One thread of roscpp reads all connections in turn. On a busy machine it may be
+/// suspended in between, so that wheel messages of half a second were read while IMU messages still wait in their
+/// socket.
 class PollBarrier {
  public:
   PollBarrier()
@@ -25,14 +26,14 @@ class PollBarrier {
   PollBarrier(const PollBarrier&) = delete;
   PollBarrier& operator=(const PollBarrier&) = delete;
 
-  /// Returns when all connections have been read once since the call, or at the latest after max_wall_s.
+  /// Returns after all connections were read once since the call, or after max_wall_s.
   void wait(double max_wall_s) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(max_wall_s);
-    // The pass that is under way may be past a connection; a whole one follows it.
+    // The current pass may already be past a connection, so a complete one must follow.
     for (int pass = 0; pass < 2; ++pass) {
       std::unique_lock<std::mutex> lock(mutex_);
       const unsigned before = passes_;
-      // Without it the reading thread would wait for the next message.
+      // Without the signal, the reading thread would wait for the next message.
       ros::PollManager::instance()->getPollSet().signal();
       if (!changed_.wait_until(lock, deadline, [&] { return passes_ != before; })) {
         return;

@@ -1,5 +1,5 @@
 /// @file
-/// The description's answers as mounts of localization.
+/// Conversion of the robot description to mounts.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/robot_frames.hpp"
 

@@ -1,5 +1,5 @@
 /// @file
-/// Where sensors sit on the robot, by its description.
+/// Sensor mounts from the robot description.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,16 +12,16 @@
 
 namespace mtr_localization {
 
-/// Mounts of the frames that messages name, each asked for once.
+/// Mounts by frame of the messages, each looked up once.
 class RobotFrames {
  public:
-  /// Throws mtr_core::ConfigurationError unless the LiDARs sit upright and level on the robot.
-  /// @param lidars links of the LiDARs that the robot has, by the frames in which they speak
+  /// Throws mtr_core::ConfigurationError if a LiDAR is not upright and level on the robot.
+  /// @param lidars links of the LiDARs, by the frames of their messages
   RobotFrames(const mtr_description::RobotGeometry& geometry, const std::map<std::string, std::string>& lidars);
 
-  /// Mount of a LiDAR that is upright and level; null after a warning, once for each frame, when it is not.
+  /// Returns the mount of an upright and level LiDAR; otherwise null, with a warning once per frame.
   const Mount* lidar(const std::string& frame);
-  /// Mount of any sensor; throws mtr_core::ConfigurationError.
+  /// Returns the position of an antenna; throws mtr_core::ConfigurationError.
   PoseVector antenna(const std::string& frame) const;
 
  private:

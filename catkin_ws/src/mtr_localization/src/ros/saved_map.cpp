@@ -1,5 +1,5 @@
 /// @file
-/// The map's types to messages, messages to bags, and back.
+/// Conversion between map, messages and bags.
 // SPDX-License-Identifier: Apache-2.0
 #include "ros/saved_map.hpp"
 
@@ -20,7 +20,7 @@ namespace {
 
 constexpr char kMapTopic[] = "/localization/saved_map";
 constexpr char kPoseTopic[] = "/localization/saved_pose";
-// A bag has no message of time 0.
+// The smallest valid time: messages in bags cannot have time 0.
 const ros::Time kNever = ros::TIME_MIN;
 
 using Message = mtr_msgs::SavedMap;
@@ -55,7 +55,7 @@ void write_whole(const std::string& path, const std::function<void(rosbag::Bag&)
   }
 }
 
-/// The only message of a topic.
+/// Returns the only message of a topic.
 template <typename M>
 M message_in(const rosbag::Bag& bag, const std::string& topic) {
   rosbag::View view(bag, rosbag::TopicQuery(topic));
@@ -149,7 +149,7 @@ std::optional<SavedMap> read_map(const std::string& path) {
   return read_bag<SavedMap>(path, [](const rosbag::Bag& bag) {
     SavedMap saved{message_in<mtr_msgs::SavedMap>(bag, kMapTopic),
                    message_in<nav_msgs::OccupancyGrid>(bag, mtr_core::names::kMapGrid)};
-    // Who has read it can go on with it: a node that ends on a damaged file would be started again for ever.
+    // Check that the map can be resumed: otherwise a node that fails on a damaged file would be restarted forever.
     memory_of(saved.map);
     return saved;
   });

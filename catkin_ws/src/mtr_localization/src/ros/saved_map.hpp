@@ -1,5 +1,5 @@
 /// @file
-/// Maps and poses in bags, from which another localization goes on.
+/// Maps and poses in bags, for a later localization.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,13 +17,13 @@
 
 namespace mtr_localization {
 
-/// A file that is there and cannot be used.
+/// Error of an existing but unusable file.
 class FileUnusable : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A map with the messages in which it was published.
+/// A map with its published messages.
 struct SavedMap {
   mtr_msgs::SavedMap map;
   nav_msgs::OccupancyGrid grid;
@@ -33,14 +33,14 @@ SavedMap saved_map_of(const MapResult& result, const mtr_msgs::SurfaceMap& surfa
                       const nav_msgs::OccupancyGrid& grid);
 mtr_msgs::SavedPose saved_pose_of(const Estimate& estimate);
 
-/// What localization goes on with; throws FileUnusable when columns are missing or numbers are none.
+/// Converts a map for a restart; throws FileUnusable if columns are missing or numbers are not finite.
 Memory memory_of(const mtr_msgs::SavedMap& map);
 RememberedPose remembered_pose_of(const mtr_msgs::SavedPose& pose);
 
-/// Written whole or not at all: a file of before stays until then. Throws FileUnusable.
+/// Writes the bag atomically: the previous file remains until then. Throws FileUnusable.
 void write_bag(const SavedMap& map, const std::string& path);
 void write_bag(const mtr_msgs::SavedPose& pose, const std::string& path);
-/// None when there is no file; throws FileUnusable for one that is none of these.
+/// Returns nothing if the file does not exist; throws FileUnusable if its content is not valid.
 std::optional<SavedMap> read_map(const std::string& path);
 std::optional<mtr_msgs::SavedPose> read_pose(const std::string& path);
 

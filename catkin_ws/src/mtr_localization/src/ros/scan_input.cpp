@@ -15,9 +15,9 @@ namespace {
 
 namespace names = mtr_core::names;
 
-// A sweep is due one turn and one step of the clock after its first beam, see docs/lock-step.md.
+// A sweep is due one turn and one clock step after its first beam, see docs/lock-step.md.
 constexpr std::int64_t kDueAfterNs = mtr_core::kLidar.period_ns + mtr_core::kClockStep.period_ns;
-// Share of the patience of those that wait for localization.
+// Share of the patience of nodes that wait for localization.
 constexpr double kPatience = 0.4;
 
 }  // namespace
@@ -43,7 +43,7 @@ ScanInput::ScanInput(ros::NodeHandle& node, Lidar lidar, RobotFrames& frames, co
           ros::TransportHints().tcpNoDelay())) {}
 
 void ScanInput::wait_until_due(std::int64_t stamp_ns) {
-  // Without a LiDAR nobody waits. In simulation all connections are there before the clock starts.
+  // Without a LiDAR, there is nothing to wait for. In simulation, all connections exist before the clock starts.
   if (subscriber_.getNumPublishers() > 0) {
     received_.at(stamp_ns);
   }

@@ -1,5 +1,5 @@
 /// @file
-/// A LiDAR's topic: which of its scans can be used, and waiting for the one that is due.
+/// Input of one LiDAR: selection of usable scans, and waiting for the scan that is due.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,29 +18,29 @@
 
 namespace mtr_localization {
 
-/// Waiting for inputs in lock-step; less patient than those that wait for localization, lest they give up on it.
+/// Returns the limits of waiting in lock-step; shorter than the limits of nodes that wait for localization.
 std::optional<mtr_core::Waiting> input_waiting();
 
-/// What the LiDARs' drivers leave out.
+/// Scan properties that some drivers do not report.
 struct ScanParameters {
-  /// From beam to beam, where the scans do not say it; 0: all are measured at once.
+  /// Time between beams for scans that do not state it; 0: all beams are simultaneous.
   double time_increment_s = 0.0;
 };
 
-/// Range and unit of each parameter.
+/// Name, range and unit of each parameter.
 inline constexpr std::array<mtr_core::ParameterRow<ScanParameters>, 1> kScanRows{
     {{"time_increment_s", &ScanParameters::time_increment_s, 0.0, 0.001, "s"}}};
 
-/// Subscription to one LiDAR. Its mount is that of the frame that its scans name.
+/// Subscription to one LiDAR. The frame of its scans defines the mount.
 class ScanInput {
  public:
-  /// @param take gets each sweep whose mount is known, in the callback
+  /// @param take receives each sweep with a known mount, within the callback
   ScanInput(ros::NodeHandle& node, Lidar lidar, RobotFrames& frames, const ScanParameters& parameters,
             std::function<void(Sweep)> take);
   ScanInput(const ScanInput&) = delete;
   ScanInput& operator=(const ScanInput&) = delete;
 
-  /// In simulation: returns when the sweep that is due at a wheel sample has come, or the LiDAR is silent.
+  /// In simulation: returns when the sweep that is due at a wheel sample has arrived, or the LiDAR is silent.
   void wait_until_due(std::int64_t stamp_ns);
 
  private:

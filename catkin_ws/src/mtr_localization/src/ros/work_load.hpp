@@ -1,5 +1,5 @@
 /// @file
-/// What scans cost, for a person.
+/// Computing time of scans, for diagnostics.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace mtr_localization {
 
-/// Wall time of answers that used scans: its mean over some seconds, and its maximum.
+/// Wall time of estimates that used scans: mean over some seconds, and maximum.
 class WorkLoad {
  public:
   class Timer {
@@ -21,7 +21,7 @@ class WorkLoad {
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
   };
 
-  /// An answer took so long and used so many scans.
+  /// Adds the duration of an estimate and its number of scans.
   void add(double elapsed_ms, int scans) {
     if (scans > 0) {
       mean_ms_ += kForgetting * (elapsed_ms / scans - mean_ms_);

@@ -1,5 +1,5 @@
 /// @file
-/// Conversion of a sweep, beam by beam, each from where the LiDAR was at its time.
+/// Conversion of a sweep, with the LiDAR pose at the time of each beam.
 // SPDX-License-Identifier: Apache-2.0
 #include "scans/deskew.hpp"
 
@@ -12,10 +12,10 @@
 namespace mtr_localization {
 namespace {
 
-// Ranges of neighbouring beams on one surface differ by up to this: on a surface met at 80 degrees, and by noise.
+// Limits of the range difference of neighbouring beams on one surface: slope of a surface met at 80 degrees, and noise.
 constexpr double kMaxSlope = 5.7;
 constexpr double kNoiseBetweenNeighboursM = 0.06;
-// Beams on either side that can back a return.
+// Number of beams on either side that can support a return.
 constexpr int kNeighbours = 2;
 
 class Converter {
@@ -28,7 +28,7 @@ class Converter {
         input_(motion.at(motion.nearest(scan.stamp_ns)).input) {}
 
   void run() {
-    // The robot's motion within a few ms is straight: its pose is worked out for some beams, and in between by share.
+    // The robot's motion within a few ms is linear: its pose is computed for some beams and interpolated in between.
     const std::size_t beams = sweep_.ranges_m.size();
     for (std::size_t first = 0; first < beams; first += kBeamsPerPiece) {
       convert_piece(first, std::min(first + kBeamsPerPiece, beams));
@@ -40,7 +40,7 @@ class Converter {
 
   PoseVector lidar_at(std::size_t beam) const {
     PoseVector mount = sweep_.mount;
-    // A robot whose nose is up carries its LiDAR farther back.
+    // Tilt with the nose up shifts the LiDAR backwards.
     mount.head<2>() -= sweep_.mount_height_m * input_.slope;
     return compose(relative(odom_from_ref_, motion_.odom_at(sweep_.beam_ns(beam))), mount);
   }
@@ -63,7 +63,7 @@ class Converter {
   }
 
   void add(const Eigen::Vector2d& lidar, const Eigen::Vector2d& direction, double range) {
-    // The plane of a robot that leans meets the ground; and seen from above, what it shows is nearer.
+    // The scan plane of a tilted robot meets the ground, and projected points are nearer.
     const double climb = input_.slope.dot(direction);
     if (!may_be_ground(climb * range, range, input_.slope_sigma)) {
       const Eigen::Vector2d beam = range * (direction - 0.5 * climb * input_.slope);

@@ -1,5 +1,5 @@
 /// @file
-/// From ranges to points without motion distortion.
+/// Conversion of ranges to points without motion distortion.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace mtr_localization {
 
-/// Returns of all sweeps of a set without motion distortion, as seen from base_link at the stamp of the set's step.
+/// Returns the points of all sweeps of a set without motion distortion, in base_link at the stamp of the set's step.
 ///
-/// Left out: beams without a return, and those whose range agrees with neither neighbour's: drops of rain, and beams
-/// that meet an edge and say a range between two surfaces.
+/// Excluded are beams without a return, and beams whose range agrees with neither neighbour: rain drops, and beams on
+/// an edge, which measure a range between two surfaces.
 /// @param motion covers the times of all beams
 ScanPoints deskew(const ScanSet& set, const FilterHistory& motion);
 

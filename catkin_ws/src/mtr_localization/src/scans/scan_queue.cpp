@@ -11,16 +11,16 @@
 namespace mtr_localization {
 namespace {
 
-// A driver whose time jumps back farther was started anew.
+// A larger jump back of the driver's time means that it was restarted.
 constexpr std::int64_t kRestartNs = 1'000'000'000;
-// Without wheel odometry nothing is used; then the oldest of each LiDAR are dropped.
+// Limit of waiting sweeps per LiDAR: without wheel odometry nothing is used, and the oldest sweeps are dropped.
 constexpr std::ptrdiff_t kMaxWaiting = 20;
-// On the robot's clock a sweep does not wait for the wheels' next message, which comes within 20 ms: over so short a
-// time a robot that brakes with 2.5 m/s2 is less than 1 mm from where it would be at constant velocity.
+// On the robot's clock, a sweep does not wait for the next wheel message, which arrives within 20 ms. In this time,
+// braking with 2.5 m/s2 causes less than 1 mm of extrapolation error.
 constexpr std::int64_t kExtrapolatedNs = 25'000'000;
-// No LiDAR measures so many ranges twice to the last bit: of 4,000 sweeps of a SICK S3000, a NAV350 and Hokuyos, on
-// robots that stood and that drove, none was the same as the one before. Fewer may be of one that counts in
-// centimetres.
+// Smallest number of ranges for the detection of a frozen LiDAR. Among 4,000 sweeps of a SICK S3000, a NAV350 and
+// Hokuyos, on stationary and moving robots, no sweep equalled its predecessor. With fewer ranges, LiDARs with a
+// resolution of centimetres may repeat a sweep.
 constexpr std::ptrdiff_t kMinRepeated = 20;
 
 }  // namespace
@@ -31,11 +31,11 @@ std::string ScanQueue::add(Sweep sweep) {
     ++refused_;
     return problem;
   }
-  // One whose stamps run ahead must not push out the other's.
+  // A LiDAR whose stamps run ahead must not displace sweeps of the other one.
   const auto is_of_same = [lidar = sweep.lidar](const Sweep& other) { return other.lidar == lidar; };
   newest_ns_[static_cast<std::size_t>(sweep.lidar)] = sweep.stamp_ns;
   newest_ranges_[static_cast<std::size_t>(sweep.lidar)] = sweep.ranges_m;
-  // Equal stamps stand in the order of the LiDARs, so that it does not matter whose message comes first.
+  // Equal stamps are sorted by LiDAR, so that the order of arrival does not matter.
   const auto place = std::upper_bound(waiting_.begin(), waiting_.end(), sweep, [](const Sweep& a, const Sweep& b) {
     return std::make_pair(a.stamp_ns, a.lidar) < std::make_pair(b.stamp_ns, b.lidar);
   });
@@ -80,7 +80,7 @@ std::vector<ScanSet> ScanQueue::take_due(const FilterHistory& history) {
     if (due_ns(sweep) > history.newest().stamp_ns) {
       later.push_back(std::move(sweep));
     } else if (sweep.stamp_ns < history.oldest().stamp_ns) {
-      // It came too late, or while the pose was set anew.
+      // The sweep arrived too late, or while the pose was reset.
       ++refused_;
     } else {
       const std::int64_t middle_ns = sweep.stamp_ns + (sweep.last_beam_ns() - sweep.stamp_ns) / 2;

@@ -1,5 +1,5 @@
 /// @file
-/// Sweeps on their way from the sensor to the filter.
+/// Queue of sweeps between sensor and filter.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace mtr_localization {
 
-/// Keeps sweeps until the filter has lived through them; refuses those that make no sense.
+/// Buffers sweeps until the filter has passed their time stamps; rejects implausible ones.
 class ScanQueue {
  public:
-  /// @param lag_ns from a sweep's end until it is used, in lock-step; without it, it is used at once
+  /// @param lag_ns delay from the end of a sweep to its use in lock-step; without it, sweeps are used at once
   explicit ScanQueue(std::optional<std::int64_t> lag_ns) : lag_ns_(lag_ns) {}
 
-  /// Takes a sweep; one sentence when it is refused, else empty.
+  /// Adds a sweep. Returns one sentence if it is rejected, otherwise an empty text.
   std::string add(Sweep sweep);
 
-  /// Sweeps that are due when the history has come so far, oldest first; those of one step together.
+  /// Returns sweeps that are due at the newest step, oldest first; sweeps of one step form a set.
   std::vector<ScanSet> take_due(const FilterHistory& history);
 
   int refused() const { return refused_; }

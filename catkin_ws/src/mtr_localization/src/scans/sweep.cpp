@@ -1,5 +1,5 @@
 /// @file
-/// Times of the beams of a sweep, and whether its numbers fit together.
+/// Times of the beams of a sweep, and consistency of its header.
 // SPDX-License-Identifier: Apache-2.0
 #include "scans/sweep.hpp"
 
@@ -9,7 +9,7 @@
 namespace mtr_localization {
 namespace {
 
-// A turn of the slowest LiDAR that is of use takes 0.2 s.
+// A turn of the slowest supported LiDAR lasts 0.2 s.
 constexpr double kMaxSweepS = 0.25;
 
 bool all_finite(const Sweep& sweep) {
@@ -50,7 +50,7 @@ std::string Sweep::problem() const {
            "driver.";
   }
   const double span = static_cast<double>(ranges_m.size() - 1) * angle_increment_rad;
-  // Drivers compute angle_max in single precision, or one increment farther.
+  // Some drivers compute angle_max in single precision, or one increment too far.
   if (std::abs(angle_min_rad + span - angle_max_rad) > 1.5 * std::abs(angle_increment_rad)) {
     return "A scan's number of beams contradicts its angles; correct angle_min, angle_max or angle_increment in its "
            "driver.";

@@ -1,5 +1,5 @@
 /// @file
-/// One turn of a LiDAR as it comes from the sensor.
+/// One turn of a LiDAR as received from the sensor.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace mtr_localization {
 
-/// Numbered as in ScanPoint.
+/// Index as in ScanPoint.
 enum class Lidar { kFront = 0, kRear = 1 };
 
-/// Ranges of one turn; what is no finite number within the limits is no return.
+/// Ranges of one turn; a value that is not finite or not within the limits is not a return.
 struct Sweep {
   Lidar lidar = Lidar::kFront;
   /// Time of the first beam.
@@ -28,28 +28,28 @@ struct Sweep {
   double angle_max_rad = 0.0;
   double angle_increment_rad = 0.0;
   double time_increment_s = 0.0;
-  /// Time from this sweep's start to the next one's.
+  /// Time from the start of this sweep to the start of the next one.
   double scan_time_s = 0.0;
   double range_min_m = 0.0;
   double range_max_m = 0.0;
   std::vector<float> ranges_m;
 
-  /// From beam to beam, where the scan does not say it.
+  /// Sets the time between beams if the scan does not state it.
   void time_beams(double increment_s) { time_increment_s = time_increment_s == 0.0 ? increment_s : time_increment_s; }
 
   std::int64_t beam_ns(std::size_t beam) const;
   std::int64_t last_beam_ns() const { return ranges_m.empty() ? stamp_ns : beam_ns(ranges_m.size() - 1); }
-  /// Time at which a LiDAR that turns without a break has sent it.
+  /// Time at which a continuously rotating LiDAR has sent the sweep.
   std::int64_t end_ns() const;
 
-  /// False when no beam has measured a range: the LiDAR is covered, dazzled or broken, or nothing is in its reach.
+  /// False if no beam has a range: the LiDAR is covered, dazzled or broken, or nothing is within its range.
   bool says_anything() const;
 
-  /// One sentence on what is wrong with its header; empty when it can be used.
+  /// Returns one sentence about an error in the header; empty if the sweep is usable.
   std::string problem() const;
 };
 
-/// Sweeps of the front and the rear LiDAR that hold at one step of the filter.
+/// Sweeps of front and rear LiDAR that belong to one step of the filter.
 struct ScanSet {
   std::vector<Sweep> sweeps;
   /// Index of the step in the filter's history.

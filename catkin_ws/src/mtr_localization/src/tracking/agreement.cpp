@@ -1,5 +1,5 @@
 /// @file
-/// Ranges that a map lets expect, drawn surfel by surfel, against those of a sweep.
+/// Comparison of expected ranges, rendered surfel by surfel from the map, with a sweep.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/agreement.hpp"
 
@@ -15,30 +15,28 @@ namespace {
 
 constexpr int kBins = 720;
 constexpr double kBinsPerRad = kBins / (2.0 * M_PI);
-// One beam of three is enough to tell.
+// One of three beams is sufficient.
 constexpr double kBeamStepRad = 0.015;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
-// Surfaces met at less than 6 degrees are not expected to be seen.
+// Surfaces met at less than 6 degrees are not expected to be visible.
 constexpr double kGrazing = 0.1;
-// Tolerance per metre of range, for the pose's heading and the width of a bin on slanting surfaces.
+// Tolerance per metre of range, for the heading error and the width of a bin on oblique surfaces.
 constexpr double kTolerancePerM = 0.02;
-// What is met so far above or below the LiDAR's own height need not be what the map shows: sills and bumpers are about
-// as high.
+// Returns at this height above or below the LiDAR may be missing on the map: sills and bumpers have about this height.
 constexpr double kSameHeightM = 0.1;
-// The heights at which a surface has been met are known so well: bumps of the ground, and the tilt's error.
+// Uncertainty of the heights at which surfaces were met: bumps of the ground, and the tilt error.
 constexpr double kRiseToleranceM = 0.02;
 constexpr double kTiltSigmaRad = 0.003;
-// A view of which so much agrees is the expected one: at a wrong place nearly nothing does, and chance gives seldom
-// more than half.
+// Agreement of an expected view. At a wrong place almost nothing agrees, and chance rarely gives more than half.
 constexpr double kExpectedShare = 0.75;
-// Beams and share of the expected view that look through surfaces.
+// Number of beams and share of the expected view that pass through surfaces in a contradicted view.
 constexpr int kMinContradicted = 8;
 constexpr double kContradictedShare = 0.25;
-// Where returns do not count, more of the rest has to. At the right place, soon after a map began, it was 0.99 to 1 of
-// 240 beams in simulation, and half of the returns were of nothing that the map had.
+// Stricter limits if returns do not count. In simulation, soon after the start of a map, the agreement at the correct
+// place was 0.99 to 1 of 240 beams. Half of the returns came from objects not yet on the map.
 constexpr int kMinEvidenceSoFar = 3 * Agreement::kMinEvidence;
 constexpr double kExpectedShareSoFar = 0.9;
-// Surfaces so far aside, in bins, are not compared any more: 10 degrees.
+// Largest lateral offset of compared surfaces in bins: 10 degrees.
 constexpr int kMaxAside = 20;
 
 int bin_of(double angle_rad) {
@@ -58,12 +56,12 @@ class ExpectedView {
 
   double nearest(int bin) const { return ranges_[index_of(bin)]; }
 
-  /// No beam has met the surface there at the height at which this one would.
+  /// True if no beam has met the surface at the height of this beam.
   bool is_at_new_height(int bin, double climb) const {
     return beyond_heights_m(bin, climb) > kRiseToleranceM + kTiltSigmaRad * nearest(bin);
   }
 
-  /// By how much it would be above or below all heights at which it has been met.
+  /// Distance of this beam's height from the range of heights at which the surface was met.
   double beyond_heights_m(int bin, double climb) const {
     const Surfel& surfel = *surfels_[index_of(bin)];
     const double rise_m = climb * nearest(bin);
@@ -95,7 +93,7 @@ class ExpectedView {
   std::vector<const Surfel*> surfels_;
 };
 
-/// One beam.
+/// One beam of a sweep.
 struct Beam {
   int bin;
   Eigen::Vector2d eye;
@@ -105,16 +103,16 @@ struct Beam {
   double climb;
   double climb_sigma;
 
-  /// So far away the beam is at another height than the map.
+  /// True if the beam is at another height than the map at this range.
   bool is_off_plane_at(double range) const { return std::abs(climb) > kSameHeightM / range; }
 
   bool shows_ground() const { return shown < kNothing && may_be_ground(climb * shown, shown, climb_sigma); }
 };
 
-/// What is expected round a beam, as far aside as a surface may be off.
+/// Expected surfaces near a beam, within the lateral tolerance.
 struct Surroundings {
   bool agrees = false;
-  /// Nothing is expected somewhere there.
+  /// True if some direction has no expected surface.
   bool has_gap = false;
 };
 
@@ -134,14 +132,14 @@ Surroundings look_around(const ExpectedView& view, const Beam& beam, double tole
   return found;
 }
 
-/// What the beam shows is on the map, although behind something that was met at another height.
+/// True if the return is on a mapped surface, although behind a surface that was met at another height.
 bool is_on_surface(const SurfelMap& map, const Beam& beam, double tolerance_m) {
   return beam.shown < kNothing &&
          map.match(beam.eye + beam.shown * beam.direction, tolerance_m + kTolerancePerM * beam.shown, beam.direction);
 }
 
-/// It looks over or under what is expected, or at the ground before it; by a few centimetres where a bumper or sill
-/// ends beside the LiDAR's plane.
+/// True if the beam passes over or under the expected surface, or meets the ground before it. Centimetres are enough if
+/// a bumper or sill ends near the scan plane.
 bool is_excused(const ExpectedView& view, const Beam& beam) {
   const double expected = view.nearest(beam.bin);
   return beam.is_off_plane_at(std::min(beam.shown, expected)) || beam.shows_ground() ||
@@ -184,7 +182,7 @@ Agreement& Agreement::operator+=(const Agreement& other) {
 }
 
 double Agreement::share_of_expected() const {
-  // Where nothing is seen of what is expected, its edges excuse nothing.
+  // If none of the expected surfaces is seen, their edges do not excuse the difference.
   const int excused = std::min(passed, seen);
   return expected() > 0 ? static_cast<double>(seen) / (expected() - excused) : 1.0;
 }
@@ -216,7 +214,7 @@ Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap
     const double angle = eye.z() + turned + sweep.angle_min_rad + beam * sweep.angle_increment_rad;
     const double measured = sweep.ranges_m[static_cast<std::size_t>(beam)];
     if (!(measured >= sweep.range_min_m && measured > 0.0)) {
-      // No number, or too near to tell (REP-117): it says nothing.
+      // Not a number, or too near (REP-117): no information.
       continue;
     }
     const double shown = measured <= sweep.range_max_m ? measured : kNothing;

@@ -1,5 +1,5 @@
 /// @file
-/// Whether a sweep shows what a map lets expect at a pose.
+/// Agreement of a sweep with the map at a pose.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,67 +10,67 @@
 
 namespace mtr_localization {
 
-/// Beams by what they show.
+/// Counts of beams by their result.
 struct Agreement {
-  /// Fewer expected beams say nothing about being lost: a Car 12 m away is met by 20 of one degree.
+  /// Fewer expected beams are not evidence of a lost pose: a Car at 12 m is met by 20 beams of one degree.
   static constexpr int kMinEvidence = 8;
 
-  /// The expected surface.
+  /// The beam meets the expected surface.
   int seen = 0;
-  /// Something in front of it.
+  /// The return is in front of the expected surface.
   int hidden = 0;
-  /// Something behind it: the surface is not there.
+  /// The return is behind the expected surface: the surface is not there.
   int beyond = 0;
-  /// Nothing, where a surface is expected: it is not there, or the LiDAR looks over or under it.
+  /// No return where a surface is expected: it is not there, or the beam passes over or under it.
   int missing = 0;
-  /// Nothing, or something behind it, beside an edge of the surface: the beam may just pass.
+  /// No return, or one behind the surface, near one of its edges: the beam may pass the edge.
   int passed = 0;
-  /// Something where the map has nothing.
+  /// A return without a surface on the map.
   int unknown = 0;
-  /// Those of `beyond` and `missing` that passed the surface above or below all heights at which it has been met, by
-  /// less than the robot's lean is off: it may end there.
+  /// Beams in `beyond` and `missing` that passed the surface above or below all heights at which it was met. The
+  /// difference is below the tilt error, so the surface may end there.
   int unsure = 0;
-  /// Not the expected surface, but as the robot leans the LiDAR looks over or under it: it says nothing.
+  /// Not the expected surface, but the tilted LiDAR looks over or under it: no information.
   int excused = 0;
 
   Agreement& operator+=(const Agreement& other);
-  /// Beams that meet what the map shows, or should.
+  /// Beams with an expected surface.
   int expected() const { return seen + hidden + beyond + missing + passed; }
-  /// Beams that look through a surface at a height at which it has been met.
+  /// Beams that pass through a surface at a height at which it was met.
   int through() const { return beyond + missing - unsure; }
-  /// Share of the expected view that is seen, 0 to 1; 1 when nothing is expected.
+  /// Share of the expected view that is seen, 0 to 1; 1 if no surface is expected.
   double share_of_expected() const;
-  /// Share of the returns that the map explains, 0 to 1; without returns 1 when none is expected, else 0.
+  /// Share of returns that the map explains, 0 to 1; without returns 1 if none is expected, otherwise 0.
   double share_of_returns() const;
-  /// Mean of both.
+  /// Mean of both shares.
   double share_of_both() const { return 0.5 * (share_of_expected() + share_of_returns()); }
-  /// So much agrees as at a wrong place only chance gives, and seldom.
+  /// True if the agreement is so high that it is unlikely by chance at a wrong place.
   bool is_expected() const;
-  /// Surfaces are not where the map has them, of which no person can be the cause.
+  /// True if surfaces are missing at their mapped places, which a person cannot cause.
   bool is_contradicted() const;
-  /// The same of a map that grows: what it does not have yet says nothing.
+  /// Like is_expected() for a growing map, which ignores unmapped objects.
   bool is_expected_so_far() const;
 };
 
-/// How far base_link had turned against the pose of a sweep when its first and its last beam were taken.
+/// Turn of base_link relative to the pose of a sweep, at its first and its last beam.
 struct SweepTurn {
   double at_first_beam_rad = 0.0;
   double at_last_beam_rad = 0.0;
 };
 
-/// Pose of base_link in the map when a sweep was taken.
+/// Pose of base_link in map at the time of a sweep.
 struct ViewPose {
   PoseVector pose;
   SweepTurn turn = {};
   /// Rise of base_link's x and y axes per metre.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  /// Its 1 sigma along each axis.
+  /// 1 sigma of the slope along each axis.
   double slope_sigma = 0.0;
 };
 
-/// Draws the map as the LiDAR would see it and compares. Where the robot's tilt makes the LiDAR look over or under
-/// what the map shows, or at the ground, a beam that does not show the expected surface says nothing.
-/// @param tolerance_m what a surface may be off to count as seen
+/// Renders the map as seen by the LiDAR and compares it with a sweep. If the tilt makes the LiDAR look over or under
+/// mapped surfaces, or at the ground, beams without the expected surface count as no information.
+/// @param tolerance_m largest offset of a surface that counts as seen
 Agreement agreement_of(const Sweep& sweep, const ViewPose& view, const SurfelMap& map, double tolerance_m);
 
 }  // namespace mtr_localization

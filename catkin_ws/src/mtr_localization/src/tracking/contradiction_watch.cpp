@@ -1,5 +1,5 @@
 /// @file
-/// A cumulative sum (Page, Biometrika 1954) of the share of beams that look through surfaces.
+/// Cumulative sum (Page, Biometrika 1954) of the share of beams that pass through surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/contradiction_watch.hpp"
 
@@ -8,18 +8,19 @@
 namespace mtr_localization {
 namespace {
 
-// Of 46,000 level views of right poses in simulation (four scenes, 24 drives) 1 of 1000 had a share of more than 2 to
-// 6 % beyond two beams; beside a van of which nothing but the wheels is seen it was 9 % for seconds. Wrong poses that
-// half agreed had 18 % and more.
+// Usual share. Of 46,000 level views from correct poses in simulation (four scenes, 24 drives), 1 of 1000 exceeded 2 to
+// 6 %, not counting two beams. Next to a van with only its wheels visible, the share was 9 % for seconds. Half-agreeing
+// wrong poses had 18 % and more.
 constexpr int kUsualBeams = 2;
 constexpr double kUsualShare = 0.1;
 constexpr double kMaxExcessS = 0.05;
-// Where the map explains so much of what is seen, what is missing was overlooked: from low down and 10 m away wheels
-// and sills of a right pose go unseen for seconds, while all that returns lies on the map (0.9 and more).
+// If the map explains this share of the returns, missing surfaces were overlooked. At 10 m, wheels and sills may be
+// invisible from a low LiDAR for seconds at a correct pose, while 0.9 and more of the returns are on the map.
 constexpr double kExplainedShare = 0.9;
-// A longer gap between views says nothing of the time in between.
+// A longer gap between views is not counted.
 constexpr double kMaxGapS = 0.1;
-// Level ground: over so long the slopes are that small; 0.003 in the simulated lots, 0.012 and more on slopes of 1 deg.
+// Averaging time and limit of the slope of level ground: 0.003 in the simulated lots, 0.012 and more on slopes of 1
+// deg.
 constexpr double kSlopeMeanS = 5.0;
 constexpr double kMaxSlope = 0.007;
 

@@ -1,5 +1,5 @@
 /// @file
-/// Draws each surfel with its surroundings into the grid.
+/// Rendering of each surfel and its surroundings into the grid.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/distance_field.hpp"
 
@@ -9,11 +9,11 @@
 namespace mtr_localization {
 namespace {
 
-// A coarse search step of 0.2 m and 3 degrees puts points of the right pose up to this far from their surfaces.
+// With a coarse search step of 0.2 m and 3 degrees, points of the correct pose are up to this far from their surfaces.
 constexpr double kInfluenceM = 0.4;
-// A stray surfel far away must not exhaust the memory; LiDARs of this class see 30 m.
+// Size limit, because a stray surfel far away must not exhaust the memory; such LiDARs have a range of 30 m.
 constexpr double kMaxMapM = 120.0;
-// Cells from one place of the search to the next, and what the highest level looks ahead.
+// Cells between neighbouring places of the search, and look-ahead distance of the highest level.
 constexpr int kCellsPerStep = static_cast<int>(DistanceField::kStepM / DistanceField::kCellM + 0.5);
 constexpr double kAheadM = ((1 << (DistanceField::kLevels - 1)) - 1) * DistanceField::kStepM;
 
@@ -31,7 +31,7 @@ DistanceField::DistanceField(const std::vector<Surfel>& surfels) {
   }
   const Eigen::Vector2d middle = 0.5 * (low + high);
   const Eigen::Array2d half = (0.5 * (high - low).array() + 2.0 * kInfluenceM).min(0.5 * kMaxMapM);
-  // Places before the map's low edges look ahead into it.
+  // Places before the low edges of the map look ahead into it.
   origin_ = middle - half.matrix() - Eigen::Vector2d::Constant(kAheadM);
   size_ = ((2.0 * half + kAheadM) / kCellM).ceil().cast<int>();
   levels_[0].assign(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()), 0);

@@ -1,5 +1,5 @@
 /// @file
-/// How near each place is to a surface.
+/// Distance field of the surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,10 +13,10 @@
 
 namespace mtr_localization {
 
-/// Grids of nearness: 1 on a surface, falling to 0 with the distance.
+/// Grids of nearness: 1 on a surface, decreasing to 0 with the distance.
 ///
-/// Level 0 says it of a place; level l says the largest of the 2^l by 2^l places that lie towards +x and +y of it, each
-/// kStepM from the next: a bound for a search that splits squares of places (Olson 2009, Hess et al. 2016).
+/// Level 0 holds the nearness of each place. Level l holds the maximum over the 2^l by 2^l places towards +x and +y,
+/// kStepM apart. It bounds a search that splits squares of places (Olson 2009, Hess et al. 2016).
 class DistanceField {
  public:
   DistanceField() = default;
@@ -26,7 +26,7 @@ class DistanceField {
   static constexpr double kStepM = 0.2;
   static constexpr int kLevels = 4;
 
-  /// 0 to 255; 0 outside of the map.
+  /// Returns 0 to 255; 0 outside of the map.
   std::uint8_t nearness(int level, const Eigen::Vector2d& point) const {
     const int x = static_cast<int>(std::floor((point.x() - origin_.x()) / kCellM));
     const int y = static_cast<int>(std::floor((point.y() - origin_.y()) / kCellM));

@@ -12,7 +12,7 @@
 namespace mtr_localization {
 namespace {
 
-// About one side of a car.
+// About the length of one side of a car.
 constexpr double kFirstCellM = 2.0;
 constexpr int kDirections = 8;
 
@@ -41,7 +41,8 @@ ErrorSources grouped(const std::vector<Surfel>& surfels, double cell_m) {
 ErrorSources error_sources_of(const std::vector<Surfel>& surfels) {
   double cell_m = kFirstCellM;
   ErrorSources sources = grouped(surfels, cell_m);
-  // Places are left for the constant errors of the LiDARs' ranges. Large cells hold everything, so this ends.
+  // Some sources are reserved for the constant range errors of the LiDARs. Growing cells eventually contain everything,
+  // so the loop ends.
   while (sources.count > kMaxErrorSources - kLidars) {
     cell_m *= 1.5;
     sources = grouped(surfels, cell_m);

@@ -1,5 +1,5 @@
 /// @file
-/// Which surfaces of a map are wrong together.
+/// Groups of surfaces with a common error.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace mtr_localization {
 
-/// Surfels that lie near each other and look the same way were made by the same beams, so they share one error.
+/// Adjacent surfels with the same orientation were measured by the same beams, so they have one common error.
 struct ErrorSources {
-  /// Source of each surfel.
+  /// Error source of each surfel.
   std::vector<int> of_surfel;
-  /// Sources of surfels; the constant error of the range is one more.
+  /// Number of sources of surfels, without the range errors.
   int count = 0;
 };
 

@@ -16,35 +16,35 @@ namespace mtr_localization {
 namespace {
 
 constexpr int kMaxIterations = 6;
-// A smaller step means that the pose is as good as found.
+// Iteration ends at a smaller step.
 constexpr double kSmallStepM = 1e-4;
 constexpr double kSmallTurnRad = 2e-5;
-// Points this many sigma off count half (Cauchy's kernel; 2.385 for 95 % efficiency, Holland and Welsch 1977).
+// Residual in sigmas with half the weight (Cauchy kernel; 2.385 for 95 % efficiency, Holland and Welsch 1977).
 constexpr double kCauchy = 2.385;
-// Surfaces are looked for within this, and 3 sigma of the prior.
+// Lower bound of the association gate, to which 3 sigma of the prior are added.
 constexpr double kMinGateM = 0.08;
-// Points so far above or below the LiDAR are met at its own height.
+// Returns within this height difference count as level with the LiDAR.
 constexpr double kLevelM = 0.02;
-// Beyond its ends a surface may go on so far.
+// Surfaces also match this far beyond their ends.
 constexpr double kEndM = 0.05;
 
-// A scan and its prior contradict each other: chi squared with 3 degrees of freedom, once in a million.
+// Contradiction between scan and prior: chi squared with 3 degrees of freedom, once in a million.
 constexpr double kContradiction = 30.7;
 constexpr double kMinInformation = 1e-6;
 
 double square(double value) { return value * value; }
 
-/// 1 sigma of where a surface is at the height at which a beam met it. This error stays as long as the robot stands or
-/// the map lasts, and is alike for all beams on one surface. Its lean was measured between the heights at which it had
-/// been met; beyond them it may lean by anything again.
+/// Returns 1 sigma of the surface position at the height of a hit. The error persists while the robot is stationary or
+/// the map lasts, and is common to all beams on one surface. The lean was measured between the heights of earlier hits;
+/// beyond them, the prior of the lean applies.
 double lasting_sigma_m(const Surfel& surfel, double rise_m) {
   const double seen_rise_m = std::clamp(rise_m, surfel.lowest_rise_m, surfel.highest_rise_m);
   const double known_m = std::hypot(surfel.sigma_m, surfel.lean_sigma * seen_rise_m);
   return std::hypot(known_m, mtr_surfel_map::kLeanSigma * (rise_m - seen_rise_m));
 }
 
-/// The beam meets the surfel's line beside the surfel, farther than an error of the pose across the beam explains: the
-/// point lies on something else, as the front of a tyre lies near the line of its side.
+/// True if the beam misses the end of the surfel by more than the lateral pose error. The point then belongs to
+/// something else, as the front of a tyre is near the line of its side.
 bool passes_beside(const SurfelMatch& match, const Eigen::Vector2d& point, const Eigen::Vector2d& direction,
                    double across_sigma_m) {
   const Surfel& surfel = *match.surfel;
@@ -190,7 +190,7 @@ void ScanMatcher::add_error_sources(const PoseVector& pose, const ScanPoints& sc
     return;
   }
   correction.vector_by_source.setZero(3, map.error_sources());
-  // Independent errors that make the biases' covariance, one column each.
+  // Independent errors that reproduce the covariance of the biases, one column each.
   const Eigen::Matrix<double, kLidars, kLidars> bias_errors = map.range_bias.covariance.llt().matrixL();
   const Surfel* first = map.surfaces.surfels().data();
   for_each_match(

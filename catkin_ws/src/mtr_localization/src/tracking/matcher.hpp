@@ -1,5 +1,5 @@
 /// @file
-/// Lays a scan on the surfaces of a map.
+/// Scan matching against the surfaces of a map.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,59 +12,59 @@
 
 namespace mtr_localization {
 
-/// A map to match against.
+/// Map for matching.
 struct ReferenceMap {
   SurfelMap surfaces;
   ErrorSources sources;
-  /// Taken off each range before it is compared.
+  /// Correction that is subtracted from each range.
   RangeBias range_bias;
 
-  /// Of the surfaces, and what the LiDARs' biases may be off.
+  /// Number of error sources: surfaces, and the biases of the LiDARs.
   int error_sources() const { return sources.count + kLidars; }
 };
 
-/// Where the pose was before the scan, and how far it may be off.
+/// Prior of the pose before a scan.
 struct PosePrior {
   PoseVector pose = PoseVector::Zero();
-  /// As the filter weighs it.
+  /// Covariance that the filter uses as weight.
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-  /// The same with lasting errors: it bounds the search for surfaces.
+  /// Covariance with persistent errors, which limits the association.
   Eigen::Matrix3d full_covariance = Eigen::Matrix3d::Identity();
 };
 
 struct ScanMatch {
-  /// What the scan says, linearised where it and the prior agree best.
+  /// Correction by the scan, linearised at the matched pose.
   PoseCorrection correction;
-  /// That place.
+  /// Pose at which scan and prior agree best.
   PoseVector pose = PoseVector::Zero();
-  /// Points that were compared, and those that lie on a surface.
+  /// Compared points, and points on a surface.
   int points = 0;
   int matched = 0;
-  /// Root mean square of the matched points' distance from their surfaces, in units of their sigma.
+  /// Root mean square distance of matched points from their surfaces, in sigmas.
   double residual_rms = 0.0;
 
-  /// Shift that the scan alone asks for, where it determines the pose at all: x (m), y (m), heading (rad).
+  /// Returns the shift by the scan alone, in directions that it determines: x (m), y (m), heading (rad).
   Eigen::Vector3d shift() const;
-  /// The scan and what was known before it, with its covariance, exclude each other.
+  /// True if scan and prior with its covariance exclude each other.
   bool contradicts(const Eigen::Matrix3d& prior_covariance) const;
 };
 
-/// Returns from the LiDAR's own height, where a surface's lean and steps do not matter.
+/// Returns at the height of the LiDAR, where leans and steps of surfaces do not matter.
 struct ScanFit {
-  /// Near a surface.
+  /// Number of returns near a surface.
   int near = 0;
-  /// Of these as near as the pose's covariance would have them.
+  /// Number of these within the tolerance of the pose covariance.
   int exact = 0;
 };
 
-/// Iterated least squares of the points' distances from surfaces, robust against what is not in the map: the update of
-/// an iterated extended Kalman filter (Bell and Cathey 1993).
+/// Iterated least squares of the distances of points from surfaces, robust against unmapped objects. It is the update
+/// of an iterated extended Kalman filter (Bell and Cathey 1993).
 class ScanMatcher {
  public:
   explicit ScanMatcher(const TrackingParameters& parameters) : parameters_(parameters) {}
 
   ScanMatch match(const ScanPoints& scan, const ReferenceMap& map, const PosePrior& prior) const;
-  /// How well a scan lies on the map at the pose of a prior.
+  /// Returns how well a scan fits the map at the pose of a prior.
   ScanFit fit(const ScanPoints& scan, const ReferenceMap& map, const PosePrior& prior) const;
 
  private:

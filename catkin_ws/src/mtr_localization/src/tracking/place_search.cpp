@@ -1,5 +1,5 @@
 /// @file
-/// Squares of places, split where one of them may be better than what is known.
+/// Branch-and-bound search over squares of places.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/place_search.hpp"
 
@@ -13,11 +13,11 @@ constexpr int kHeadings = 120;
 constexpr double kHeadingStepRad = 2.0 * M_PI / kHeadings;
 constexpr int kTopLevel = DistanceField::kLevels - 1;
 constexpr std::size_t kMaxPlaces = 24;
-// Squares that are scored in one piece of work, about 2 ms.
+// Number of scored squares in one piece of work, about 2 ms.
 constexpr int kSquaresPerPiece = 6000;
-// A place of which less than this share of the points is near something is none.
+// Lowest nearness of a place, as a share of its points.
 constexpr double kMinNearness = 0.3;
-// Where everything looks alike a search does not end by itself.
+// Limit of the search if many places look alike.
 constexpr int kMaxSquares = 200'000;
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// All places from which a scan could have been taken, best first.
+/// Search of all places from which a scan could have been taken, best first.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace mtr_localization {
 
-/// Poses of the same place differ by less than this.
+/// Poses of one place differ by less than this.
 inline constexpr double kSamePlaceM = 0.3;
 inline constexpr double kSameHeadingRad = 0.12;
 
@@ -19,24 +19,25 @@ inline bool is_same_place(const PoseVector& a, const PoseVector& b) {
   return (a - b).head<2>().norm() < kSamePlaceM && std::abs(wrapped(a.z() - b.z())) < kSameHeadingRad;
 }
 
-/// A search of a square of places with all headings, by branch and bound (Olson 2009): a pose is scored by how near its
-/// points come to surfaces, squares of places by a bound of that, and only the best are split further. What it gives is
-/// what trying each pose of the grid would give. It works in pieces, so that it never holds up its caller.
+/// Searches a square of places with all headings by branch and bound (Olson 2009). The score of a pose is the nearness
+/// of its points to surfaces; squares of places have an upper bound, and only the best are split. The result equals an
+/// exhaustive search of the grid. The work is divided into pieces, so that it does not block the caller.
 class PlaceSearch {
  public:
-  /// The field outlives the search.
+  /// The field must outlive the search.
   explicit PlaceSearch(const DistanceField& field) : field_(field) {}
 
-  /// Begins anew: poses of base_link within `radius_m` in x and y of a pose, from which the points would be seen.
+  /// Starts a search for poses of base_link within `radius_m` in x and y of a pose, from which the points could be
+  /// seen.
   /// @param points in base_link
   void begin(const PoseVector& around, double radius_m, const std::vector<Eigen::Vector2d>& points);
-  /// One piece of work; true when it is done.
+  /// Executes one piece of work; returns true when the search is finished.
   bool advance();
-  /// Best first, no two of the same place.
+  /// Found places, best first, each place once.
   const std::vector<PoseVector>& places() const { return places_; }
 
  private:
-  /// A square of 2^level by 2^level places at one heading, and the most that one of them can score.
+  /// A square of 2^level by 2^level places at one heading, with an upper bound of their scores.
   struct Square {
     int bound;
     int level;
@@ -53,7 +54,7 @@ class PlaceSearch {
   const DistanceField& field_;
   PoseVector corner_ = PoseVector::Zero();
   int places_aside_ = 0;
-  /// Points turned to each heading.
+  /// Points rotated to each heading.
   std::vector<std::vector<Eigen::Vector2d>> turned_;
   int next_heading_ = 0;
   std::priority_queue<Square> squares_;

@@ -1,5 +1,5 @@
 /// @file
-/// Views from several places, the places that may explain them, and when one of them does.
+/// Views from several places, hypotheses of places, and the decision for one of them.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/relocalization.hpp"
 
@@ -15,41 +15,41 @@ namespace {
 
 constexpr std::size_t kSearchPoints = 60;
 constexpr std::size_t kMinPoints = 15;
-// Work of one sweep, some milliseconds.
+// Work per sweep, some milliseconds.
 constexpr std::size_t kRefinedPerSweep = 2;
 constexpr std::size_t kComparedPerSweep = 6;
-// What a step of the search leaves to find.
+// Uncertainty after each step of the search.
 constexpr double kCoarseSigmaM = 0.15;
 constexpr double kCoarseSigmaRad = 0.03;
 constexpr double kFineSigmaM = 0.05;
 constexpr double kFineSigmaRad = 0.01;
 constexpr int kRefinements = 3;
 constexpr double kToleranceM = 0.12;
-// Fewer beams of one degree on the map than these are no proof of a place: a Car is met by 20 of them at 12 m.
+// Lowest number of mapped returns that can confirm a place: a Car at 12 m is met by 20 beams of one degree.
 constexpr int kMinSeen = 12;
-// From so far, or so much turned, a LiDAR sees other sides of things, at other distances.
+// Distance and turn between views: from there, a LiDAR sees other sides of objects, at other ranges.
 constexpr double kApartM = 0.5;
 constexpr double kApartRad = 0.5;
 constexpr std::size_t kViewsToDecide = 3;
 constexpr std::size_t kMaxViews = 6;
 constexpr std::size_t kMaxHypotheses = 40;
-// A place that explains less of the view that led to it is no rival.
+// A place that explains less of the view that led to it is discarded.
 constexpr double kMinShare = 0.25;
-// A place that explains of all views so much of what the best one does is a rival: from low down a LiDAR does not
-// always see what the map has at the right place. It had 0.82 in simulation, and a wrong one, opposite, 0.98; or 0.64
-// and 0.77.
+// A place is a competitor if it explains this share of what the best place explains in all views. A low LiDAR does not
+// always see everything that the map has at the correct place. In simulation, correct and opposite places had 0.82 and
+// 0.98, or 0.64 and 0.77.
 constexpr double kRivalPart = 0.75;
-// Likewise one on whose surfaces so much of what returned lies: what it lets expect and nobody saw may have been
-// overlooked. Of a van that shows its wheels alone the right place explained 0.93 of the returns, the one opposite
-// 0.91, and of what the map lets expect 0.44 and 0.98.
+// A place is also a competitor if it explains this share of the returns, because expected but unseen surfaces may have
+// been overlooked. For a van with only its wheels visible, the correct and the opposite place explained 0.93 and 0.91
+// of the returns, and 0.44 and 0.98 of the expected surfaces.
 constexpr double kRivalReturns = 0.8;
-// Where wheels and gyro say that the robot is, it is, unless it was carried: that place is a rival as long as it
-// explains more than chance gives.
+// Unless the robot was carried, the pose of wheels and gyro is correct. Therefore it is a competitor as long as it
+// explains more than chance.
 constexpr double kReckonedShare = 0.5;
-// Returns that lie off the surfaces by more than so many of their sigmas, rms over all views, are of a place that only
-// looks like it: 8 m away what agrees may be 0.3 m off. At the right one they are 1.0, on slopes of 1 degree 2.
+// Largest rms residual over all views in sigmas; with a larger one, the place only looks similar. At 8 m, an agreeing
+// view may be 0.3 m off. At the correct place the residual is 1.0, and 2 on slopes of 1 degree.
 constexpr double kMaxResidual = 2.5;
-// A place so near to the end of the search has neighbours that were not tried.
+// A place this close to the boundary of the search has neighbours that were not tried.
 constexpr double kRimM = 0.5;
 
 Eigen::Matrix3d pose_covariance(double sigma_m, double sigma_rad) {
@@ -165,14 +165,14 @@ void Relocalization::refine() {
 void Relocalization::compare() {
   const View& view = views_.back();
   std::size_t work = 0;
-  // Places of earlier views in the newest one.
+  // Evaluate earlier hypotheses in the newest view.
   for (; next_ < known_ && work < kComparedPerSweep; ++next_, ++work) {
     Hypothesis& known = hypotheses_[next_];
     const PoseVector pose = matched(view, compose(known.map_from_odom, view.odom), kFineSigmaM, kFineSigmaRad);
     known.map_from_odom = compose(pose, inverse(view.odom));
     known.shares.push_back(shares_at(view, pose));
   }
-  // Places of the newest view in all of them.
+  // Evaluate places of the newest view in all views.
   for (; next_ < known_ + found_.size() && work < kComparedPerSweep; ++next_, work += views_.size()) {
     add(found_[next_ - known_]);
   }
@@ -219,7 +219,7 @@ std::optional<Relocalization::Found> Relocalization::decide(const View& view) {
       found = here;
     }
   }
-  // What is seen changes, and wheels and gyro drift: old views are forgotten.
+  // Forget old views, because the scene changes and wheels and gyro drift.
   if (views_.size() >= kMaxViews) {
     views_.pop_front();
     for (Hypothesis& hypothesis : hypotheses_) {
@@ -250,13 +250,13 @@ bool Relocalization::is_exact(const Hypothesis& best, const PoseVector& pose, co
   for (const View& seen : views_) {
     const ScanMatch match = fit(seen, compose(best.map_from_odom, seen.odom), kFineSigmaM, kFineSigmaRad);
     if (agreement_of(seen, match.pose, map_.surfaces, kToleranceM).seen < kMinSeen) {
-      // Of a rival so little is enough.
+      // A competitor does not need this evidence.
       return false;
     }
     squares += match.residual_rms * match.residual_rms;
   }
   if (extent_ == Extent::kReckonedOnly) {
-    // There is no other place, and a half-made map is not exact yet.
+    // There is only one place, and an incomplete map is not accurate yet.
     return true;
   }
   const bool lies_on_surfaces = squares <= static_cast<double>(views_.size()) * kMaxResidual * kMaxResidual;
@@ -264,7 +264,7 @@ bool Relocalization::is_exact(const Hypothesis& best, const PoseVector& pose, co
 }
 
 Relocalization::Found Relocalization::settled(const View& view, const PoseVector& pose) const {
-  // As far as places are one; what the view leaves open of that stays in the covariance.
+  // Poses within one place; directions that the view leaves open keep this covariance.
   const ScanMatch match = fit(view, pose, kSamePlaceM, kSameHeadingRad);
   const Eigen::Matrix3d open = pose_covariance(kSamePlaceM, kSameHeadingRad);
   return {match.pose, open * (Eigen::Matrix3d::Identity() + match.correction.information * open).inverse()};
@@ -276,7 +276,7 @@ bool Relocalization::is_at_rim(const PoseVector& pose) const {
 }
 
 Relocalization::Shares Relocalization::shares_at(const View& view, const PoseVector& pose) const {
-  // Both count: a place must explain what is seen, and show what it lets expect.
+  // Both shares count: a place must explain the returns, and show the expected surfaces.
   const Agreement agreement = agreement_of(view, pose, map_.surfaces, kToleranceM);
   return {agreement.share_of_both(), agreement.share_of_returns()};
 }

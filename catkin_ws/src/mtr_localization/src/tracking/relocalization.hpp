@@ -1,5 +1,5 @@
 /// @file
-/// Finds a lost pose again: places that explain what is seen from several places on the way.
+/// Relocalization: places that explain the views from several positions on the path.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,38 +14,38 @@
 
 namespace mtr_localization {
 
-/// One search, for as long as the pose is lost. Sweeps of one place say the same again and again; what tells a place
-/// from one that looks like it is what is seen after driving or turning, which wheels and gyro connect.
+/// One search for a lost pose. Sweeps from one position are redundant. A place is distinguished from a look-alike by
+/// views after driving or turning, which wheels and gyro connect.
 ///
-/// Search: from each new view all places round the pose that was lost are tried, without regard to those found before.
-/// Compare: each place that was ever found, and the pose that wheels and gyro led to, is laid on the surfaces in each
-/// view. Decide: one place explains all of at least kViewsToDecide views, every other place explains them less, and
-/// there the returns lie on the surfaces as exactly as they are measured.
+/// Search: each new view starts a search of all places round the lost pose, independent of earlier results. Compare:
+/// each found place, and the pose of wheels and gyro, is matched with the surfaces in each view. Decide: one place
+/// explains all of at least kViewsToDecide views, every other place explains them less, and the residuals at that place
+/// are within the measurement accuracy.
 class Relocalization {
  public:
   struct Found {
     PoseVector pose;
     Eigen::Matrix3d covariance;
   };
-  /// Where a pose may be found.
+  /// Extent of the search.
   enum class Extent { kEverywhere, kReckonedOnly };
 
-  /// The map outlives the search.
+  /// The map must outlive the search.
   Relocalization(const TrackingParameters& parameters, const ReferenceMap& map, Extent extent = Extent::kEverywhere);
 
-  /// One step; the pose at the view when it is sure.
-  /// @param reckoned pose of base_link in map that wheels and gyro led to
+  /// Executes one step; returns the pose at the view once it is certain.
+  /// @param reckoned pose of base_link in map from wheels and gyro
   std::optional<Found> advance(const View& view, const PoseVector& reckoned);
 
  private:
-  /// How well a place and a view agree.
+  /// Agreement of a place with a view.
   struct Shares {
-    /// Of what is expected and of what returned, both.
+    /// Mean of both shares: expected surfaces and returns.
     double both;
-    /// Of what returned.
+    /// Share of the returns.
     double returns;
   };
-  /// A place, as the pose of odom in map, and its shares in each view kept.
+  /// A place, as the pose of odom in map, with its shares in each stored view.
   struct Hypothesis {
     PoseVector map_from_odom;
     std::deque<Shares> shares;
@@ -80,13 +80,13 @@ class Relocalization {
   DistanceField field_;
   PlaceSearch places_;
   Phase phase_ = Phase::kWait;
-  /// Where the search began, in map.
+  /// Start of the search, in map.
   std::optional<PoseVector> around_;
-  /// Where wheels and gyro have led, at the newest view.
+  /// Pose of wheels and gyro at the newest view.
   PoseVector reckoned_ = PoseVector::Zero();
   /// Places found from the newest view.
   std::vector<PoseVector> found_;
-  /// The next of `known_` hypotheses of earlier views, and of the places found, to be worked on.
+  /// Next item to process among `known_` earlier hypotheses and the found places.
   std::size_t next_ = 0;
   std::size_t known_ = 0;
   /// Newest last.

@@ -1,5 +1,5 @@
 /// @file
-/// The tracked map, and what becomes of a pose whose view does not agree with it.
+/// The tracked map, and the handling of a pose whose view does not agree with it.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/tracker.hpp"
 
@@ -16,24 +16,24 @@ namespace {
 
 constexpr int kMinEvidence = Agreement::kMinEvidence;
 constexpr int kMinMatched = 5;
-// Where nothing is expected, returns of so many beams are more than a person who stands there; 20 are 0.6 m at 2 m.
+// If no surface is expected, this number of returns is more than one person causes; 20 beams are 0.6 m at 2 m.
 constexpr int kMinUnexplained = 20;
 constexpr double kToleranceM = 0.12;
-// Lever that makes an angle comparable with a distance.
+// Lever arm that converts an angle to a distance.
 constexpr double kLeverM = 1.0;
 constexpr double kMinInformation = 1e-6;
-// While the map grows, wheels and gyro carry the pose over places where a LiDAR on uneven ground looks over and under
-// bumpers and sills by turns: over 14 m of a way round they were 4 to 6 cm off in simulation. What is seen meanwhile
-// joins the map.
+// Distance that wheels and gyro bridge while mapping, because a LiDAR on uneven ground looks over and under bumpers and
+// sills. In simulation, they were 4 to 6 cm off over 14 m of the path. Views in between are added to the map.
 constexpr double kMaxBridgedM = 2.0;
-// A robot that moved less since the view agreed was carried, or something stands before it.
+// A robot that moved less since the last agreement was carried, or an object is in front of it.
 constexpr double kStoodM = 0.05;
-// On steeper ground, or braking, a LiDAR looks over and under what is expected, and half of it is what a right pose
-// shows: 1 cm a metre.
+// Slope limit of level ground: 1 cm per metre. On steeper ground or when braking, a LiDAR looks over and under
+// surfaces, and a correct pose shows only half of them.
 constexpr double kLevelSlope = 0.01;
-// A robot that was put down rocks, and looks at the ground or over things: no views for a search before that.
+// Settling time before views are used in a search: a robot that was put down rocks, and sees the ground or over
+// objects.
 constexpr std::int64_t kSettledNs = 500'000'000;
-// Of so many returns near surfaces a pose that is what its covariance says puts nearly all on them.
+// With this number of returns near surfaces, a pose within its covariance has nearly all of them on the surfaces.
 constexpr int kMinNear = 15;
 constexpr double kMinExactShare = 0.5;
 
@@ -60,7 +60,7 @@ void ScanTracker::extend(const KeyFrame& frame) {
   auto map = std::make_unique<ReferenceMap>();
   map->surfaces = SurfelMap(growing_.surfels());
   map_ = std::move(map);
-  // A search refers to the map that it began with.
+  // A search refers to the previous map.
   search_.reset();
 }
 
@@ -110,7 +110,7 @@ void ScanTracker::find(const FilterStep& step) {
   contradictions_.reset();
   note_agreement(step);
   fitted_ns_ = step.stamp_ns;
-  // A place on the map where nothing has been seen yet bears little that hides it.
+  // While mapping, unmapped places contain little evidence that something hides the view.
   patience_s_ = state_ == State::kMapping ? parameters_.lost_hidden_after_s : parameters_.lost_after_s;
   search_.reset();
 }
@@ -143,7 +143,7 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
   }
   has_agreed_ = is_right && !says_nothing;
   if (!has_agreed_ && is_beyond_patience(all, step)) {
-    // Nobody searches while mapping: beside a Car alone a map of half a way round has places that look alike.
+    // No search while mapping: next to a Car alone, an incomplete map has look-alike places.
     lose_sight(state_ == State::kMapping ? problems::kOtherViewWhileMapping() : problems::kOtherView());
   }
   if (state_ == State::kLocalized && contradictions_.add(step.stamp_ns, all, view.slope)) {
@@ -162,8 +162,8 @@ Judgement ScanTracker::judge(const ScanSet& set, const FilterHistory& history) {
 }
 
 bool ScanTracker::agrees(const Agreement& all) {
-  // Either is enough. Where the ground is uneven the LiDAR looks over or under what is expected, or meets the ground
-  // all round; a pose that is wrong fails both.
+  // Either share is sufficient. On uneven ground, the LiDAR looks over or under expected surfaces, or meets the ground
+  // all round; a wrong pose fails both.
   figures_.agreement = std::max(all.share_of_expected(), all.share_of_returns());
   if (all.expected() < kMinEvidence) {
     return !is_unexplained(all);
@@ -172,7 +172,7 @@ bool ScanTracker::agrees(const Agreement& all) {
 }
 
 bool ScanTracker::is_unexplained(const Agreement& all) const {
-  // A growing map has not seen everything yet.
+  // A growing map does not contain everything yet.
   return state_ == State::kLocalized && all.expected() < kMinEvidence && all.unknown >= kMinUnexplained &&
          all.share_of_returns() < parameters_.min_agreement;
 }
@@ -249,7 +249,7 @@ std::optional<Relocalization::Found> ScanTracker::relocalize(const ScanSet& set,
     return std::nullopt;
   }
   if (!search_) {
-    // A half-made map is not searched: beside a Car alone it has places that look alike.
+    // An incomplete map is not searched, because next to a Car alone it has look-alike places.
     using Extent = Relocalization::Extent;
     search_.emplace(parameters_, *map_, is_mapping ? Extent::kReckonedOnly : Extent::kEverywhere);
   }
@@ -258,12 +258,12 @@ std::optional<Relocalization::Found> ScanTracker::relocalize(const ScanSet& set,
     return std::nullopt;
   }
   find(step);
-  // The growing map goes on where wheels and gyro have led.
+  // The growing map continues at the pose of wheels and gyro.
   return is_mapping ? std::nullopt : found;
 }
 
 Relocalization::Found ScanTracker::matched_near(const View& view, const PoseFilter& filter) const {
-  // Wheels that led over a gap know the heading to some degrees.
+  // After a gap bridged by wheels, the heading is known to a few degrees.
   const Eigen::Matrix3d covariance = filter.pose_covariance();
   const ScanMatch match = this->match(view.scan, filter);
   if (!is_enough(match) || match.contradicts(covariance)) {

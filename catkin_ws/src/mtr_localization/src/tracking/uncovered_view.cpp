@@ -1,5 +1,5 @@
 /// @file
-/// How much of time, way and turn is enough.
+/// Required time, distance and turn of agreement.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/uncovered_view.hpp"
 
@@ -9,16 +9,16 @@ namespace mtr_localization {
 namespace {
 
 constexpr std::int64_t kTimeNs = 1'000'000'000;
-// Near the place where the view agreed last.
+// Vicinity of the last agreement.
 constexpr double kNearM = 1.0;
 constexpr double kNearRad = 0.5;
 constexpr double kWayM = 1.0;
 constexpr double kTurnRad = 1.0;
 constexpr double kContradictedWayM = 2.0;
-// Share of the returns near surfaces that lie on them. In simulation it was 0.9 to 1 at nearly all right places, on
-// slopes, too, and 0.3 to 0.75 at places 0.3 to 1.2 m beside the right one that were the expected ones to look at.
+// Lowest share of exact returns among those near surfaces. In simulation it was 0.9 to 1 at nearly all correct places,
+// also on slopes. At look-alike places 0.3 to 1.2 m off it was 0.3 to 0.75.
 constexpr double kExactShare = 0.85;
-// So many that they tell.
+// Number of returns that is sufficient for a decision.
 constexpr int kMinNear = 100;
 
 bool is_within(const PoseVector& way, double distance_m, double turn_rad) {

@@ -1,5 +1,5 @@
 /// @file
-/// While a pose is lost: for how long, and over which way, the view is the expected one again.
+/// Confirmation of a lost pose by the duration and path of agreeing views.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,21 +11,23 @@
 
 namespace mtr_localization {
 
-/// What hid the view has gone when, near the place where it agreed last, the expected one is seen for a second.
-/// Elsewhere it has to go on over some of a way, or of a turn, for one place alone may look like another. After
-/// surfaces were looked through, only over a longer way: a robot that was carried would have to be at a place that
-/// looks like the one to which wheels and gyro have led, and go on looking like it. A turn shows one place again.
+/// Detects that an obstruction has gone: near the place of the last agreement, the expected view must last for a
+/// second. Elsewhere it must last over a distance or a turn, because a single place may look like another. After
+/// surfaces were looked through, a longer distance is required: a carried robot would have to be at a place that keeps
+/// looking like the assumed one. A turn alone shows the same place again.
 ///
-/// A view tells places apart by decimetres, and far from a Car that stands alone by a metre: what it shows has to lie
-/// on the surfaces, too, as exactly as the pose is known.
+/// Views distinguish places to decimetres, and far from a single Car only to a metre. Therefore the returns
+/// must also fit the surfaces as exactly as the pose is known.
 class UncoveredView {
  public:
-  /// It is not the expected view.
+  /// Resets, for a view that is not the expected one.
   void reset() { since_.reset(); }
 
-  /// It is the expected one. @param agreed_odom base_link in odom when the view agreed last; @param odom now
-  /// @param fit of the view at the pose where it is the expected one
-  /// @return whether it has been for long enough
+  /// Adds an expected view.
+  /// @param agreed_odom base_link in odom at the last agreement
+  /// @param odom base_link in odom now
+  /// @param fit of the view at the pose with the expected view
+  /// @return true if the agreement has lasted long enough
   bool add(std::int64_t stamp_ns, const PoseVector& agreed_odom, const PoseVector& odom, bool is_contradicted,
            const ScanFit& fit);
 
@@ -33,7 +35,7 @@ class UncoveredView {
   struct Beginning {
     std::int64_t stamp_ns;
     PoseVector odom;
-    /// Of all views since.
+    /// Sum over all views since.
     ScanFit fit = {};
   };
   std::optional<Beginning> since_;

@@ -1,5 +1,5 @@
 /// @file
-/// From a scan set and the motion during it to a view.
+/// Conversion of a scan set and its motion to a view.
 // SPDX-License-Identifier: Apache-2.0
 #include "tracking/view.hpp"
 

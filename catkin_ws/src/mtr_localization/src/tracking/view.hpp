@@ -1,5 +1,5 @@
 /// @file
-/// What the LiDARs show at one place, kept for as long as it is compared with other places.
+/// LiDAR view from one place, stored for comparison with other places.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,25 +12,25 @@
 
 namespace mtr_localization {
 
-/// One scan set with the motion during it, which does not depend on where on the map it was taken.
+/// One scan set with the motion during it, independent of the place on the map.
 struct View {
-  /// Sweeps, and how far each had turned against the view's pose at its first and last beam.
+  /// Sweeps, and the turn of each relative to the view's pose at its first and last beam.
   std::vector<Sweep> sweeps;
   std::vector<SweepTurn> turns;
-  /// Their returns without motion distortion.
+  /// Returns without motion distortion.
   ScanPoints scan;
   std::int64_t stamp_ns = 0;
-  /// Base_link in odom.
+  /// Pose of base_link in odom.
   PoseVector odom = PoseVector::Zero();
   /// Rise of base_link's x and y axes per metre.
   Eigen::Vector2d slope = Eigen::Vector2d::Zero();
-  /// Its 1 sigma along each axis.
+  /// 1 sigma of the slope along each axis.
   double slope_sigma = 0.0;
 };
 
 View view_of(const ScanSet& set, ScanPoints scan, const FilterHistory& history);
 
-/// Of all its sweeps, were it taken at a pose of base_link in map.
+/// Returns the agreement of all sweeps, for a pose of base_link in map.
 Agreement agreement_of(const View& view, const PoseVector& pose, const SurfelMap& map, double tolerance_m);
 
 }  // namespace mtr_localization

@@ -1,5 +1,5 @@
 /// @file
-/// A drive with ideal sensors, for the tests of the localizer.
+/// Drive with ideal sensors, for tests of the localizer.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,10 +15,10 @@ namespace mtr_localization {
 constexpr std::int64_t kStepNs = 20'000'000;
 constexpr double kStepS = 0.02;
 
-/// Moves a robot whose gyro has a bias and feeds the localizer, 50 samples a second.
+/// Simulates a robot with a gyro bias and feeds the localizer with 50 samples per second.
 class LocalizerFixture : public ::testing::Test {
  protected:
-  /// Moves for a time at constant velocity; returns the newest estimate.
+  /// Drives for a time at constant velocity; returns the newest estimate.
   Estimate drive(double linear_mps, double angular_radps, double duration_s) {
     for (int step = 0; step < std::lround(duration_s / kStepS); ++step) {
       step_once(linear_mps, angular_radps);

@@ -1,5 +1,5 @@
 /// @file
-/// A robot with noisy wheels, gyro and LiDAR that drives through a scene and feeds a source_->
+/// Robot with noisy wheels, gyro and LiDAR that drives through a scene and feeds a pose source.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -29,14 +29,14 @@ inline void add_box(synthetic::World& world, const PoseVector& pose, double leng
   synthetic::add_polygon(world, {{x, y}, {-x, y}, {-x, -y}, {x, -y}}, pose);
 }
 
-/// The Car alone, its centre in the origin.
+/// Returns the Car alone, with its centre at the origin.
 inline synthetic::World open() {
   synthetic::World world;
   add_box(world, {0.0, 0.0, 0.0}, 4.5, 1.8);
   return world;
 }
 
-/// The Car, two walls and another car; nothing of it has a symmetry.
+/// Returns the Car, two walls and another car, without any symmetry.
 inline synthetic::World lot() {
   synthetic::World world = open();
   world.push_back({{-14.0, 11.0}, {9.0, 12.5}});
@@ -52,7 +52,8 @@ inline constexpr double kTickS = 0.02;
 inline constexpr int kBeams = 360;
 inline constexpr double kFieldRad = 4.7;
 
-/// Truth is in the scene's frame; `map_truth` is where the robot is in the frame map, which begins at its start.
+/// Simulated drive. The truth is in the frame of the scene; `map_truth` is the pose in map, which starts at the start
+/// pose.
 class SceneDrive {
  public:
   SceneDrive(synthetic::World scene, const Parameters& parameters, unsigned seed = 1)
@@ -63,7 +64,7 @@ class SceneDrive {
     poses_.assign(3, truth);
   }
 
-  /// The robot stands, drives round the Car, and comes back to where it began.
+  /// Drives round the Car after a standstill, and returns to the start.
   void drive_round() {
     for (const double side_m : {5.6, 8.4, 5.6, 8.4}) {
       drive(0.6, 0.0, side_m / 0.6);
@@ -72,7 +73,7 @@ class SceneDrive {
     drive(0.6, 0.0, 1.5);
   }
 
-  /// All of mapping; the result.
+  /// Runs the whole mapping and returns the result.
   MapResult map(std::uint64_t map_car_id = 1) {
     drive(0.0, 0.0, 2.0);
     order(map_car_id, MapOrder::Phase::kCollect);
@@ -112,13 +113,13 @@ class SceneDrive {
     feel(linear_mps, angular_radps);
   }
 
-  /// Lifted and put down elsewhere, in the scene's frame.
+  /// Lifts the robot and puts it down elsewhere, in the frame of the scene.
   void carry(double x_m, double y_m, double turn_rad) {
     truth += PoseVector(x_m, y_m, turn_rad);
     poses_.assign(3, truth);
   }
 
-  /// Persons stand round the robot, 1 m away.
+  /// Places persons round the robot, 1 m away.
   void surround() {
     for (double angle = 0.0; angle < 2.0 * M_PI; angle += 0.25) {
       persons.emplace_back(truth.x() + std::cos(angle), truth.y() + std::sin(angle));
@@ -143,14 +144,14 @@ class SceneDrive {
 
   PoseSource& localizer() { return *source_; }
 
-  /// The process ends, and another goes on with what it was told.
+  /// Ends the process and starts another one with the stored state.
   void start_anew(Memory memory) {
     auto localizer = std::make_unique<Localizer>(in_lockstep(Parameters{}));
     localizer->go_on(std::move(memory));
     source_ = std::move(localizer);
   }
 
-  /// What the process knows now.
+  /// Returns the state that the process would store now.
   Memory memory(const MapResult& map) const {
     Memory memory{map.map, map.map_car_id, map.revision, {}};
     memory.pose.emplace();
@@ -164,21 +165,21 @@ class SceneDrive {
   PoseVector truth{4.2, -2.8, M_PI_2};
   std::int64_t now_ns = 1'000'000'000;
   bool lidar_works = true;
-  /// The driver repeats what it said last.
+  /// The driver repeats its last message.
   bool imu_is_frozen = false;
   bool wheels_are_frozen = false;
   bool lidar_is_frozen = false;
-  /// It tells no range of any beam.
+  /// The LiDAR reports no range of any beam.
   bool lidar_is_covered = false;
-  /// What the accelerometer shows; 0: there is none.
+  /// Accelerometer reading; 0 without an accelerometer.
   double gravity_mps2 = 0.0;
-  /// False: the sensors work, and nothing of them arrives.
+  /// False: the sensors work, but nothing arrives.
   bool hears = true;
   double range_bias_m = 0.0;
   double range_noise_m = 0.01;
-  /// Share of beams that meet a drop of rain.
+  /// Share of beams that hit a rain drop.
   double rain = 0.0;
-  /// Centres of persons, 0.2 m in radius.
+  /// Centres of persons with a radius of 0.2 m.
   std::vector<Eigen::Vector2d> persons;
   Estimate newest;
   std::optional<MapResult> result;
@@ -223,7 +224,7 @@ class SceneDrive {
     }
   }
 
-  /// Of the last 40 ms: each beam from where the robot was at its time.
+  /// Returns the sweep of the last 40 ms, with each beam from the pose at its time.
   Sweep sweep() {
     Sweep sweep;
     sweep.stamp_ns = now_ns - 2 * kTickNs;
@@ -271,12 +272,12 @@ class SceneDrive {
   std::normal_distribution<double> normal_{0.0, 1.0};
   std::uniform_real_distribution<double> uniform_{0.0, 1.0};
   PoseVector start_ = truth;
-  /// At the last three ticks.
+  /// Poses at the last three ticks.
   std::vector<PoseVector> poses_;
   std::vector<float> ranges_;
   ImuSample imu_{0, 0.0};
   WheelSample wheels_{0, 0.0, 0.0, 0.0, 0.0, 0.0};
-  /// What the driver says of them.
+  /// Wheel odometry as published by the driver.
   WheelSample said_ = wheels_;
 };
 

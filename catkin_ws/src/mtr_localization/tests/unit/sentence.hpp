@@ -1,5 +1,5 @@
 /// @file
-/// What a person is told when something cannot be done.
+/// Expectation of error sentences.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace mtr_localization::replay {
 
-/// The action ends with a sentence that has this part.
+/// Expects that the action throws a sentence with this part.
 template <typename Action>
 void expect_sentence(Action action, const std::string& part) {
   try {

@@ -1,5 +1,5 @@
 /// @file
-/// A recorded drive round the Car in a synthetic scene.
+/// Recorded drive round the Car in a synthetic scene.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,32 +21,32 @@ namespace mtr_localization {
 
 namespace synthetic = mtr_surfel_map::synthetic;
 
-/// What is written.
+/// Contents of the bag.
 struct BagOptions {
   bool with_odometry = true;
   bool with_imu = true;
   bool with_scans = true;
-  /// Scans were recorded so much after their last beam.
+  /// Recording delay of scans after their last beam.
   double scan_delay_s = 0.0;
-  /// Some LiDARs leave it 0 in their scans.
+  /// Scan time; some LiDARs report 0.
   double scan_time_s = 0.04;
 };
 
-/// Stands, drives once round the Car on an ellipse, stands again; 50 Hz, scans 25 Hz with 360 beams.
+/// Writes a standstill, an ellipse round the Car, and a standstill; 50 Hz, scans at 25 Hz with 360 beams.
 class BagWriter {
  public:
   BagWriter(const std::string& path, const BagOptions& options) : options_(options) {
     bag_.open(path, rosbag::bagmode::Write);
   }
 
-  /// True poses in the frame of the Car, from 1 s on, every 20 ms.
+  /// Returns true poses in the frame of the Car, from 1 s on, every 20 ms.
   std::vector<PoseVector> write() {
     std::vector<PoseVector> truth;
     for (int i = 0; i < kStanding; ++i) {
       truth.push_back(place(0.0));
     }
     for (int i = 1; i <= kDriving; ++i) {
-      // Speeds up and slows down, so that the wheels never jump.
+      // Accelerates and brakes smoothly, so that the wheels never jump.
       const double part = static_cast<double>(i) / kDriving;
       truth.push_back(place(kTurn * (part - std::sin(2.0 * M_PI * part) / (2.0 * M_PI))));
     }
@@ -97,7 +97,7 @@ class BagWriter {
     }
   }
 
-  /// The sweep that ends at step i, with its motion distortion.
+  /// Returns the sweep that ends at step i, with its motion distortion.
   sensor_msgs::LaserScan scan(const std::vector<PoseVector>& truth, std::size_t i) {
     constexpr int kBeams = 360;
     sensor_msgs::LaserScan message;

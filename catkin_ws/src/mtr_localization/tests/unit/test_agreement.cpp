@@ -1,5 +1,5 @@
 /// @file
-/// What a beam says of a pose beside the ends of the map's surfaces.
+/// Result of beams near the ends of mapped surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
 
-/// A narrow fan ahead, of 1 rad, whose beams show this.
+/// Returns a narrow fan ahead, of 1 rad, with this range in all beams.
 Sweep fan(float range_m) {
   Sweep sweep;
   sweep.angle_min_rad = -0.5;
@@ -29,7 +29,7 @@ class ViewAgreementTest : public ::testing::Test {
  protected:
   Agreement seen(const Sweep& sweep) const { return agreement_of(sweep, ViewPose{PoseVector::Zero()}, tyre, 0.1); }
 
-  /// A tyre 5 m ahead, as wide as the tolerance on both sides of its middle.
+  /// A tyre 5 m ahead, as wide as the lateral tolerance on both sides.
   SurfelMap tyre{{{{5.0, 0.0}, {-1.0, 0.0}, 0.4, 0.002, 50}}};
 };
 
@@ -46,7 +46,7 @@ TEST_F(ViewAgreementTest, TyreWhereItIsExpectedAgreesAndNothingBesideItContradic
 
 TEST_F(ViewAgreementTest, KnownWallBehindWhatIsExpectedIsSeen) {
   EXPECT_GT(seen(fan(8.0F)).beyond + seen(fan(8.0F)).passed, 3);
-  // A fan of 8 m meets a wall of short pieces, each at a right angle to its beam.
+  // The fan of 8 m meets a wall of short pieces, each perpendicular to its beam.
   std::vector<Surfel> surfels = tyre.surfels();
   for (double angle = -0.5; angle <= 0.5; angle += 0.02) {
     const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
@@ -79,7 +79,7 @@ TEST_F(ViewAgreementTest, SurfaceAsFarAsideAsItMayBeOffIsSeen) {
   EXPECT_DOUBLE_EQ(seen(sweep).share_of_expected(), 1.0);
 }
 
-/// Whether views of 40 beams each 40 ms, so many of which look through surfaces, are too much within a time.
+/// Returns true if views of 40 beams every 40 ms, with this number through surfaces, are excessive within a time.
 bool is_too_much(int through, double time_s, int expected = 40, double slope = 0.0) {
   ContradictionWatch watch;
   Agreement view;
@@ -104,7 +104,7 @@ TEST(ContradictionWatch, FifthOfAViewOfWhichAllElseIsSeenIsAThingThatHasLeft) { 
 
 TEST(ContradictionWatch, WhatIsOverlookedFromLowDownIsNoContradictionWhileAllReturnsAreOnTheMap) {
   ContradictionWatch watch;
-  // As seen 10 m in front of a van whose wheels alone are on the map, at the right place.
+  // View from 10 m in front of a van with only its wheels on the map, at the correct place.
   Agreement view;
   view.seen = 20;
   view.missing = 20;
@@ -115,7 +115,7 @@ TEST(ContradictionWatch, WhatIsOverlookedFromLowDownIsNoContradictionWhileAllRet
     found = found || watch.add(i * 40'000'000, view, Eigen::Vector2d::Zero());
   }
   EXPECT_FALSE(found);
-  // Some of what returns is not on the map.
+  // Some returns are not on the map.
   view.unknown = 8;
   for (std::int64_t i = 1500; i < 1600; ++i) {
     found = found || watch.add(i * 40'000'000, view, Eigen::Vector2d::Zero());
@@ -127,7 +127,7 @@ TEST(ContradictionWatch, OnSlopesTheLidarLooksOverAndUnderSurfaces) { EXPECT_FAL
 
 TEST(ContradictionWatch, RobotThatPitchesAsItSetsOffLooksUnderTheCarAndNotThroughIt) {
   ContradictionWatch watch;
-  // As seen 7 m beside a hatchback, 3 cm above its lower edge, while the robot gathered speed for 0.7 s.
+  // View from 7 m next to a hatchback, 3 cm above its lower edge, while the robot accelerated for 0.7 s.
   Agreement view;
   view.seen = 13;
   view.missing = 17;
@@ -139,7 +139,7 @@ TEST(ContradictionWatch, RobotThatPitchesAsItSetsOffLooksUnderTheCarAndNotThroug
     found = found || watch.add(i * 40'000'000, view, {-0.006, 0.0});
   }
   EXPECT_FALSE(found);
-  // At heights at which they have been met the same surfaces are missed.
+  // The same surfaces are missed at heights at which they were met.
   view.unsure = 0;
   for (std::int64_t i = 18; i < 35; ++i) {
     found = found || watch.add(i * 40'000'000, view, {-0.006, 0.0});

@@ -1,4 +1,4 @@
-"""A bag of any robot becomes the inputs that localization takes, or a sentence says what it lacks."""
+"""Bags of any robot are converted to the inputs of localization, or one sentence has the reason for the failure."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -24,7 +24,7 @@ MOUNTS = {"laser": (0.4, 0.05, (0.0, 0.0, 0.1)), "laser_behind": (-0.3, 0.0, (ma
 
 
 def transform(parent, child, place, rpy, time_s=BEGIN_S):
-    """One of tf."""
+    """Return a transform message."""
     message = TransformStamped(child_frame_id=child)
     message.header.frame_id, message.header.stamp = parent, rospy.Time.from_sec(time_s)
     at = message.transform
@@ -34,10 +34,10 @@ def transform(parent, child, place, rpy, time_s=BEGIN_S):
 
 
 class Robot:
-    """Somebody's robot, whose bag is written: what is in it can be changed before.
+    """Robot of another user whose bag is written; tests change its contents before.
 
     Attributes:
-        scans: topic -> frame. has_odometry: on a topic, else as a transform. mounts: frames on the base.
+        scans: topic -> frame. has_odometry: on a topic, otherwise as a transform. mounts: frames on the base.
     """
 
     def __init__(self, path):
@@ -51,7 +51,7 @@ class Robot:
         self.spoil_odometry = self.spoil_transform = lambda message: None
 
     def write(self):
-        """The bag."""
+        """Write the bag."""
         with rosbag.Bag(str(self.path), "w") as bag:
             for number in range(COUNT):
                 self._step(bag, number)
@@ -97,7 +97,7 @@ def robot_fixture(tmp_path):
 
 @pytest.fixture(name="converted")
 def converted_fixture(robot, tmp_path):
-    """Converts, and reads what came of it: topic -> messages."""
+    """Return a function that converts the bag and returns topic -> messages."""
     def of(asked=None, needs_motion=True):
         asked = Asked() if asked is None else asked
         out = tmp_path / "ours.bag"
@@ -256,7 +256,7 @@ def test_usual_delays_of_the_recording_are_accepted(robot, converted, later_s):
 
 
 def without_rotation(orientation):
-    """Its quaternion is zero."""
+    """Set the quaternion to zero."""
     orientation.x = orientation.y = orientation.z = orientation.w = 0.0
 
 

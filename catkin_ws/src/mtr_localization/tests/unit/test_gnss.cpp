@@ -1,5 +1,5 @@
 /// @file
-/// Fixes of a satellite receiver: their frame, and what they do to the pose.
+/// Fixes of a satellite receiver: frame, and effect on the pose.
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
@@ -11,11 +11,11 @@ namespace {
 
 constexpr double kLatitudeRad = 0.875;
 constexpr double kLongitudeRad = 0.252;
-// How the scene lies to east and north.
+// Pose of the scene in east and north.
 const PoseVector kLevelFromScene(120.0, -40.0, 0.7);
 const Eigen::Vector2d kAntenna(-0.18, 0.126);
 
-/// Radii of curvature, m, of WGS-84 at that latitude, by the formulae of Torge, Geodesy, 4.1.
+/// Radii of curvature in m of WGS-84 at that latitude, by the formulae of Torge, Geodesy, 4.1.
 constexpr double kMeridianM = 6'373'103.6;
 constexpr double kTransverseM = 6'390'751.4;
 
@@ -24,7 +24,7 @@ GnssFix fix_at(const Eigen::Vector2d& level, double sigma_m, std::int64_t stamp_
           kLongitudeRad + level.x() / (kTransverseM * std::cos(kLatitudeRad)), sigma_m, kAntenna};
 }
 
-/// Learns on a circle of 4 m.
+/// Returns a frame learned on a circle of 4 m.
 GnssFrame learned(double sigma_m, double radius_m = 4.0) {
   GnssFrame frame;
   for (int i = 0; i < 16; ++i) {
@@ -54,7 +54,7 @@ TEST(GnssFrame, PathNotMuchWiderThanTheFixesErrorsGivesNoFrame) {
   EXPECT_FALSE(GnssFrame().in_map(fix_at({0.0, 0.0}, 0.02)));
 }
 
-/// A robot with a map, and a receiver that it has had since its start.
+/// Robot with a map and a receiver that works from the start.
 class GnssTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -81,7 +81,7 @@ class GnssTest : public ::testing::Test {
     }
   }
 
-  /// Laps, so that it does not leave the scene, with many turns, in which wheels slip most.
+  /// Drives laps to remain in the scene, with many turns, in which wheels slip most.
   void go_on_for_long() {
     for (int lap = 0; lap < 150; ++lap) {
       drive(0.5, 0.0, 4.0);

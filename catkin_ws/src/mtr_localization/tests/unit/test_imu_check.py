@@ -1,4 +1,4 @@
-"""A faulty IMU of another robot's bag is named, with the option to replay without it."""
+"""Faults of the IMU in another robot's bag are reported with the option to replay without it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -15,17 +15,17 @@ NOISE = np.random.default_rng(1).normal(0.0, 0.002, 10000)
 
 
 def turn_rate(time_s):
-    """Turns of different lengths, in rad/s."""
+    """Return turns of different lengths, in rad/s."""
     return 0.5 * math.sin(0.45 * time_s) + 0.4 * math.sin(0.17 * time_s * (1.0 + 0.02 * time_s))
 
 
 def odometry():
-    """Turn rates of the wheels."""
+    """Return turn rates of the wheels."""
     return rates_of([(BEGIN_S + t, turn_rate(t)) for t in np.arange(0.0, DURATION_S, 0.02)])
 
 
 def faults(stamp=lambda t: BEGIN_S + t, rate=turn_rate, rate_hz=RATE_HZ, is_there=lambda _: True, noise=1.0):
-    """Sentences on an IMU with these stamps and values."""
+    """Return sentences about an IMU with these stamps and values."""
     check = ImuCheck("/imu")
     for number, t in enumerate(np.arange(0.0, DURATION_S, 1.0 / rate_hz)):
         if is_there(t):

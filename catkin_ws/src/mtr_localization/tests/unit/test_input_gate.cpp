@@ -1,5 +1,5 @@
 /// @file
-/// A wheel sample waits for the IMU's data of its time, but not for microseconds.
+/// A wheel sample waits for IMU data of its time, but not for microseconds.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ constexpr double kGapLimitS = 0.3;
 
 class InputGateTest : public ::testing::Test {
  protected:
-  /// IMU and wheels of a robot that drives; the wheels' stamps are later by so much.
+  /// Feeds IMU and wheels of a moving robot; the wheel stamps are later by later_ns.
   void drive(std::int64_t later_ns, bool imu_is_first) {
     for (int number = 1; number < 50; ++number) {
       const std::int64_t imu_ns = number * kPeriodNs;
@@ -39,7 +39,7 @@ class InputGateTest : public ::testing::Test {
   }
 
   InputGate gate{kGapLimitS};
-  /// Samples that were given at once.
+  /// Number of samples released at once.
   int given = 0;
   std::int64_t latest_ns = 0;
 };

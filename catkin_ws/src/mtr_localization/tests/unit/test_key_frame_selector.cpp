@@ -1,5 +1,5 @@
 /// @file
-/// Choice of key frames, and the mean of scans at rest.
+/// Selection of key frames, and mean of scans at rest.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::int64_t kPeriodNs = 40'000'000;
 
-/// Two LiDARs that look at a wall 3 m ahead, with noise.
+/// Returns a scan of two LiDARs with a wall 3 m ahead, with noise.
 ScanPoints wall(std::mt19937& random, std::int64_t stamp_ns) {
   std::normal_distribution<double> noise(0.0, 0.01);
   ScanPoints scan;
@@ -29,7 +29,7 @@ ScanPoints wall(std::mt19937& random, std::int64_t stamp_ns) {
   return scan;
 }
 
-/// A robot that drives along x and the key frames that come of it.
+/// Robot that drives along x, and its key frames.
 class Robot {
  public:
   void drive(double distance_m, double turn_rad = 0.0) {
@@ -103,7 +103,7 @@ TEST(KeyFrameSelector, RestGivesOneKeyFrameWhichIsTheMeanOfItsScans) {
     squares += std::pow((point.position.x() - 3.0) / point.direction.x(), 2.0) / 202.0;
     EXPECT_NEAR(point.direction.norm(), 1.0, 1e-12);
   }
-  // Ten times the measurements: about a third of the noise.
+  // Ten times the measurements reduce the noise to about a third.
   EXPECT_LT(std::sqrt(squares), 0.005);
 }
 
@@ -136,7 +136,7 @@ TEST(KeyFrameSelector, WayThatNobodySawCountsOnce) {
   ASSERT_EQ(robot.frames().size(), 3U);
   const Eigen::Matrix3d led = robot.frames()[1].motion_covariance - robot.frames()[2].motion_covariance;
   EXPECT_NEAR(led(0, 0), 0.01, 1e-4);
-  // Whatever is driven after a turn that nobody saw leads aside.
+  // Motion after an unmeasured turn has a lateral uncertainty.
   EXPECT_GT(led(1, 1), 0.02);
   EXPECT_NEAR(led(2, 2), 0.04, 1e-4);
 }

@@ -1,4 +1,4 @@
-"""The core of localization as a Python module: the same class as in the node, fed with plain readings."""
+"""Core of localization as a Python module: the class of the node, with plain readings as inputs."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple, Tuple
@@ -48,7 +48,7 @@ def localizer():
 
 
 def drive(localizer, seconds, noise, begin_ns=BEGIN_NS, speed_mps=0.0):
-    """Estimates on a straight way; the last readings' time and place."""
+    """Drive straight; return the estimates, and time and position of the last readings."""
     estimates, x_m, time_ns = [], 0.0, begin_ns
     for _ in range(round(seconds * 1000 / STEP_MS)):
         time_ns += STEP_MS * MS
@@ -60,7 +60,7 @@ def drive(localizer, seconds, noise, begin_ns=BEGIN_NS, speed_mps=0.0):
 
 
 def room(noise, stamp_ns):
-    """A sweep in the middle of a square room, with noise as no sensor is without."""
+    """Return a sweep in the middle of a square room, with sensor noise."""
     angles = -0.75 * math.pi + np.arange(BEAMS) * 1.5 * math.pi / (BEAMS - 1)
     ranges = ROOM_M / np.maximum(np.abs(np.cos(angles)), np.abs(np.sin(angles)))
     return Scan(stamp_ns, (ranges + noise.normal(0.0, 0.01, BEAMS)).astype(np.float32))

@@ -1,5 +1,5 @@
 /// @file
-/// Start, join of the sensors and dead reckoning.
+/// Start-up, time alignment of sensors, and dead reckoning.
 // SPDX-License-Identifier: Apache-2.0
 #include "localizer_fixture.hpp"
 

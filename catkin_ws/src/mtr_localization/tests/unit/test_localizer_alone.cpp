@@ -1,5 +1,5 @@
 /// @file
-/// Being lost beside a Car alone, which looks the same from the opposite corner: no search finds a place there.
+/// Lost next to a Car alone, which looks the same from the opposite corner: no search finds a place there.
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
@@ -8,12 +8,12 @@
 namespace mtr_localization {
 namespace {
 
-/// Beside the Car alone; a robot that turns its back to it sees nothing.
+/// Robot next to the Car alone; facing away, it sees nothing.
 class LocalizerAloneTest : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(robot.map().map.valid); }
 
-  /// Turns on the spot until the Car lies in the quarter that the LiDAR does not see.
+  /// Turns on the spot until the Car is in the blind quarter of the LiDAR.
   void turn_away() {
     const double away = std::atan2(robot.truth.y(), robot.truth.x());
     const double turn = wrapped(away - robot.truth.z());
@@ -32,7 +32,7 @@ TEST_F(LocalizerAloneTest, ViewThatDisagreedAndThenShowsNothingIsNoAgreement) {
   const PoseVector before = robot.truth;
   turn_away();
   robot.drive(0.0, 0.0, 0.4);
-  // It turns back a little, then something hides all until the Car is out of its view.
+  // The robot turns back a little; then an object hides everything until the Car is out of view.
   robot.drive(0.0, wrapped(before.z() - robot.truth.z()) > 0.0 ? 1.5 : -1.5, 0.9);
   ASSERT_TRUE(robot.newest.valid);
   robot.world.clear();
@@ -80,7 +80,7 @@ TEST_F(LocalizerAloneTest, RobotThatWasCarriedAndDrivesOnIsNotTakenUpWhereItIsNo
   }
 }
 
-/// While persons hide everything it is carried, in the scene's frame: m, rad.
+/// Displacement of the robot while persons hide everything, in the frame of the scene: m, rad.
 class CarriedUnseenTest : public LocalizerAloneTest, public ::testing::WithParamInterface<PoseVector> {};
 
 TEST_P(CarriedUnseenTest, PoseIsNotTakenUpWhereTheCarOnlyLooksTheSame) {
@@ -94,7 +94,8 @@ TEST_P(CarriedUnseenTest, PoseIsNotTakenUpWhereTheCarOnlyLooksTheSame) {
   }
 }
 
-// Before returns had to lie on the map, each of these was: the first three within a second, the others on the way.
+// Without the check that returns fit the map, all of these were accepted: the first three within a second, the others
+// after some distance.
 INSTANTIATE_TEST_SUITE_P(Places, CarriedUnseenTest,
                          ::testing::Values(PoseVector(0.21, 0.21, 0.06), PoseVector(0.35, 0.35, 0.12),
                                            PoseVector(-0.35, -0.35, -0.08), PoseVector(0.35, -0.35, -0.08),

@@ -1,5 +1,5 @@
 /// @file
-/// LiDARs that say nothing for long: nothing tells that the robot is carried, so the pose is not valid.
+/// Long silence of the LiDARs: the robot may have been carried, so the pose is not valid.
 // SPDX-License-Identifier: Apache-2.0
 #include <Eigen/Eigenvalues>
 
@@ -8,7 +8,7 @@
 namespace mtr_localization {
 namespace {
 
-/// The LiDAR sends nothing, the same again and again, or no numbers.
+/// The LiDAR is silent, repeats its sweep, or reports no numbers.
 enum class Blindness { kSilent, kFrozen, kCovered };
 
 void set_blind(SceneDrive& robot, Blindness blindness, bool is_blind) {

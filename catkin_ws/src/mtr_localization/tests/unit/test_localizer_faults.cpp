@@ -1,5 +1,5 @@
 /// @file
-/// What faults of the sensors' data get.
+/// Reaction to faults of sensor data.
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 

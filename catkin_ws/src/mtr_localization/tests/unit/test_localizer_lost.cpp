@@ -1,5 +1,5 @@
 /// @file
-/// Being lost, and being found again.
+/// Loss of the pose, and relocalization.
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
@@ -12,7 +12,7 @@ class LocalizerLostTest : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(robot.map().map.valid); }
 
-  /// Time until the pose is lost, in s; the limit when it is not.
+  /// Returns the time until the pose is lost, in s; the limit if it is not.
   double lost_after(double limit_s) {
     double time_s = 0.0;
     while (robot.newest.mode != PoseMode::kLost && time_s < limit_s) {
@@ -104,7 +104,7 @@ TEST_F(LocalizerLostTest, KidnappedToWhereNothingIsInViewIsLostToo) {
 }
 
 TEST_F(LocalizerLostTest, SurfaceThatTheLidarLooksOverDoesNotLoseThePoseWhileTheRestIsSeen) {
-  // The Car sinks below the LiDAR's plane; walls and the other car stay.
+  // The Car drops below the scan plane; walls and the other car remain.
   robot.world.erase(robot.world.begin(), robot.world.begin() + 4);
   robot.drive(0.0, 0.0, 3.0);
   EXPECT_EQ(robot.lost_ticks, 0);
@@ -145,7 +145,7 @@ TEST_F(LocalizerLostTest, GapOfAllSensorsWhileMovingIsOverWhenTheRobotHasSeenWhe
   robot.tick(0.0, 0.0);
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   EXPECT_NE(robot.newest.message.text.find("taken up again"), std::string::npos) << robot.newest.message.text;
-  // Nothing is right before it has been looked at for a second.
+  // The pose is not valid before the view has agreed for a second.
   robot.drive(0.0, 0.0, 0.9);
   EXPECT_FALSE(robot.newest.valid);
   robot.drive(0.0, 0.0, 1.0);
@@ -223,7 +223,7 @@ TEST_F(LocalizerLostTest, RobotThatWasCarriedInAGapOfItsSensorsStaysLostWhileItS
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
 }
 
-/// A scene and how somebody carries the robot there: x (m), y (m), turn (rad).
+/// A scene and the displacement of the carried robot: x (m), y (m), turn (rad).
 struct Kidnapping {
   const char* scene;
   PoseVector jump;
@@ -231,7 +231,7 @@ struct Kidnapping {
 
 class LocalizerKidnappedTest : public ::testing::TestWithParam<Kidnapping> {};
 
-// In each of these the pose was once taken up at a wrong place, metres off, with a sigma of centimetres.
+// Regressions: each of these once led to a wrong pose, metres off, with a sigma of centimetres.
 INSTANTIATE_TEST_SUITE_P(LocalizerKidnapped, LocalizerKidnappedTest,
                          ::testing::Values(Kidnapping{"open", {-1.4, 3.7, -1.5}}, Kidnapping{"open", {-1.0, 0.6, -3.0}},
                                            Kidnapping{"cones", {-0.9, 2.0, 3.0}}, Kidnapping{"cones", {-3.2, 4.7, 2.7}},

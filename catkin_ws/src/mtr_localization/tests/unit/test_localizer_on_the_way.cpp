@@ -1,5 +1,5 @@
 /// @file
-/// What happens on the way round the Car: sensors that are silent for a moment, and views that do not agree.
+/// Events during the drive round the Car: silent sensors and contradicting views.
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
@@ -8,13 +8,13 @@
 namespace mtr_localization {
 namespace {
 
-/// Where on the way round nothing arrives, and for how long.
+/// Time and duration of a silence during the drive.
 struct Gap {
   double in_side_s;
   double in_turn_s;
 };
 
-/// As SceneDrive::map, but for the gap.
+/// Maps like SceneDrive::map, with the gap.
 MapResult map_with(SceneDrive& robot, const Gap& gap) {
   const auto unheard = [&robot](double linear_mps, double angular_radps, double duration_s) {
     robot.hears = false;
@@ -52,10 +52,10 @@ TEST_P(InterruptedMapTest, IsAsGoodAsOneThatWasNot) {
   EXPECT_LT(robot.position_sigma_m(), 0.005);
 }
 
-// The wheels turn 1.4 times as far as the robot: of the 0.3 s their way is wrong by 0.1 rad.
+// The wheels turn 1.4 times as far as the robot, so they are wrong by 0.1 rad over 0.3 s.
 INSTANTIATE_TEST_SUITE_P(Gaps, InterruptedMapTest, testing::Values(Gap{0.8, 0.0}, Gap{0.0, 0.3}, Gap{0.8, 0.3}));
 
-/// A map of the Car alone begins; then there is much round it that the map does not have, and for a moment no word.
+/// Robot with a map of the Car alone, then many unmapped objects and a short silence.
 class SilenceAmongNewThingsTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -100,7 +100,7 @@ class LocalizerLostWhileMappingTest : public ::testing::Test {
     ASSERT_EQ(robot.newest.mode, PoseMode::kMapping);
   }
 
-  /// The LiDAR sees nothing of what it saw while the robot goes on.
+  /// Drives while the LiDAR sees nothing of the previous scene.
   void drive_blind(double duration_s) {
     const synthetic::World scene = std::exchange(robot.world, {});
     robot.drive(0.6, 0.0, duration_s);
@@ -161,7 +161,7 @@ TEST_F(LocalizerLostWhileMappingTest, WayRoundThatEndsLostGivesNoMap) {
       << robot.result->map.message.text;
 }
 
-/// A robot that goes half the way round, so that its map is refused.
+/// Robot that drives half the way round, so that its map is rejected.
 class RefusedMapTest : public ::testing::Test {
  protected:
   void SetUp() override {

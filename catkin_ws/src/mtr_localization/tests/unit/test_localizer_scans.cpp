@@ -43,8 +43,8 @@ TEST(LocalizerScans, ErrorsAgreeWithTheCovarianceOverManyDrives) {
       ++samples;
     }
   }
-  // Each drive's map is one sample: 8 maps, 16 degrees of freedom, 95 % of chi squared per degree: 0.43 to 1.80. What
-  // the adjustment adds for uneven ground, which is not here, may make the error smaller than it says.
+  // The map of each drive is one sample: 8 maps, 16 degrees of freedom, 95 % of chi squared per degree: 0.43 to 1.80.
+  // The error may be smaller, because the adjustment includes uneven ground, which is not simulated here.
   EXPECT_LT(squares / samples, 1.8);
   EXPECT_GT(squares / samples, 0.05);
 }
@@ -137,7 +137,7 @@ TEST(LocalizerScans, FreezeWithoutAWayRoundGivesNeitherMapNorPose) {
 TEST(LocalizerScans, MapTakesEffectAtTheOrdersTimeAndTheDelay) {
   SceneDrive robot(scenes::lot(), Parameters{});
   const MapResult result = robot.map();
-  // Frozen 3 s before the end of mapping; 2 s later it takes effect.
+  // Frozen 3 s before the end of mapping; it takes effect 2 s later.
   EXPECT_EQ(result.stamp_ns, robot.now_ns - 1'000'000'000);
 }
 

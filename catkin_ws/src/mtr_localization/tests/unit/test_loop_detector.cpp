@@ -1,5 +1,5 @@
 /// @file
-/// When a way round counts as closed.
+/// Closure of a drive.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ TEST(LoopDetector, WayRoundClosesWhenItComesBack) {
   std::vector<Eigen::Vector2d> places;
   for (int degrees = 0; degrees <= 355; degrees += 5) {
     places.emplace_back(4.0 * std::cos(degrees * M_PI / 180.0), 3.0 * std::sin(degrees * M_PI / 180.0));
-    // 15 degrees before its end the way is 0.8 m from its beginning.
+    // The path is 0.8 m from its start 15 degrees before its end.
     EXPECT_EQ(watch.closes(frames_at(places)), degrees >= 345) << degrees;
   }
 }

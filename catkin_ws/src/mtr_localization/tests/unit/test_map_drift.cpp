@@ -1,5 +1,5 @@
 /// @file
-/// Uncertainty of a growing map: a heading error displaces all of the path after it.
+/// Uncertainty of a growing map: a heading error displaces the whole path after it.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 constexpr double kStepM = 0.01;
 constexpr double kStepS = 0.02;
 
-/// Sigma of the position along the worse axis after a path.
+/// Returns the position sigma along the worse axis.
 double position_sigma_m(const MapDrift& drift) {
   return std::sqrt(drift.covariance().topLeftCorner<2, 2>().eigenvalues().real().maxCoeff());
 }
@@ -36,7 +36,7 @@ TEST(MapDrift, AcrossAStraightPathItGrowsWithTheHeadingErrorOfAllOfIt) {
     const double position = std::pow(parameters.mapping.mapping_drift_m_per_sqrt_m, 2) * length_m;
     const double heading = std::pow(parameters.mapping.mapping_drift_rad_per_sqrt_m, 2);
     EXPECT_NEAR(drift.covariance()(2, 2), heading * length_m, 1e-6 * length_m);
-    // Integral of the heading's random walk over the path.
+    // Integral of the random walk of the heading over the path.
     EXPECT_NEAR(position_sigma_m(drift), std::sqrt(position + heading * std::pow(length_m, 3) / 3.0),
                 0.02 * length_m * std::sqrt(heading * length_m));
   }
@@ -46,7 +46,7 @@ TEST(MapDrift, BackAtItsStartARoundTripIsLessUncertainThanAtItsFarEnd) {
   const Parameters parameters;
   MapDrift drift(parameters);
   double farthest_m = 0.0;
-  // A circle of 6 m around the Car.
+  // Circle of 6 m round the Car.
   for (int step = 0; step < std::lround(2.0 * M_PI * 6.0 / kStepM); ++step) {
     drift.travel({kStepS, kStepM, kStepM / 6.0}, step * kStepM / 6.0);
     farthest_m = std::max(farthest_m, position_sigma_m(drift));

@@ -1,5 +1,5 @@
 /// @file
-/// Laying scans on surfaces.
+/// Matching of scans with surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -43,7 +43,7 @@ class MatcherTest : public ::testing::Test {
       const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
       double range = synthetic::cast(world, kTruth.head<2>(), rotation(kTruth.z()) * direction);
       if (range > 0.0) {
-        // As if the two LiDARs sent every other beam.
+        // Alternate beams belong to the two LiDARs.
         const int lidar = static_cast<int>(points.points.size() % kLidars);
         range += range_bias_m[lidar] + 0.01 * normal(random);
         points.points.push_back({range * direction, direction, range, rise_m, lidar});
@@ -113,7 +113,7 @@ TEST_F(MatcherTest, BiasesThatAreNotSureAreErrorsOfThePose) {
   wall({-1.0, 3.0}, {4.0, 3.0});
   map.range_bias.covariance << 4e-6, 0.0, 0.0, 9e-6;
   const auto columns = match({0.0, 0.0, 0.0}).correction.vector_by_source.rightCols<kLidars>().eval();
-  // Half of the beams come from each, so the larger sigma moves the pose half as much again.
+  // Half of the beams belong to each LiDAR, so the larger sigma moves the pose half as much again.
   EXPECT_NEAR(columns.col(1).norm() / columns.col(0).norm(), 1.5, 0.1);
   map.range_bias.covariance << 4e-6, -4e-6, -4e-6, 4.000001e-6;
   const auto opposed = match({0.0, 0.0, 0.0}).correction.vector_by_source.rightCols<kLidars>().eval();
@@ -122,7 +122,7 @@ TEST_F(MatcherTest, BiasesThatAreNotSureAreErrorsOfThePose) {
 
 TEST_F(MatcherTest, KnownLeanIsTakenOffWhatIsMetHigher) {
   room();
-  // Two of the walls lean inwards by 1 in 5; what is met 0.1 m higher is 2 cm nearer.
+  // Two of the walls lean inwards by 1 in 5; hits 0.1 m higher are 2 cm nearer.
   rise_m = 0.1;
   world[1] = {{3.98, -3.0}, {3.98, 3.0}};
   world[2] = {{4.0, 2.98}, {-4.0, 2.98}};
@@ -189,13 +189,13 @@ TEST_F(MatcherTest, ErrorOfAWallMovesTheFilterAsFarAsItSays) {
     }
     filter.correct(found.correction);
   }
-  // The scans average out, the wall does not: it shares x with the wall opposite.
+  // Scans average out, but the wall does not: it determines x together with the opposite wall.
   EXPECT_LT(std::sqrt(filter.prior_covariance()(0, 0)), 0.0005);
   EXPECT_GT(std::sqrt(filter.pose_covariance()(0, 0)), 0.001);
   EXPECT_LT(std::sqrt(filter.pose_covariance()(0, 0)), 0.01);
 }
 
-/// The inner side of a tyre, seen from far ahead at 6 degrees, and a point of a scan of a robot at the origin.
+/// Returns the matches of a point near the inner side of a tyre, seen from far ahead at 6 degrees.
 int matched_beside_a_tyre(const Eigen::Vector2d& point) {
   ReferenceMap map;
   map.surfaces = SurfelMap({{{8.0, -0.7}, Eigen::Vector2d(-0.17, 0.985).normalized(), 0.5, 0.003, 100}});
@@ -207,7 +207,7 @@ int matched_beside_a_tyre(const Eigen::Vector2d& point) {
 TEST(ScanMatcher, PointWhoseBeamPassesBesideASurfaceDoesNotLieOnIt) {
   EXPECT_EQ(matched_beside_a_tyre({8.0, -0.7}), 1);
   EXPECT_EQ(matched_beside_a_tyre({8.1, -0.69}), 1);
-  // On the tyre's front: near the line of its side, which the beam meets 0.4 m farther on.
+  // On the front of the tyre: near the line of its side, which the beam meets 0.4 m farther on.
   EXPECT_EQ(matched_beside_a_tyre({7.8, -0.83}), 0);
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// A localization that ends, and one that goes on with its map.
+/// Restart of localization with a stored map.
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
 
@@ -16,7 +16,7 @@ class MemoryTest : public ::testing::Test {
     robot.drive(0.3, 0.1, 2.0);
   }
 
-  /// Nobody listens while the robot brakes.
+  /// Brakes while localization does not run.
   void brake_unheard(double distance_m) {
     Memory memory = robot.memory(map);
     robot.drive(0.3, 0.0, distance_m / 0.3);
@@ -110,7 +110,7 @@ TEST(LedByWheels, AsFarAsARobotTurnsUntilItStands) {
 TEST(LedByWheels, TurnsAsTheGyroSawItWhereItDid) {
   RememberedPose from;
   from.pose << 1.0, 2.0, 0.0;
-  // An arc of 1.2 rad, of which the wheels tell 1.0: half of what is missing is missing of the chord's direction.
+  // On an arc of 1.2 rad, the wheels report 1.0 rad: half of the difference changes the direction of the chord.
   const std::array<double, 3> wheels{0.4 * std::cos(0.5), 0.4 * std::sin(0.5), 1.0};
   const auto led = led_by_wheels(from, wheels, 1.2);
   ASSERT_TRUE(led);

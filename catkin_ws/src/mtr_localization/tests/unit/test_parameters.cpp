@@ -1,5 +1,5 @@
 /// @file
-/// Ranges of localization's parameters.
+/// Ranges of the localization parameters.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

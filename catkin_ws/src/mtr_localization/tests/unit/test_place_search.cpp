@@ -1,5 +1,5 @@
 /// @file
-/// That branch and bound finds what trying every pose would find.
+/// Branch and bound finds the result of an exhaustive search.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 namespace mtr_localization {
 namespace {
 
-/// Walls of a room without symmetry, as surfels that face inwards.
+/// Returns the walls of an asymmetric room, as surfels that face inwards.
 std::vector<Surfel> room() {
   std::vector<Surfel> surfels;
   const std::vector<Eigen::Vector2d> corners{{-4.0, -3.0}, {5.0, -3.0}, {5.0, 1.0},
@@ -25,7 +25,7 @@ std::vector<Surfel> room() {
   return surfels;
 }
 
-/// Each third surfel as it is seen from a pose.
+/// Returns every third surfel as seen from a pose.
 std::vector<Eigen::Vector2d> seen_from(const PoseVector& pose, const std::vector<Surfel>& surfels) {
   std::vector<Eigen::Vector2d> points;
   for (std::size_t i = 0; i < surfels.size(); i += 3) {

@@ -1,5 +1,5 @@
 /// @file
-/// The filter's pose and the honesty of its covariance.
+/// Pose of the filter, and consistency of its covariance.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStepS = 0.02;
 
-/// Drive of 40 s, straight and curved with two stops, by a robot whose sensors err as the parameters say.
+/// Drive of 40 s, straight and curved with two stops, with sensor errors as specified by the parameters.
 class NoisyDrive {
  public:
   explicit NoisyDrive(unsigned seed) : random_(seed) {
@@ -32,7 +32,7 @@ class NoisyDrive {
     stand(2.0);
   }
 
-  /// Squared errors of x, y and heading in units of the predicted variances.
+  /// Returns squared errors of x, y and heading in units of the predicted variances.
   std::array<double, 3> normalised_squares() const {
     const auto covariance = reckoning_.pose_covariance();
     const double turn = std::remainder(reckoning_.heading_rad() - heading_, 2.0 * M_PI);

@@ -1,5 +1,5 @@
 /// @file
-/// Times for which a transform has been sent already.
+/// Times with an already published transform.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ TEST(RecentStamps, TakesEachTimeOnce) {
 }
 
 TEST(RecentStamps, KnowsATimeAgainAfterAnEarlierOneCame) {
-  // A pose, the end of a sweep before it, and one of the other LiDAR's that ended with the pose.
+  // A pose, the end of a sweep before it, and a sweep of the other LiDAR that ended with the pose.
   RecentStamps stamps;
   EXPECT_TRUE(stamps.note(20));
   EXPECT_TRUE(stamps.note(10));
@@ -31,7 +31,7 @@ TEST(RecentStamps, KnowsTheLastSecond) {
   }
   EXPECT_FALSE(stamps.note(900));
   EXPECT_FALSE(stamps.note(999));
-  // A clock that was set back comes to those times again.
+  // After the clock was set back, these times occur again.
   EXPECT_TRUE(stamps.note(100));
 }
 

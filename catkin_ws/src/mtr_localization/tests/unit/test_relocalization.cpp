@@ -1,5 +1,5 @@
 /// @file
-/// What proves a place, and what does not.
+/// Evidence for a place.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ class RelocalizationTest : public ::testing::Test {
     map.surfaces = SurfelMap(surfels);
   }
 
-  /// A LiDAR in base_link that sees 70 degrees ahead and `range_max_m` far; odom is where the map is.
+  /// Returns a view of a LiDAR in base_link with a field of 70 degrees ahead and range `range_max_m`; odom equals map.
   static View view_from(const synthetic::World& scene, const PoseVector& pose, double range_max_m = 30.0) {
     View view;
     view.odom = pose;
@@ -46,7 +46,7 @@ class RelocalizationTest : public ::testing::Test {
     return view;
   }
 
-  /// Shows each view for as many steps as a search takes.
+  /// Shows each view for all steps of a search.
   std::optional<Relocalization::Found> found_from(const std::vector<View>& views, const PoseVector& reckoned) {
     Relocalization search(TrackingParameters{}, map);
     for (const View& view : views) {
@@ -86,7 +86,7 @@ TEST_F(RelocalizationTest, OneViewProvesNothingHoweverLongItIsSeen) {
 }
 
 TEST_F(RelocalizationTest, TwoPlacesThatLookAlikeAreNotGuessedBetween) {
-  // Two equal boxes 2.5 m apart and nothing else: either can be the one in view.
+  // Two equal boxes 2.5 m apart and nothing else: either can be in view.
   synthetic::World scene;
   for (const double y : {-1.25, 1.25}) {
     scenes::add_box(scene, {0.0, y, 0.0}, 1.0, 1.0);
@@ -111,7 +111,7 @@ TEST_F(RelocalizationTest, PlaceThatShowsMoreThanIsSeenStaysARivalOfOneThatFitsB
   synthetic::World scene = with_gap(1.25);
   scene.push_back(plate(-1.25));
   add_surfaces(scene);
-  // The robot stands before the whole one, of which the LiDAR does not see the middle from low down.
+  // The robot is in front of the complete plate, whose middle the low LiDAR does not see.
   std::vector<View> views;
   for (const double x : {1.3, 1.9, 2.5, 3.1}) {
     views.push_back(view_from(with_gap(-1.25), {x, -1.25, M_PI}, 2.7));
@@ -120,7 +120,7 @@ TEST_F(RelocalizationTest, PlaceThatShowsMoreThanIsSeenStaysARivalOfOneThatFitsB
 }
 
 TEST_F(RelocalizationTest, RivalIsMeasuredByWhatTheBestPlaceExplainsItself) {
-  // As before, but something that is not on the map stands beside the plate, and no place explains it.
+  // As before, with an unmapped object next to the plate that no place explains.
   const auto with_gap = [](double y) {
     return synthetic::World{{{0.5, y - 0.5}, {0.5, y - 0.2}}, {{0.5, y + 0.2}, {0.5, y + 0.5}}};
   };
@@ -137,7 +137,7 @@ TEST_F(RelocalizationTest, RivalIsMeasuredByWhatTheBestPlaceExplainsItself) {
 }
 
 TEST_F(RelocalizationTest, PlaceThatExplainsAllThatReturnsStaysARivalWhateverElseItLetsExpect) {
-  // The right plate is whole on the map, and of it 0.6 of 2 m are seen; the other one has just these parts.
+  // The correct plate is complete on the map, and 0.6 of 2 m are visible; the other one has only these parts.
   const auto ends = [](double y) {
     return synthetic::World{{{0.5, y - 1.0}, {0.5, y - 0.7}}, {{0.5, y + 0.7}, {0.5, y + 1.0}}};
   };
@@ -152,7 +152,8 @@ TEST_F(RelocalizationTest, PlaceThatExplainsAllThatReturnsStaysARivalWhateverEls
 }
 
 TEST_F(RelocalizationTest, PlaceWhereWheelsAndGyroHaveLedStaysARivalWithMoreThanHalf) {
-  // Of the right plate's two ends the map has one, and a piece between them that is not seen; the other has both ends.
+  // The map has one of the correct plate's two ends, and a piece between them that is not visible; the other plate has
+  // both.
   const auto ends = [](double y) {
     return synthetic::World{{{0.5, y - 1.0}, {0.5, y - 0.7}}, {{0.5, y + 0.7}, {0.5, y + 1.0}}};
   };
@@ -174,7 +175,7 @@ TEST_F(RelocalizationTest, PlaceWhereWheelsAndGyroHaveLedStaysARivalWithMoreThan
 }
 
 TEST_F(RelocalizationTest, PlaceWhereReturnsLieBesideTheSurfacesIsNone) {
-  // Another room that is larger by a twentieth: at 4 m what lies 0.2 m beside a surface still agrees with it.
+  // A room that is larger by a twentieth: at 4 m, a return 0.2 m off a surface still agrees with it.
   add_surfaces(room());
   synthetic::World larger = room();
   for (synthetic::Segment& side : larger) {
@@ -195,7 +196,7 @@ TEST_F(RelocalizationTest, FoundPlaceIsAsSureAsTheViewMakesIt) {
   }
   const auto found = found_from(views, {-1.0, -1.0, 0.0});
   ASSERT_TRUE(found);
-  // Two walls at right angles, a hundred beams each of 1 cm.
+  // Two perpendicular walls with a hundred beams of 1 cm each.
   EXPECT_LT(found->covariance.diagonal().head(2).sum(), 0.01 * 0.01);
   EXPECT_LT(found->covariance(2, 2), 0.005 * 0.005);
 }

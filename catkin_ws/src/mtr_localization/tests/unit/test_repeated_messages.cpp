@@ -1,5 +1,5 @@
 /// @file
-/// Messages that a driver sends twice: on the steady clock their two equal stamps lie some nanoseconds apart.
+/// Duplicate messages: their equal stamps differ by nanoseconds on the steady clock.
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <tuple>
@@ -49,12 +49,12 @@ TEST_F(RepeatedMessageTest, ImuAndWheelsThatGoBackByNanosecondsAreNotInterrupted
   expect_unspoilt();
 }
 
-/// Parts per million by which the ROS clock is fast; the robot's speed, m/s; the IMU's message is repeated, too.
+/// Rate error of the ROS clock in ppm; speed in m/s; whether the IMU message is also repeated.
 class RepeatedOnTheSteadyClockTest : public ::testing::TestWithParam<std::tuple<double, double, bool>> {
  protected:
   static constexpr int kRepeated = 400;
 
-  /// 50 messages a second of both; after 4 s the robot drives, and that of one instant is sent once more, 5 ms later.
+  /// Feeds 50 messages per second of both sensors; after 4 s the robot drives, and one message is repeated 5 ms later.
   void run() {
     for (int number = 0; number < 2 * kRepeated; ++number, now_ns_ += 20 * kMs) {
       const double speed_mps = number > kRepeated / 2 ? std::get<1>(GetParam()) : 0.0;

@@ -23,7 +23,7 @@
 namespace mtr_localization::replay {
 namespace {
 
-/// A bag in the tests' folder; `truth` gets its true poses.
+/// Writes a bag and returns its path; `truth` receives its true poses.
 std::string bag_of(const std::string& name, const BagOptions& options, std::vector<PoseVector>* truth = nullptr) {
   std::string path = ::testing::TempDir() + name + ".bag";
   const std::vector<PoseVector> poses = BagWriter(path, options).write();
@@ -39,7 +39,7 @@ Result replayed(const std::string& bag, std::vector<std::string> more = {}) {
   return Replay(options).run();
 }
 
-/// Largest distance of a valid pose in the frozen map from the truth, m. Map begins at the first true pose.
+/// Returns the largest position error of valid poses in the frozen map, m. The map starts at the first true pose.
 double largest_error_m(const Result& result, const std::vector<PoseVector>& truth) {
   double max_m = 0.0;
   for (const Estimate& pose : result.trajectory) {
@@ -110,7 +110,7 @@ TEST(Replay, WayRoundWithoutOrdersGivesMapAndTruePosesEvenWhenScansWereRecordedL
   ASSERT_TRUE(result.map.map.valid) << result.map.map.message.text;
   EXPECT_EQ(result.map.revision, 1U);
   EXPECT_EQ(result.trajectory.size(), truth.size() - 1);
-  // The last sweep is due only after the bag's end.
+  // The last sweep is due only after the end of the bag.
   EXPECT_GE(result.sweeps_used + result.sweeps_refused, result.sweeps - 1);
   EXPECT_EQ(result.trajectory.back().mode, PoseMode::kLocalized);
   EXPECT_LT(largest_error_m(result, truth), 0.03);

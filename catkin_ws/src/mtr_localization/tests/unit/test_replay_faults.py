@@ -1,4 +1,4 @@
-"""Sentences on a replay without valid poses: the reason first, then what to do."""
+"""Sentences about a replay without valid poses: reason first, then the remedy."""
 # SPDX-License-Identifier: Apache-2.0
 import re
 

@@ -1,5 +1,5 @@
 /// @file
-/// A map in its file: it comes back as it was, or a sentence says why it cannot be used.
+/// A stored map is restored without loss, or one sentence has the reason why it is not usable.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

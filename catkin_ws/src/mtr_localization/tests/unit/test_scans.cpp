@@ -1,5 +1,5 @@
 /// @file
-/// Sweeps: what is refused, when they are used, and the removal of their distortion by motion.
+/// Sweeps: rejection, time of use, and removal of motion distortion.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ Sweep sweep_at(std::int64_t stamp_ns, float range_m = 3.0F, std::size_t beams = 
   return sweep;
 }
 
-/// Steps of 20 ms from 0 on, in each of which the robot moves so.
+/// Returns steps of 20 ms from time 0, each with this motion.
 FilterHistory history_of(int steps, double distance_m, double angle_rad) {
   FilterHistory history(PoseFilter(SensorParameters{}), 0);
   for (int i = 1; i <= steps; ++i) {
@@ -104,7 +104,7 @@ TEST(Deskew, BeamOnAnEdgeBetweenTwoSurfacesIsLeftOut) {
 }
 
 TEST(Deskew, PointsOfATurningRobotLieWhereTheyAreAtTheReference) {
-  // 1 rad/s: a beam at 30 ms was seen 0.01 rad farther round than at the reference, 20 ms.
+  // At 1 rad/s, a beam at 30 ms is 0.01 rad ahead of the reference at 20 ms.
   const FilterHistory history = history_of(3, 0.0, 0.02);
   const ScanPoints scan = deskew({{sweep_at(0)}, 1}, history);
   ASSERT_EQ(scan.points.size(), 101u);
@@ -113,7 +113,7 @@ TEST(Deskew, PointsOfATurningRobotLieWhereTheyAreAtTheReference) {
 }
 
 TEST(Deskew, PointsOfADrivingRobotLieWhereTheyAreAtTheReference) {
-  // 1 m/s, and a LiDAR that sits 0.1 m ahead.
+  // 1 m/s, and a LiDAR mounted 0.1 m ahead.
   Sweep sweep = sweep_at(0);
   sweep.mount = {0.1, 0.0, 0.0};
   const ScanPoints scan = deskew({{sweep}, 1}, history_of(3, 0.02, 0.0));
@@ -169,7 +169,7 @@ TEST(ScanQueue, SweepThatRepeatsTheOneBeforeIsOfAFrozenLidar) {
   queue.add(sweep_at(0));
   EXPECT_NE(queue.add(sweep_at(40 * kMs)).find("is frozen"), std::string::npos);
   EXPECT_EQ(queue.add(sweep_at(80 * kMs, 3.01F)), "");
-  // The rear one is another sensor, and a field where nothing is looks the same each time.
+  // The rear LiDAR is another sensor, and an empty field repeats itself.
   Sweep rear = sweep_at(80 * kMs, 3.01F);
   rear.lidar = Lidar::kRear;
   EXPECT_EQ(queue.add(rear), "");

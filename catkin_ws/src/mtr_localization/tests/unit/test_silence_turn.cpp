@@ -1,5 +1,5 @@
 /// @file
-/// A look for silence counts unless the node itself was late, and counts every second time when it always is.
+/// A check for silence counts unless the node itself was late; if it is always late, every second check counts.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// Tilt of the robot, and what it does to points and to what a view says.
+/// Tilt of the robot, and its effect on points and views.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -56,7 +56,7 @@ TEST(TiltFilter, BlowFromTheSideIsNoSlope) {
   for (int i = 0; i < 50; ++i) {
     tilt.advance(0.02, imu({0.0, 0.0}), 0.0, false);
   }
-  // A robot that is put down roughly: 8 m/s2 across for 0.1 s.
+  // A robot that is put down roughly: 8 m/s2 laterally for 0.1 s.
   for (int i = 0; i < 5; ++i) {
     tilt.advance(0.02, imu({0.0, 0.8}), 0.0, false);
   }
@@ -124,7 +124,7 @@ TEST(GroundLevel, UnevenGroundTellsLessOfItsPlaneThanALevelOne) {
   GroundLevel uneven;
   for (int i = 0; i < 60; ++i) {
     level.add(0.0, Eigen::Vector2d::Zero());
-    // Waves of 3 m, seen every 0.3 m.
+    // Waves of 3 m, sampled every 0.3 m.
     uneven.add(0.0, 0.017 * Eigen::Vector2d(std::sin(0.63 * i), std::cos(0.63 * i)));
   }
   EXPECT_NEAR(level.sigma(), 0.002, 1e-9);
@@ -152,7 +152,7 @@ TEST(Deskew, WhatMayBeGroundIsLeftOutWhereTheLeanIsKnownBadly) {
   const Eigen::Vector2d slope(-0.008, 0.0);
   EXPECT_EQ(deskew({{sweep_of_range(10.0F)}, 1}, leaning(slope, 0.002)).points.size(), 101u);
   EXPECT_TRUE(deskew({{sweep_of_range(10.0F)}, 1}, leaning(slope, 0.006)).points.empty());
-  // Near by it is known all the same.
+  // At short range, the tilt error does not matter.
   EXPECT_EQ(deskew({{sweep_of_range(2.0F)}, 1}, leaning(slope, 0.006)).points.size(), 101u);
 }
 
@@ -190,7 +190,7 @@ TEST_F(LeaningViewTest, WhatMayBeGroundSaysNothingWhereTheLeanIsKnownBadly) {
 TEST_F(LeaningViewTest, SurfaceMetAtAnotherHeightIsNotMissed) {
   const double slope = 0.01;
   EXPECT_EQ(seen(12.0F, slope).beyond, 0);
-  // Until it has been met at that height, too.
+  // Now the surface was also met at that height.
   wall = SurfelMap({{{5.0, 0.0}, {-1.0, 0.0}, 4.0, 0.002, 50, 0.0, 0.05}});
   EXPECT_GT(seen(12.0F, slope).beyond, 20);
 }

@@ -1,4 +1,4 @@
-"""Offsets of stamps are found by the turns of the robot, and nothing is claimed without turns."""
+"""Stamp offsets are found from the robot's turns; without turns there is no result."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import math
@@ -20,12 +20,12 @@ HALF_ROOM_M = np.array([4.0, 3.0])
 
 
 def heading(time_s):
-    """Turns of different lengths, in rad."""
+    """Return turns of different lengths, in rad."""
     return 0.9 * math.sin(0.45 * time_s) + 0.5 * math.sin(0.17 * time_s * (1.0 + 0.02 * time_s))
 
 
 def scan_at(time_s, stamp_s, beams=271, sense=1.0, is_turning=True):
-    """Scan in a room, from a robot that drives slowly to and fro."""
+    """Return a scan in a room, from a robot that drives slowly to and fro."""
     angles = np.linspace(-2.3, 2.3, beams)
     directions = sense * angles + (heading(time_s) if is_turning else 0.0)
     place = np.array([1.5 * math.sin(0.1 * time_s), 0.5])
@@ -36,7 +36,7 @@ def scan_at(time_s, stamp_s, beams=271, sense=1.0, is_turning=True):
 
 
 def odometry(is_turning=True):
-    """Odometry of the same drive."""
+    """Return the odometry of the same drive."""
     times_s = np.arange(0.0, DURATION_S, 0.05)
     rates = [(heading(t + 0.025) - heading(t - 0.025)) / 0.05 if is_turning else 0.0 for t in times_s]
     return OdometryClock("/odom", [Sample(BEGIN_S + t, Pose2(0.0, 0.0, 0.0), 0.0, rate)
@@ -44,7 +44,7 @@ def odometry(is_turning=True):
 
 
 def scans_late(offset_s, topic="/scan", rate_hz=10.0, **options):
-    """Check that has seen each scan of the drive."""
+    """Return a check that has received each scan of the drive."""
     check = ScanCheck(topic, options.get("sense", 1.0))
     for time_s in np.arange(0.0, DURATION_S, 1.0 / rate_hz):
         check.add(scan_at(time_s, time_s + offset_s, **options), 0.0)

@@ -1,5 +1,5 @@
 /// @file
-/// When what hid the view has gone.
+/// Detection that an obstruction has gone.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -11,14 +11,14 @@ namespace {
 constexpr std::int64_t kTickNs = 40'000'000;
 constexpr double kTickS = 0.04;
 constexpr ScanFit kOnMap{40, 38};
-/// Half a metre beside the right place.
+/// Half a metre off the correct place.
 constexpr ScanFit kBesideMap{40, 30};
 constexpr ScanFit kFew{4, 4};
 
-/// Lost in the origin of odom, where the view agreed last.
+/// Lost at the origin of odom, where the view agreed last.
 class UncoveredViewTest : public ::testing::Test {
  protected:
-  /// Ticks of an expected view on a straight way until it is enough; 0: it never is.
+  /// Returns the ticks of an expected view on a straight path until it is sufficient; 0 if it never is.
   int ticks(double speed_mps, double turn_radps, const ScanFit& fit, double duration_s) {
     const int most = static_cast<int>(duration_s / kTickS);
     for (int tick = 1; tick <= most; ++tick) {

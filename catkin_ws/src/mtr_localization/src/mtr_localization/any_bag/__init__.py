@@ -1,2 +1,2 @@
-"""A bag of any robot with a level LiDAR and odometry, as the inputs that localization takes."""
+"""Conversion of a bag of any robot with a level LiDAR and odometry to the inputs of localization."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Writes a bag of any robot anew, with the topics and frames that localization takes."""
+"""Converts a bag of any robot to a bag with the topics and frames of localization."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from typing import Any, Callable, Dict, Iterator, List, NamedTuple, Optional, Tuple
@@ -32,13 +32,13 @@ TF_TOPICS = ("/tf", "/tf_static", "tf")
 FRONT_FRAME, REAR_FRAME, IMU_FRAME = "front_lidar", "rear_lidar", "imu"
 NO_FORCE = -1.0
 TRANSFORMS = "the transforms"
-# Both LiDARs look at one map: what is so much higher has another outline.
+# Largest height difference of two LiDARs for a common map; a higher LiDAR sees other outlines.
 SAME_PLANE_M = 0.5
 EVERY = 500
 
 
 class Found(NamedTuple):
-    """Inputs that were found in the bag.
+    """Inputs found in the bag.
 
     Attributes:
         base: the robot's frame; odometry_frame: parent of its odometry.
@@ -46,7 +46,7 @@ class Found(NamedTuple):
         parameters: parameters of localization that replace missing inputs.
         said: sentences for the user.
         delays: of the odometry.
-        faults: sentences on inputs that cannot be used; other advice would mislead.
+        faults: sentences on unusable inputs; other advice would be misleading.
     """
 
     base: str
@@ -62,11 +62,11 @@ class Found(NamedTuple):
 
 def convert(path: pathlib.Path, out: pathlib.Path, asked: Asked, needs_motion: bool,
             progress: Callable[[float], None]) -> Found:
-    """Write `out` with what localization takes; BagUnusable with a sentence.
+    """Write the converted bag to `out`; BagUnusable with a sentence on failure.
 
     Args:
-        needs_motion: a map is to be made.
-        progress: told the share that is done.
+        needs_motion: a map must be built.
+        progress: callback with the finished share.
     """
     try:
         with rosbag.Bag(str(path)) as bag:
@@ -83,7 +83,7 @@ def convert(path: pathlib.Path, out: pathlib.Path, asked: Asked, needs_motion: b
 
 
 def look(bag: rosbag.Bag, asked: Asked) -> Found:
-    """What the bag has, by its topics, stamps and transforms."""
+    """Return the inputs in the bag, from its topics, stamps and transforms."""
     topics = {topic: about.msg_type for topic, about in bag.get_type_and_topic_info().topics.items()}
     scans = sources.scans_of(topics, asked)
     odometry, imu = sources.odometry_of(topics, asked), sources.imu_of(topics, asked)
@@ -133,7 +133,7 @@ def _samples(bag: rosbag.Bag, odometry: str, base: str, delays: Delays) -> List[
 
 
 def _as_low(scans: List[str], at: Dict[str, FloatArray]) -> Tuple[List[str], List[str]]:
-    """Topics of the LiDARs about as low as the lowest, and a sentence about each other: it sees other things."""
+    """Return the topics of LiDARs at about the height of the lowest one, and a sentence about each excluded one."""
     lowest_m = min(at[topic][2, 3] for topic in scans)
     high = [topic for topic in scans if at[topic][2, 3] > lowest_m + SAME_PLANE_M]
     said = [f"{topic} is left out: its LiDAR is {at[topic][2, 3] - lowest_m:.1f} m above the lowest and sees other "
@@ -153,7 +153,7 @@ def _tree_of(bag: rosbag.Bag, asked: Asked) -> FrameTree:
 
 
 def _base_of(bag: rosbag.Bag, odometry: str, tree: FrameTree, scan_frame: str) -> str:
-    """Of the odometry; with transforms alone what moves under it and carries the LiDAR."""
+    """Return the base frame of the odometry; with transforms only, the moving frame that carries the LiDAR."""
     if odometry != TF:
         return str(_first(bag, odometry).child_frame_id).lstrip("/") or "base_link"
     frame: Optional[str] = scan_frame.lstrip("/")
@@ -218,7 +218,7 @@ def _write(bag: rosbag.Bag, out: rosbag.Bag, found: Found, asked: Asked, progres
 
 
 def _check(scans: List[ScanCheck], imu: Optional[ImuCheck], found: Found, asked: Asked) -> None:
-    """Compare the inputs with each other and extend the faults; BagUnusable when no pose can rely on the inputs."""
+    """Compare the inputs with each other and extend the faults; BagUnusable if they do not allow a reliable pose."""
     clock = OdometryClock(TRANSFORMS if found.odometry == TF else found.odometry, found.samples, found.delays)
     if imu is not None:
         check_odometry(scans, imu, clock)
@@ -227,7 +227,7 @@ def _check(scans: List[ScanCheck], imu: Optional[ImuCheck], found: Found, asked:
 
 
 def _imu_turn(bag: rosbag.Bag, found: Found, asked: Asked) -> FloatArray:
-    """base_from_imu, rotation alone; as it is where no transform says it."""
+    """Return base_from_imu (rotation only); the identity if no transform is available."""
     try:
         turn: FloatArray = _tree_of(bag, asked).fixed(found.base, _first(bag, str(found.imu)).header.frame_id)[:3, :3]
     except BagUnusable:
@@ -265,7 +265,7 @@ def _sweep(message: LaserScan) -> Sweep:
 
 
 def _imu(rate_radps: float, time: rospy.Time) -> Imu:
-    """A gyro alone: REP-145 has -1 for what a sensor does not measure."""
+    """Return a message with a gyro rate only; REP-145 marks unmeasured quantities with -1."""
     message = Imu()
     message.header.stamp, message.header.frame_id = time, IMU_FRAME
     message.angular_velocity.z = rate_radps

@@ -4,7 +4,7 @@ from typing import List, Optional, Tuple
 
 import numpy as np
 
-# The recording follows the stamps when both last equally long, to this share.
+# Relative tolerance between recorded and stamped duration, within which the recording times are usable.
 SAME_SPAN = 0.1
 
 
@@ -20,7 +20,7 @@ class Delays:
 
     @property
     def median_s(self) -> Optional[float]:
-        """None when the times of recording do not follow the stamps: all are equal, or the bag was played faster."""
+        """Median delay; None if recording times do not follow the stamps: all equal, or played at another rate."""
         if len(self._times_s) < 2:
             return None
         received_s, stamps_s = np.array(self._times_s).T

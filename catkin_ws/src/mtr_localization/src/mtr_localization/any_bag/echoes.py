@@ -1,4 +1,4 @@
-"""Usable echoes of a LiDAR's scans: without one, no pose follows from its scans."""
+"""Check for usable echoes in LiDAR scans; without echoes, scans do not determine a pose."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Sequence
 
@@ -7,15 +7,15 @@ import numpy as np
 from .errors import BagUnusable
 from .motion import Sweep
 
-# Farther than a 2D LiDAR measures, and no more than 200 m in millimetres; larger values mark a missing echo.
+# Beyond the range of a 2D LiDAR in metres, and at most 200 m in millimetres; larger values mark a missing echo.
 MIN_MM, MAX_MM = 200.0, 2e5
-# A driver may fill in one constant where an echo is missing.
+# Drivers may insert a constant for a missing echo, so several distinct values are required.
 DISTINCT = 3
 MOST = 0.9
 
 
 class EchoCount:
-    """Counts the scans of one topic whose ranges can be used.
+    """Counts the usable scans of one topic.
 
     Attributes:
         scans: number of scans.
@@ -40,25 +40,25 @@ class EchoCount:
 
     @property
     def is_blind(self) -> bool:
-        """True when no scan has a usable echo; localization itself names scans without beams and swapped limits."""
+        """True if no scan has a usable echo; localization itself reports scans without beams and swapped limits."""
         return self._impossible < self.scans and not self.usable
 
     def check_unit(self) -> None:
-        """BagUnusable when the ranges are in millimetres."""
+        """Raise BagUnusable if the ranges are in millimetres."""
         if self.scans and self._in_mm > MOST * self.scans:
             raise BagUnusable(f"The ranges of {self.topic} are mostly above {MIN_MM:g} m, probably "
                               f"millimetres (range_max is {self._limits_m[1]:g}): convert ranges, range_min "
                               "and range_max to metres.")
 
     def blind_sentence(self) -> str:
-        """Sentence for a topic that is blind."""
+        """Return a sentence about a topic without usable echoes."""
         low_m, high_m = self._limits_m
         return (f"None of the {self.scans} scans of {self.topic} has an echo between range_min {low_m:g} m and "
                 f"range_max {high_m:g} m: check the LiDAR and its driver.")
 
 
 def check_echoes(counts: Sequence[EchoCount]) -> List[str]:
-    """Sentences on the topics that are blind; BagUnusable when all are, or when ranges have another unit."""
+    """Return sentences about blind topics; BagUnusable if all are blind, or if ranges are in another unit."""
     for count in counts:
         count.check_unit()
     blind = [count.blind_sentence() for count in counts if count.is_blind]

@@ -1,7 +1,7 @@
-"""What a bag lacks."""
+"""Error of an unusable bag."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.errors import RobotError
 
 
 class BagUnusable(RobotError):
-    """The bag cannot be replayed; the sentence says why and what to do."""
+    """The bag cannot be replayed; the sentence has the reason and a remedy."""

@@ -1,4 +1,4 @@
-"""Where a robot's sensors are: from the transforms of its bag, or from its URDF."""
+"""Sensor frames of a robot, from the transforms of its bag or from its URDF."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Dict, Iterable, List, Optional, Set, Tuple
@@ -11,15 +11,15 @@ from mtr_description.urdf_tree import UrdfTree, place_of
 
 from .errors import BagUnusable
 
-# A mount that is estimated while the robot drives is none that could be relied on; tf has some rounding.
+# Tolerance of a fixed mount, for the rounding of tf; a mount that changes while driving is not reliable.
 FIXED_M, FIXED_RAD = 1e-3, 1e-3
 
 
 def matrix(translation: Iterable[float], quaternion: Iterable[float], source: str) -> FloatArray:
-    """parent_from_child, 4x4, of a translation in m and a quaternion x, y, z, w; BagUnusable for one that is none.
+    """Return parent_from_child, 4x4, from a translation in m and a quaternion x, y, z, w.
 
     Args:
-        source: topic or frames that the sentence names.
+        source: topic or frames, for the sentence of BagUnusable, which is raised for an invalid rotation.
     """
     found = np.eye(4)
     try:
@@ -34,14 +34,14 @@ def matrix(translation: Iterable[float], quaternion: Iterable[float], source: st
 
 
 class FrameTree:
-    """Frames with their parents, as far as they are fixed to them."""
+    """Frames with their parents, and which of them move."""
 
     def __init__(self) -> None:
         self._parents: Dict[str, Tuple[str, FloatArray]] = {}
         self._moving: Set[str] = set()
 
     def add(self, parent: str, child: str, parent_from_child: FloatArray) -> None:
-        """Once more, as it is sent."""
+        """Add a transform; frames are published repeatedly."""
         parent, child = parent.lstrip("/"), child.lstrip("/")
         known = self._parents.get(child)
         if known is None:
@@ -55,16 +55,16 @@ class FrameTree:
         return sorted(self._parents)
 
     def parent_of(self, child: str) -> Optional[str]:
-        """None for a frame that has none."""
+        """Return the parent of a frame; None for a root."""
         known = self._parents.get(child)
         return None if known is None else known[0]
 
     def is_moving(self, child: str) -> bool:
-        """True for one that was not always at the same place in its parent."""
+        """Return True if the frame has moved relative to its parent."""
         return child in self._moving
 
     def fixed(self, base: str, frame: str) -> FloatArray:
-        """base_from_frame; BagUnusable when nothing says it, or when it moves."""
+        """Return base_from_frame; BagUnusable if it is unknown or not constant."""
         above, below = self._chain(base), self._chain(frame)
         common = next((each for each in below if each in above), None)
         if common is None:
@@ -93,17 +93,17 @@ class FrameTree:
 
 
 def yaw_of(transform: FloatArray) -> float:
-    """Direction of the x axis in the plane, rad."""
+    """Return the direction of the x axis in the plane, rad."""
     return math.atan2(float(transform[1, 0]), float(transform[0, 0]))
 
 
 def quaternion_of(transform: FloatArray) -> List[float]:
-    """x, y, z, w."""
+    """Return the quaternion x, y, z, w."""
     return [float(part) for part in Rotation.from_matrix(transform[:3, :3]).as_quat()]
 
 
 def add_urdf(tree: FrameTree, description: UrdfTree) -> None:
-    """The fixed joints of a robot's description."""
+    """Add the fixed joints of a robot description."""
     for joint in description.joints:
         if joint.type == "fixed":
             place = place_of(joint.origin)

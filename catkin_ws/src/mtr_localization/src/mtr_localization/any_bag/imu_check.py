@@ -10,30 +10,30 @@ from .errors import BagUnusable
 from .turn_lag import Rates, rates_of, turn_lag
 
 REMEDY = "or replay with --imu none"
-# Offsets that are searched: the gyro measures turns so well that even large ones are found.
+# Range of the search for offsets; a gyro is accurate enough to find large ones, too.
 MAX_LAG_S = 30.0
-# A gap is a fault from this length on; a slow IMU has shorter ones. Share of the recording that gaps may cover.
+# Shortest gap that counts as a fault (a slow IMU has shorter ones), and largest share of gaps in the recording.
 MIN_GAP_S, MAX_MISSING = 1.0, 0.05
-# Least turn rate in rad/s. A frozen gyro differs from the odometry by as much, and by this share of its rate.
+# Lowest turn rate in rad/s. A frozen gyro deviates from the odometry by at least that, and by this share of the rate.
 TURNS_RADPS, DIFFERS = 0.1, 0.3
 REPEATS, MAX_FROZEN = 10, 0.1
-# A gyro in degrees per second shows 57.3 times the turn.
+# A gyro in degrees per second shows 57.3 times the turn rate.
 MIN_DEGREES, MAX_DEGREES = 40.0, 80.0
 MAX_BAD = 0.5
 
 
 class ImuCheck:
-    """Stamps and values of one IMU."""
+    """Checks of stamps and values of one IMU."""
 
     def __init__(self, topic: str) -> None:
         self.topic, self._unstamped = topic, 0
         self._samples: List[Tuple[float, float]] = []
-        # How often each sample's values were the same before.
+        # Number of preceding samples with identical values, for each sample.
         self._repeats: List[int] = []
         self._last: Tuple[float, ...] = ()
 
     def add(self, stamp_s: float, rate_radps: Sequence[float], force_mps2: Sequence[float]) -> bool:
-        """Add one more message, in the robot's frame; False when it has no stamp and must be left out."""
+        """Add a message in the robot's frame; return False if it has no stamp and must be skipped."""
         if stamp_s <= 0.0:
             self._unstamped += 1
             return False
@@ -49,11 +49,11 @@ class ImuCheck:
         return rates_of(self._samples)
 
     def faults(self, odometry: str, turns: Rates) -> List[str]:
-        """Sentences on parts that are missing; BagUnusable for an IMU that cannot be used.
+        """Return sentences about missing parts; BagUnusable if the IMU is not usable.
 
         Args:
             odometry: topic of the odometry.
-            turns: its turn rates.
+            turns: turn rates of the odometry.
         """
         total = self._unstamped + len(self._samples)
         if self._unstamped > MAX_BAD * total:
@@ -70,7 +70,7 @@ class ImuCheck:
         return self._missing(odometry, turns, rates)
 
     def _check_stamps(self, odometry: str, turns: Rates, rates: Rates) -> None:
-        """BagUnusable for the stamps of another clock."""
+        """Raise BagUnusable if the stamps belong to another clock."""
         lag = turn_lag(turns, rates, MAX_LAG_S)
         late_s = lag.lag_s if lag is not None and lag.is_certain else 0.0
         if rates.times_s[-1] < turns.times_s[0] or rates.times_s[0] > turns.times_s[-1]:
@@ -81,7 +81,7 @@ class ImuCheck:
                               f"correct the IMU's clock, {REMEDY}.")
 
     def _check_values(self, turns: Rates) -> None:
-        """BagUnusable for a gyro that repeats one value while the robot turns, and for one in degrees."""
+        """Raise BagUnusable if the gyro is frozen while the robot turns, or measures in degrees."""
         times_s, gyro = np.array(self._samples).T
         wheels: FloatArray = np.interp(times_s, turns.times_s, turns.rates_radps, left=0.0, right=0.0)
         turning = np.abs(wheels) > TURNS_RADPS
@@ -97,7 +97,7 @@ class ImuCheck:
                               f"and its driver, {REMEDY}.")
 
     def _missing(self, odometry: str, turns: Rates, rates: Rates) -> List[str]:
-        """A sentence when the IMU has long gaps, begins late or ends early."""
+        """Return a sentence if the IMU has long gaps, starts late or ends early."""
         begin_s, end_s = float(turns.times_s[0]), float(turns.times_s[-1])
         edges = np.concatenate([[begin_s], np.clip(rates.times_s, begin_s, end_s), [end_s]])
         gaps_s = np.diff(edges)

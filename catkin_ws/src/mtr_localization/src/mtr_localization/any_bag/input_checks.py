@@ -1,4 +1,4 @@
-"""Checks of the inputs of another robot's bag against each other while the bag is converted."""
+"""Consistency checks between the inputs of another robot's bag during its conversion."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, List, Optional, Sequence
 
@@ -10,14 +10,14 @@ from .motion import Sample, Sweep
 from .sources import Asked
 from .turn_lag import Lag, Rates, ScanTurns, rates_of, turn_lag
 
-# Drivers and networks delay the recording by less; the turns of the robot are the better measure.
+# Delays by drivers and networks are smaller; the robot's turns are the better reference.
 MAX_DELAY_S = 1.0
-# Two LiDARs whose stamps differ by less can be corrected by one value.
+# Largest difference of the stamp offsets of two LiDARs that one value can correct.
 SAME_LAG_S = 0.3
 
 
 class OdometryClock:
-    """Turn rates and delays of the odometry, with which the other inputs are compared.
+    """Turn rates and delays of the odometry, as the reference of the other inputs.
 
     Attributes:
         name: topic, or a phrase for transforms.
@@ -31,35 +31,35 @@ class OdometryClock:
 
 
 class ScanCheck:
-    """Echoes and stamps of one topic with scans.
+    """Echoes and stamps of one scan topic.
 
     Attributes:
         echoes: counts of scans.
     """
 
     def __init__(self, topic: str, sense: float) -> None:
-        """sense: -1 for a LiDAR that hangs upside down."""
+        """Create a check. sense: -1 for a LiDAR that is mounted upside down."""
         self.topic, self.echoes = topic, EchoCount(topic)
         self._turns, self._delays = ScanTurns(sense), Delays()
 
     def add(self, scan: Sweep, received_s: float) -> None:
-        """Add one more scan, with its stamp as corrected."""
+        """Add a scan with its corrected stamp."""
         self.echoes.add(scan)
         self._turns.add(scan)
         self._delays.add(received_s, scan.stamp_s)
 
     def turn_lag(self, odometry: OdometryClock) -> Optional[Lag]:
-        """Lag behind the odometry by the turns of the robot."""
+        """Return the lag behind the odometry from the turns of the robot."""
         return turn_lag(odometry.turns, self._turns.rates)
 
     def recorded_lag_s(self, odometry: OdometryClock) -> Optional[float]:
-        """Lag behind the odometry by the times of recording."""
+        """Return the lag behind the odometry from the recording times."""
         ours, theirs = self._delays.median_s, odometry.delays.median_s
         return None if ours is None or theirs is None else theirs - ours
 
 
 def check_odometry(scans: Sequence[ScanCheck], imu: ImuCheck, odometry: OdometryClock) -> None:
-    """BagUnusable when scans and IMU agree on the turns, and the odometry shows them at another time."""
+    """Raise BagUnusable if scans and IMU agree on the turns, but the odometry has them at another time."""
     found = [turn_lag(odometry.turns, imu.rates), *(scan.turn_lag(odometry) for scan in scans)]
     lags_s = [lag.lag_s for lag in found if lag is not None and lag.is_certain]
     if len(lags_s) == len(found) and max(lags_s) - min(lags_s) <= SAME_LAG_S:
@@ -69,7 +69,7 @@ def check_odometry(scans: Sequence[ScanCheck], imu: ImuCheck, odometry: Odometry
 
 
 def check_scans(scans: Sequence[ScanCheck], odometry: OdometryClock, asked: Asked) -> List[str]:
-    """Sentences on scans that cannot be used; BagUnusable when no pose could rely on them."""
+    """Return sentences about unusable scans; BagUnusable if they do not allow a reliable pose."""
     faults = check_echoes([scan.echoes for scan in scans])
     lags: Dict[str, float] = {}
     for scan in scans:
@@ -87,7 +87,7 @@ def check_scans(scans: Sequence[ScanCheck], odometry: OdometryClock, asked: Aske
 
 
 def _check_lags(lags: Dict[str, float], odometry: str, reason: str, given_s: float) -> None:
-    """BagUnusable for scans with an offset. lags: topic -> lag in s; given_s: correction that it is on top of."""
+    """Raise BagUnusable for an offset of scans. lags: topic -> lag in s; given_s: correction already applied."""
     if not any(lags.values()):
         return
     topic = max(lags, key=lambda each: abs(lags[each]))

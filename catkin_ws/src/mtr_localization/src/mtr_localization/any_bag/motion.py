@@ -1,4 +1,4 @@
-"""Odometry of any kind as wheels' samples, and a gyro made of them where the robot has none."""
+"""Conversion of any odometry to wheel samples, and a gyro replacement for robots without one."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Dict, List, NamedTuple, Sequence, Tuple
@@ -7,16 +7,16 @@ from mtr_core.se2 import Pose2
 
 from .errors import BagUnusable
 
-# Wheels' turn in place of a gyro: an estimate, no survey. Tracks and skid-steered wheels turn otherwise than their
-# odometry says by some percent after a calibration, and at random by a degree in a turn of a second.
+# Noise of the wheel turn as a replacement of the gyro; an estimate. Calibrated tracks and skid-steered wheels deviate
+# by some percent from their odometry, and randomly by a degree in a turn of 1 s.
 WHEELS_TURN = {"gyro_scale_sigma": 0.05, "gyro_noise_radps_per_sqrt_hz": 0.017}
-# A stamp that goes back by so much, or on by so much, is a clock that was set.
+# A jump of the stamps by this much, forward or back, means that a clock was set.
 JUMP_S = 5.0
 MOVED_M, TURNED_RAD = 0.3, 0.3
 
 
 class Sample(NamedTuple):
-    """Pose in the odometry's frame at a time in s; speed ahead in m/s and turn rate in rad/s."""
+    """Pose in the frame of the odometry at a time in s; forward speed in m/s and turn rate in rad/s."""
 
     time_s: float
     pose: Pose2
@@ -25,7 +25,7 @@ class Sample(NamedTuple):
 
 
 class Sweep(NamedTuple):
-    """Ranges of one scan in m, with its stamp in s, the step from beam to beam in rad and the limits in m."""
+    """Ranges of one scan in m, with its stamp in s, the angle between beams in rad and the range limits in m."""
 
     stamp_s: float
     angle_increment_rad: float
@@ -35,8 +35,10 @@ class Sweep(NamedTuple):
 
 
 def samples_of(poses: Sequence[Tuple[float, Pose2]]) -> List[Sample]:
-    """With the speeds since the pose before; poses that were sent again count once. BagUnusable for a clock that was
-    set, and for a robot that never moves: it shows nothing of where it is."""
+    """Return samples with the speeds since the previous pose; repeated poses are dropped.
+
+    Raises BagUnusable for a clock that was set, and for a robot that never moves, which does not reveal its motion.
+    """
     samples: List[Sample] = []
     for time_s, pose in poses:
         if not samples:
@@ -54,7 +56,7 @@ def samples_of(poses: Sequence[Tuple[float, Pose2]]) -> List[Sample]:
 
 
 def check_moves(samples: Sequence[Sample]) -> None:
-    """BagUnusable for a robot that stands: no map comes of one place."""
+    """Raise BagUnusable for a stationary robot, because a map requires several places."""
     first = samples[0].pose if samples else Pose2(0.0, 0.0, 0.0)
     moved = (first.inverse() @ sample.pose for sample in samples)
     if not any(math.hypot(each.x, each.y) > MOVED_M or abs(each.heading) > TURNED_RAD for each in moved):
@@ -62,7 +64,7 @@ def check_moves(samples: Sequence[Sample]) -> None:
 
 
 def check_same_time(stamps_s: Dict[str, float]) -> None:
-    """BagUnusable when topics begin far from each other: their clocks differ."""
+    """Raise BagUnusable if topics start at very different times, because their clocks differ."""
     if stamps_s:
         (early, early_s), (late, late_s) = (pick(stamps_s.items(), key=lambda item: item[1]) for pick in (min, max))
         if late_s - early_s > JUMP_S:

@@ -1,4 +1,4 @@
-"""Which topic of a bag gives what: as asked for, else by its type."""
+"""Selection of the topics of a bag: given by the user, otherwise by type."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Tuple
@@ -14,14 +14,14 @@ NONE = "none"
 
 @dataclass(frozen=True)
 class Asked:
-    """Topics, frames and times that the user gave; None for those that are found in the bag.
+    """Topics, frames and times given by the user; None selects them from the bag.
 
     Attributes:
         front_scan, rear_scan, odometry, imu: topics; odometry may be TF, rear_scan and imu NONE.
-        base_frame: of the robot, in which x is ahead.
-        urdf: file with the mounts, where the bag has no transforms.
-        scan_delay_s: by how much the scans' stamps are late; None: the times of recording are compared.
-        time_increment_s: from beam to beam where the scans do not say it.
+        base_frame: frame of the robot, with x forward.
+        urdf: file with the mounts, for bags without transforms.
+        scan_delay_s: delay of the scan stamps; None compares the recording times.
+        time_increment_s: time between beams if the scans do not state it.
     """
 
     front_scan: Optional[str] = None
@@ -35,12 +35,12 @@ class Asked:
 
 
 def is_own(topics: Dict[str, str], asked: Asked) -> bool:
-    """True for a recording of this robot, which is replayed as it is."""
+    """Return True for a recording of this robot, which is replayed without conversion."""
     return asked == Asked() and {names.FRONT_SCAN, names.IMU_DATA, names.WHEEL_ODOMETRY} <= set(topics)
 
 
 def scans_of(topics: Dict[str, str], asked: Asked) -> List[str]:
-    """One or two topics with scans: front and rear where they are named, else in any order."""
+    """Return one or two scan topics: front and rear if they are given, otherwise in any order."""
     found = sorted(topic for topic, kind in topics.items() if kind == SCAN)
     if asked.front_scan is not None:
         wanted = [asked.front_scan]
@@ -58,7 +58,7 @@ def scans_of(topics: Dict[str, str], asked: Asked) -> List[str]:
 
 
 def odometry_of(topics: Dict[str, str], asked: Asked) -> str:
-    """Topic with odometry, or TF."""
+    """Return the topic of the odometry, or TF."""
     if asked.odometry is not None and asked.odometry != TF:
         _check(topics, asked.odometry, ODOMETRY)
         return asked.odometry
@@ -71,7 +71,7 @@ def odometry_of(topics: Dict[str, str], asked: Asked) -> str:
 
 
 def imu_of(topics: Dict[str, str], asked: Asked) -> Optional[str]:
-    """Topic with a gyro; None: the wheels' turn has to do."""
+    """Return the topic of a gyro; None selects the turn of the wheels instead."""
     if asked.imu == NONE:
         return None
     if asked.imu is not None:
@@ -84,7 +84,7 @@ def imu_of(topics: Dict[str, str], asked: Asked) -> Optional[str]:
 
 
 def front_and_rear(places: List[Tuple[str, float]]) -> Tuple[str, Optional[str]]:
-    """Of one or two topics, each with the place of its LiDAR ahead of the base's origin in m, the front one first."""
+    """Return the front topic first, from one or two topics with the x position of their LiDAR on the base in m."""
     if len(places) == 1:
         return places[0][0], None
     (rear, rear_m), (front, front_m) = sorted(places, key=lambda place: place[1])

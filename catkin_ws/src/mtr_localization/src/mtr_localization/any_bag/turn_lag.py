@@ -1,4 +1,4 @@
-"""Offset between the stamps of two sensors, from the turns of the robot that both measured."""
+"""Stamp offset between two sensors, from the robot's turns that both measured."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, NamedTuple, Optional, Sequence, Tuple
 
@@ -8,21 +8,21 @@ from mtr_core.arrays import FloatArray
 
 from .motion import Sweep
 
-# Offsets that are searched, and their step.
+# Search range and step of offsets.
 MAX_LAG_S, STEP_S = 6.0, 0.05
-# Drivers and networks cause smaller offsets, and the method is not more accurate.
+# Delays by drivers and networks are smaller, and the method is not more accurate.
 MIN_LAG_S = 0.3
-# Least standard deviation of both rates, least common time, and its least share of the shorter recording.
+# Lowest standard deviation of both rates, shortest common time, and its lowest share of the shorter recording.
 MIN_RATE_RADPS, MIN_OVERLAP_S, MIN_OVERLAP = 0.05, 10.0, 0.5
-# Correlation at the offset; and the factor by which the unexplained variance is larger without the offset.
+# Lowest correlation at the offset, and lowest ratio of the unexplained variances without and with the offset.
 MIN_CORRELATION, MIN_GAIN = 0.7, 2.0
-# Scans closer than this turn too little to be compared; scans farther apart have another view.
+# Closer scans contain too little turn for a comparison; scans farther apart have different views.
 MIN_PAIR_S, MAX_PAIR_S = 0.09, 0.5
 BIN_RAD, MAX_TURN_RAD = np.radians(1.0), np.radians(30.0)
-# An edge that appears between two scans counts no more than this ratio of ranges (natural logarithm).
+# Limit of the influence of an edge that appears between two scans, as a ratio of ranges (natural logarithm).
 MAX_DIFFERENCE = 0.3
 MIN_BINS, MIN_SHARE = 30, 0.5
-# Enough of a drive; the rest only costs time.
+# More pairs take time without a benefit.
 MAX_PAIRS = 6000
 # A longer span contains stamps of another clock.
 MAX_SPAN_S = 4.0 * 3600.0
@@ -36,14 +36,14 @@ class Rates(NamedTuple):
 
 
 class Lag(NamedTuple):
-    """Time by which the stamps of a sensor are late, in s; is_certain: the turns exclude an offset of zero."""
+    """Lag of the stamps of a sensor in s; is_certain: the turns exclude an offset of zero."""
 
     lag_s: float
     is_certain: bool
 
 
 def rates_of(samples: Sequence[Tuple[float, float]]) -> Rates:
-    """Finite samples (time in s, rate in rad/s) in the order of their times."""
+    """Return finite samples (time in s, rate in rad/s) in the order of their times."""
     table = np.array(samples, dtype=float).reshape(-1, 2)
     table = table[np.isfinite(table).all(axis=1)]
     times_s, first = np.unique(table[:, 0], return_index=True)
@@ -51,7 +51,7 @@ def rates_of(samples: Sequence[Tuple[float, float]]) -> Rates:
 
 
 def turn_lag(reference: Rates, other: Rates, max_lag_s: float = MAX_LAG_S) -> Optional[Lag]:
-    """Lag of the other's stamps behind the reference; None when the turns do not show it."""
+    """Return the lag of the other stamps behind the reference; None if the turns do not show it."""
     if min(len(reference.times_s), len(other.times_s)) < 2:
         return None
     begin_s = min(reference.times_s[0], other.times_s[0]) - STEP_S
@@ -74,7 +74,7 @@ def turn_lag(reference: Rates, other: Rates, max_lag_s: float = MAX_LAG_S) -> Op
 
 
 def _resampled(rates: Rates, grid_s: FloatArray) -> FloatArray:
-    """Mean of about 0.2 s on the grid; NaN outside the samples and in their gaps."""
+    """Return the mean over about 0.2 s on the grid; NaN outside the samples and in gaps."""
     values = np.interp(grid_s, rates.times_s, rates.rates_radps, left=np.nan, right=np.nan)
     after = np.clip(np.searchsorted(rates.times_s, grid_s), 1, len(rates.times_s) - 1)
     values[rates.times_s[after] - rates.times_s[after - 1] > 2.0 * MAX_PAIR_S] = np.nan
@@ -83,8 +83,10 @@ def _resampled(rates: Rates, grid_s: FloatArray) -> FloatArray:
 
 
 def _correlation(ours: FloatArray, theirs: FloatArray, step: int, needed: float) -> float:
-    """Correlation of both rates when the other's stamps are late by a number of steps; NaN with fewer common samples
-    than needed, or without a turn."""
+    """Return the correlation of both rates for a lag in steps.
+
+    NaN if there are fewer common samples than needed, or no turn.
+    """
     if abs(step) >= len(ours):
         return float("nan")
     one = ours[max(0, -step):len(ours) - max(0, step)]
@@ -99,16 +101,16 @@ def _correlation(ours: FloatArray, theirs: FloatArray, step: int, needed: float)
 
 
 class ScanTurns:
-    """Turn rates of a LiDAR, from how far its ranges move from beam to beam between two scans."""
+    """Turn rates of a LiDAR, from the shift of its ranges between two scans."""
 
     def __init__(self, sense: float) -> None:
-        """sense: -1 for a LiDAR that hangs upside down."""
+        """Create an estimator. sense: -1 for a LiDAR that is mounted upside down."""
         self._sense = sense
         self._last: Optional[Tuple[float, FloatArray]] = None
         self._samples: List[Tuple[float, float]] = []
 
     def add(self, scan: Sweep) -> None:
-        """Compare one more scan with the previous one."""
+        """Compare a scan with the previous one."""
         time_s = scan.stamp_s
         passed_s = MAX_PAIR_S if self._last is None else time_s - self._last[0]
         if 0.0 <= passed_s < MIN_PAIR_S or len(self._samples) >= MAX_PAIRS:
@@ -127,7 +129,7 @@ class ScanTurns:
 
 
 def _profile(scan: Sweep) -> FloatArray:
-    """Logarithm of the range per degree, left increasing; NaN without an echo."""
+    """Return the logarithm of the range per degree, increasing to the left; NaN without an echo."""
     ranges = np.asarray(scan.ranges, dtype=float)
     ranges[~((ranges >= max(scan.range_min_m, 1e-3)) & (ranges <= scan.range_max_m))] = np.nan
     if ranges.size < 2 or not np.isfinite(scan.angle_increment_rad):
@@ -139,7 +141,7 @@ def _profile(scan: Sweep) -> FloatArray:
 
 
 def _turn(before: FloatArray, after: FloatArray) -> Optional[float]:
-    """Turn to the left in rad; None when too few beams have an echo in both, or the best shift is the largest."""
+    """Return the turn to the left in rad; None with too few common echoes, or if the best shift is the largest one."""
     most = min(round(MAX_TURN_RAD / BIN_RAD), len(before) // 3)
     costs = []
     for shift in range(-most, most + 1):
