@@ -1,4 +1,4 @@
-"""Between ROS messages and the locator's plain types."""
+"""Conversions between ROS messages and the locator's plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -37,7 +37,7 @@ MARKER_TYPES = {MarkerKind.LOOP: Marker.LINE_STRIP, MarkerKind.SEGMENTS: Marker.
 
 
 def task_from(message: Optional[RobotMode]) -> Optional[LocatorTask]:
-    """What the state machine wants of the locator."""
+    """Return the locator's task from the mode of the state machine."""
     if message is None:
         return None
     return LocatorTask(message.mapping, message.map_car_id, goal_from(message), message.mode == State.CHECKING_CAR,
@@ -45,21 +45,21 @@ def task_from(message: Optional[RobotMode]) -> Optional[LocatorTask]:
 
 
 def robot_pose_from(message: LocalizedPose) -> RobotPose:
-    """The robot's pose."""
+    """Return the robot's pose."""
     return RobotPose(message.header.stamp.to_nsec() * 1e-9, Pose2(message.x, message.y, message.heading),
                      message.speed_mps, message.yaw_rate_radps, PoseMode(message.mode), message.map_revision,
                      tuple(message.covariance))
 
 
 def scan_from(message: LaserScan, base_from_lidar: Pose2, is_rear: bool, time_increment_s: float = 0.0) -> Scan:
-    """A sweep of one LiDAR. time_increment_s: from beam to beam, where the message does not say it."""
+    """Return a sweep of one LiDAR. time_increment_s: time between beams, if the message does not state it."""
     return Scan(message.header.stamp.to_nsec() * 1e-9, message.time_increment or time_increment_s, message.angle_min,
                 message.angle_increment, message.range_min, message.range_max, np.asarray(message.ranges),
                 base_from_lidar, is_rear)
 
 
 def scan_mounts(lidars: LidarMounts) -> Dict[str, Pose2]:
-    """Mount of the LiDAR behind each topic with scans."""
+    """Return the LiDAR mount of each scan topic."""
     mounts = {names.FRONT_SCAN: lidars.front}
     if lidars.rear is not None:
         mounts[names.REAR_SCAN] = lidars.rear
@@ -67,8 +67,8 @@ def scan_mounts(lidars: LidarMounts) -> Dict[str, Pose2]:
 
 
 def scans_in(bag: pathlib.Path, lidars: LidarMounts) -> Iterator[Scan]:
-    """Sweeps of the LiDARs in a recorded drive, in the order of their times."""
-    # The import is not above, so that the node, which reads no bags, starts without rosbag.
+    """Yield the sweeps of the LiDARs in a recorded drive, in the order of their times."""
+    # Imported here, so that the node, which does not read bags, starts without rosbag.
     import rosbag
 
     mounts = scan_mounts(lidars)
@@ -83,7 +83,7 @@ def scans_in(bag: pathlib.Path, lidars: LidarMounts) -> Iterator[Scan]:
 
 
 def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
-    """Localization's adjusted map; columns of different lengths make it invalid."""
+    """Return the adjusted map of localization; columns of different lengths make it invalid."""
     columns = [message.x, message.y, message.normal, message.length, message.sigma, message.hits]
     frames = np.array([(frame.stamp.to_nsec() * 1e-9, frame.x, frame.y, frame.heading)
                        for frame in message.key_frames]).reshape(-1, 4)
@@ -95,7 +95,7 @@ def surface_map_from(message: SurfaceMapMessage) -> SurfaceMap:
 
 
 def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
-    """Estimate for the other nodes."""
+    """Return the estimate as a message."""
     message = CarEstimate(state=int(estimate.state), map_car_id=estimate.map_car_id, message=estimate.message.text,
                           problems=messages_of(estimate.message, Problem),
                           revision=estimate.revision)
@@ -117,7 +117,7 @@ def estimate_message(estimate: Estimate, stamp: Any) -> CarEstimate:
 
 
 def covariance_in_map(estimate: Estimate) -> FloatArray:
-    """Row-major covariance of x, y, heading in map."""
+    """Return the row-major covariance of x, y, heading in map."""
     heading = estimate.rectangle.pose.heading
     cos, sin = math.cos(heading), math.sin(heading)
     map_from_car = np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])
@@ -125,14 +125,14 @@ def covariance_in_map(estimate: Estimate) -> FloatArray:
 
 
 def mapping_message(estimate: Estimate, stamp: Any) -> MappingOrder:
-    """What localization's mapper shall do."""
+    """Return the order to the mapper of localization."""
     message = MappingOrder(map_car_id=estimate.map_id, phase=int(estimate.phase))
     message.header.stamp = stamp
     return message
 
 
 def check_message(estimate: Estimate, limits: RefinementParameters, stamp: Any) -> CarCheck:
-    """How the self-check stands."""
+    """Return the state of the self-check."""
     report = estimate.check
     message = CarCheck(id=report.check_id, state=int(report.state), difference_m=report.difference_m,
                        difference_rad=report.difference_rad, limit_m=limits.check_limit_m,
@@ -143,7 +143,7 @@ def check_message(estimate: Estimate, limits: RefinementParameters, stamp: Any) 
 
 
 def transform_message(estimate: Estimate, stamp: Any) -> TransformStamped:
-    """map to car."""
+    """Return the transform from map to car."""
     pose = estimate.rectangle.pose
     message = TransformStamped(child_frame_id=names.CAR)
     message.header.stamp, message.header.frame_id = stamp, names.MAP
@@ -154,7 +154,7 @@ def transform_message(estimate: Estimate, stamp: Any) -> TransformStamped:
 
 
 def markers_message(shapes: List[MarkerShape], stamp: Any) -> MarkerArray:
-    """The shapes, and nothing of what was shown before."""
+    """Return markers that replace all previous ones."""
     clear = Marker(action=Marker.DELETEALL)
     clear.header.stamp, clear.header.frame_id = stamp, names.MAP
     return MarkerArray(markers=[clear, *(_marker(shape, stamp) for shape in shapes if shape.points)])

@@ -1,4 +1,4 @@
-"""What people see of the Car locator in rviz, as plain shapes in map."""
+"""Markers of the Car locator for rviz, as plain shapes in map."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -20,17 +20,17 @@ FAINT_GREEN: Colour = (0.1, 0.8, 0.2, 0.35)
 CYAN: Colour = (0.0, 0.8, 0.9, 1.0)
 VIOLET: Colour = (0.7, 0.3, 1.0, 0.9)
 LINE_M, THIN_M, PLACE_M = 0.04, 0.015, 0.15
-# Uncertainty is shown as 95 % of a normal distribution.
+# Uncertainty is drawn as 95 % of a normal distribution.
 BAND_SIGMAS = 2.0
 ELLIPSE_CORNERS = 24
 
 
 class MarkerKind(enum.Enum):
-    """How the points of a shape are drawn."""
+    """Drawing style of the points of a shape."""
 
     LOOP = "loop"            # closed line
-    SEGMENTS = "segments"    # a line for each pair of points
-    ARROW = "arrow"          # from the first point to the second
+    SEGMENTS = "segments"    # one line per pair of points
+    ARROW = "arrow"          # from the first point to the second one
     DOTS = "dots"
 
 
@@ -46,7 +46,7 @@ class MarkerShape:
 
 
 def shapes_of(estimate: Estimate) -> List[MarkerShape]:
-    """Outline with its uncertainty, front, surfels and places."""
+    """Return outline with its uncertainty, front, surfels and places."""
     shapes = [*_outline(estimate), *_front(estimate)]
     if estimate.places:
         places = tuple((at.x, at.y) for at in estimate.places)
@@ -72,7 +72,7 @@ def _front(estimate: Estimate) -> Iterator[MarkerShape]:
 
 
 def _band(estimate: Estimate) -> Iterator[MarkerShape]:
-    """Outlines of a Car that is larger, and smaller, by 2 sigma of its dimensions and of its centre."""
+    """Yield outlines of a Car that is larger and smaller by 2 sigma of its dimensions and of its centre."""
     car = estimate.rectangle
     x = BAND_SIGMAS * math.hypot(estimate.sigmas[0], 0.5 * estimate.length_sigma)
     y = BAND_SIGMAS * math.hypot(estimate.sigmas[1], 0.5 * estimate.width_sigma)
@@ -90,7 +90,7 @@ def _surfels(car: Pose2, surfels: Surfels) -> MarkerShape:
 
 
 def _ellipse(estimate: Estimate) -> MarkerShape:
-    """95 % of the Car's centre."""
+    """Return the 95 % ellipse of the Car's centre."""
     x, y, _ = (BAND_SIGMAS * sigma for sigma in estimate.sigmas)
     angles = [2.0 * math.pi * corner / ELLIPSE_CORNERS for corner in range(ELLIPSE_CORNERS)]
     points = [(x * math.cos(angle), y * math.sin(angle)) for angle in angles]

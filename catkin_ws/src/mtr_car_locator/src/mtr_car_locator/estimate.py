@@ -1,4 +1,4 @@
-"""What the Car locator receives at a tick, and what it makes of it."""
+"""Inputs and output of the Car locator at a tick."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Optional, Sequence, Tuple
@@ -19,7 +19,7 @@ NO_MOTION = Pose2(0.0, 0.0, 0.0)
 
 @dataclass(frozen=True)
 class LocatorTask:
-    """What the state machine wants: mapping or checking, under which ids, and the goal that the motion planner has."""
+    """Request of the state machine: mapping or checking, their ids, and the goal of the motion planner."""
 
     mapping: bool
     map_car_id: int
@@ -30,7 +30,7 @@ class LocatorTask:
 
 @dataclass(frozen=True)
 class Inputs:
-    """Everything that is new at a tick; all poses up to it have been added."""
+    """New inputs of a tick; all poses up to it have already been added."""
 
     now_s: float
     task: Optional[LocatorTask] = None
@@ -41,17 +41,17 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Estimate:
-    """What is known of the Car at a tick.
+    """State of knowledge about the Car at a tick.
 
     Attributes:
         sigmas: (x, y, heading) in the Car's frame.
-        revision: counts the frames that the Car has had, 0 before the first.
+        revision: number of frames that the Car has had, 0 before the first one.
         correction: the present frame in the previous one.
-        phase: what localization's mapper shall do.
-        map_id: with which map; each survey has its own, also when mapping is tried again.
-        places: where the robot shall still go for the locator.
-        fit: the Car once it was found.
-        map_revision: of localization's map that the Car is in once it was found.
+        phase: order to the mapper of localization.
+        map_id: id of the map; each survey has its own one, also when mapping is repeated.
+        places: remaining places of the robot for the locator.
+        fit: the Car, once it was found.
+        map_revision: of the localization map that the Car is in, once it was found.
         side_sigmas: 1 sigma of each side of the rectangle, of centre and size together.
     """
 
@@ -76,7 +76,7 @@ class Estimate:
 
 
 def result_at(waypoint: Optional[Waypoint], task: Optional[LocatorTask], motion: GoalReport) -> Result:
-    """What the motion planner says of a waypoint; IDLE while another is its goal."""
+    """Return the motion planner's result for a waypoint; IDLE while its goal is another one."""
     if waypoint is None or task is None or not motion.is_about(task.goal):
         return Result.IDLE
     goal = task.goal.waypoint

@@ -1,4 +1,4 @@
-"""Command line of the fit to recorded surfaces."""
+"""Command line that fits the Car to recorded surfaces."""
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import pathlib
@@ -20,7 +20,7 @@ ReadBag = Callable[[pathlib.Path, LidarMounts], Iterable[Scan]]
 
 
 def main(read_bag: ReadBag, arguments: Optional[List[str]] = None) -> int:
-    """Print the Car; the exit status is 0 when it was found and 2 after one sentence when not."""
+    """Print the Car; exit status 0 if it was found, 2 after one sentence otherwise."""
     options = _parser().parse_args(arguments)
     try:
         parameters = parameters_from(dict(options.parameter), LocatorParameters)

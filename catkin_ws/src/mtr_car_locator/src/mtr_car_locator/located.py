@@ -1,4 +1,4 @@
-"""The Car after it was found: its frame stands until there is evidence that it has to change."""
+"""Located Car: its frame is constant until there is evidence for a change."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -19,7 +19,7 @@ from .poses import PoseHistory
 from .watch.refinement import Change, Refinement
 from .watch.self_check import CheckReport, SelfCheck
 
-# A length that is less sure than this is not of a data sheet.
+# A length with a larger sigma is not from a data sheet.
 KNOWN_SIGMA_M = 0.05
 
 
@@ -29,9 +29,9 @@ class LocatedCar:
     Attributes:
         fit: the Car.
         revision: of its frame.
-        correction: the frame in that of the revision before.
-        map_revision: of localization's map that it is in.
-        message: that it was found, or how its frame was corrected.
+        correction: the frame relative to the previous revision.
+        map_revision: of the localization map that it is in.
+        message: about the location, or about the last correction.
     """
 
     def __init__(self, fit: CarFit, map_revision: int, revision: int, parameters: RefinementParameters):
@@ -44,27 +44,27 @@ class LocatedCar:
 
     @property
     def waypoint(self) -> Optional[Waypoint]:
-        """Where the self-check wants the robot now."""
+        """Waypoint of the self-check."""
         return self._waypoint
 
     @property
     def places_ahead(self) -> Tuple[Pose2, ...]:
-        """Where the self-check has still to go."""
+        """Remaining places of the self-check."""
         return self._check.places_ahead if self._check else ()
 
     @property
     def report(self) -> CheckReport:
-        """How the last self-check stands."""
+        """Result of the last self-check."""
         return self._check.report if self._check else CheckReport()
 
     def wants_scans(self, inputs: Inputs, poses: PoseHistory) -> bool:
-        """True while something looks."""
+        """Return True while an observation requires scans."""
         if inputs.task is not None and inputs.task.checking:
             return self._waypoint is not None
         return self._refinement.wants_scans(inputs.now_s, poses)
 
     def step(self, inputs: Inputs, poses: PoseHistory, next_id: int) -> None:
-        """One tick; NotLocated when the Car's frame holds no longer."""
+        """Process one tick; NotLocated if the Car's frame is no longer valid."""
         if poses.newest.map_revision != self.map_revision:
             raise NotLocated(problems.OTHER_MAP())
         if inputs.task is not None and inputs.task.checking:
@@ -95,8 +95,8 @@ class LocatedCar:
         turn_deg = math.degrees(abs(change.motion.heading))
         if not change.is_correction:
             raise NotLocated(problems.MOVED(shift_cm=shift_cm, turn_deg=turn_deg))
-        # How well the frame lies in the Car's surfaces has not changed; where these are is known by what was seen now,
-        # the robot's pose then included, and no longer by the map.
+        # The fit of the frame to the Car's surfaces is unchanged. The present observation, including the robot's pose,
+        # now determines the position of these surfaces instead of the map.
         x, y, heading = (math.hypot(first, now) for first, now in zip(self.fit.sigmas, change.sigmas))
         self.fit = replace(self.fit, rectangle=self.fit.rectangle.moved_by(change.motion), sigmas=(x, y, heading),
                            side_sigmas=self.fit.side_sigmas.moved(*change.sigmas[:2]))
@@ -106,7 +106,7 @@ class LocatedCar:
 
 
 def found(fit: CarFit) -> Problem:
-    """What was found."""
+    """Return the message about the located Car."""
     sentence = problems.FOUND
     if fit.by_wheels:
         is_known = fit.length_sigma < KNOWN_SIGMA_M

@@ -1,4 +1,4 @@
-"""The car locator: at each tick from tasks, poses, scans and maps to the estimate of the Car."""
+"""Car locator: at each tick, tasks, poses, scans and maps become an estimate of the Car."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from concurrent.futures import Executor
@@ -23,24 +23,24 @@ from .poses import PoseHistory, RobotPose
 from .rectangle import Point, Rectangle
 from .survey.survey import Survey
 
-# The starting place alone tells the Car's pose with this 1 sigma.
+# 1 sigma of the Car's pose from the starting place alone.
 PRIOR_POSITION_SIGMA_M, PRIOR_HEADING_SIGMA_RAD = 0.5, 0.2
 NOWHERE = Rectangle(Pose2(0.0, 0.0, 0.0), 0.0, 0.0)
 
 
 class CarLocator:
-    """Maps the Car while the mode says so, and then keeps its frame unless there is evidence against it."""
+    """Maps the Car on request, and then keeps its frame unless there is evidence against it."""
 
     def __init__(self, parameters: LocatorParameters, remembered: Optional[RememberedCar] = None,
                  fits: Optional[Executor] = None):
-        """remembered: what a locator before this one has found, to go on with; fits: where the Car is fitted."""
+        """Create a locator. remembered: Car of a previous process to resume with; fits: executor of the fits."""
         self._parameters, self._fits = parameters, fits or InlineExecutor()
         self._poses: Optional[PoseHistory] = None
         self._survey: Optional[Survey] = None
         self._located: Optional[LocatedCar] = None
         self._state = CarState.UNKNOWN
         self._was_mapping = False
-        # A survey that was ordered where the position is lost waits for that of its own map.
+        # A survey that was ordered while the position is lost waits for a pose in its own map.
         self._awaits_pose = False
         self._map_car_id = 0
         self._next_waypoint_id = 1
@@ -56,7 +56,7 @@ class CarLocator:
         self._message = self._located.message
 
     def wants_scans(self, inputs: Inputs) -> bool:
-        """True while scans are collected or about to be."""
+        """Return True while scans are collected or will be soon."""
         task = inputs.task
         if task is not None and task.mapping:
             return self._state == CarState.COLLECTING or self._is_new(task)
@@ -64,7 +64,7 @@ class CarLocator:
                 and self._located.wants_scans(inputs, self._poses))
 
     def add_pose(self, robot: RobotPose) -> None:
-        """Take a valid pose of the robot."""
+        """Add a valid pose of the robot."""
         if not robot.pose.is_finite():
             return
         if self._poses is None:
@@ -73,9 +73,9 @@ class CarLocator:
             self._poses.add(robot)
 
     def step(self, inputs: Inputs) -> Estimate:
-        """Estimate at a tick."""
+        """Return the estimate at a tick."""
         if self._goes_on:
-            # The time is a number that no place of the locator before this one has had.
+            # The time is an id that no waypoint of a previous process has had.
             self._next_waypoint_id, self._goes_on = max(1, round(inputs.now_s)), False
         if self._poses is not None:
             try:
@@ -91,7 +91,7 @@ class CarLocator:
         if survey and not self._awaits_pose:
             self._collect(survey, inputs, poses)
         elif self._survey and self._state == CarState.COLLECTING:
-            # The robot has stopped because its position was lost with the map.
+            # The robot stopped because its position was lost together with the map.
             self._survey.judge(inputs.surfaces)
         elif self._located:
             self._located.step(inputs, poses, self._next_waypoint_id)
@@ -100,10 +100,10 @@ class CarLocator:
             self._revision, self._message = self._located.revision, self._located.message
 
     def _survey_for(self, task: LocatorTask, now_s: float, poses: PoseHistory) -> Optional[Survey]:
-        """The survey that the task is about, a new one if need be; None when it has ended."""
+        """Return the survey of the task, a new one if necessary; None if it has ended."""
         if self._is_new(task):
             self._awaits_pose = not poses.is_fresh(now_s)
-            # The time at which it begins is a number that no survey has had, not even before this node was restarted.
+            # The start time is an id that no survey has had, not even before a restart of this node.
             self._survey = self._survey_at(poses.newest.pose, round(now_s * 1000.0))
             self._located = None
             self._state, self._map_car_id = CarState.COLLECTING, task.map_car_id
@@ -113,7 +113,7 @@ class CarLocator:
         return self._survey if self._state == CarState.COLLECTING else None
 
     def _survey_at(self, robot: Pose2, map_id: int) -> Survey:
-        # Where the position is lost, so is the Car's.
+        # If the robot's position is lost, the Car's is lost, too.
         if self._located and not self._awaits_pose:
             prior = prior_at(self._located.fit.rectangle)
         else:
@@ -155,7 +155,7 @@ class CarLocator:
 
     def _rough(self, car: Rectangle, outline: Tuple[Point, ...], message: Problem) -> Estimate:
         sigma, size_sigma = PRIOR_POSITION_SIGMA_M, 0.5 * self._parameters.sheet.size_tolerance_m
-        # Errors of the place and of half the size.
+        # Errors of position and half the size.
         side_sigmas = SideSigmas(*4 * (math.hypot(sigma, 0.5 * size_sigma),))
         estimate = Estimate(self._state, car, outline, (sigma, sigma, PRIOR_HEADING_SIGMA_RAD), size_sigma, size_sigma,
                             None, self._map_car_id, message, self._revision, side_sigmas=side_sigmas)

@@ -1,4 +1,4 @@
-"""The car locator as a ROS node: poses, scans and maps in; the Car, and orders to localization's mapper, out."""
+"""ROS node of the car locator. Inputs: poses, scans and maps; outputs: the Car, and orders to the mapper."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from concurrent.futures import Executor, ThreadPoolExecutor
@@ -40,12 +40,12 @@ from .survey import survey
 
 
 class CarLocatorNode:
-    """Feeds the locator at its ticks and publishes what it says."""
+    """Feeds the locator at its ticks and publishes its estimates."""
 
     def __init__(self, parameters: LocatorParameters):
         lidars = described_robot().lidars(parameters.rear_lidar)
         self._parameters = parameters
-        # In lock-step and in a replay time waits for the fit; else neither it nor the other steps hold up a tick.
+        # In lock-step and in a replay, the clock waits for the fit; otherwise, ticks are not delayed by any step.
         executor, fits = _executors()
         self._keeper = CarKeeper(_memory_file(parameters.memory_folder), ThreadPoolExecutor(1), rospy.logwarn)
         self._steps = LocatorSteps(CarLocator(parameters, self._keeper.read(), fits), executor)
@@ -68,7 +68,7 @@ class CarLocatorNode:
             self.tick(self._ticker.sleep())
 
     def tick(self, tick_ns: int) -> None:
-        """What is known of the Car now."""
+        """Publish the present estimate of the Car."""
         poses = self._poses.take(tick_ns)
         inputs = Inputs(tick_ns * 1e-9, task_from(self._mode.at(tick_ns)), goal_report_from(self._drive.at(tick_ns)))
         scans = self._scans.take(tick_ns, self._steps.wants_scans(inputs, poses))
@@ -90,7 +90,7 @@ class CarLocatorNode:
         self._keeper.note(estimate)
 
     def _say(self, estimate: Estimate) -> None:
-        """Each new sentence once; what changes the frame, or ends it, is a warning that reaches the Operator."""
+        """Log each new sentence once; a change or loss of the frame is a warning to the Operator."""
         said = (estimate.message.text, estimate.revision)
         if said == self._said or not estimate.message:
             return
@@ -103,19 +103,19 @@ class CarLocatorNode:
 
 
 def _executors() -> Tuple[Executor, Executor]:
-    """Of the locator's steps and of the fits among them."""
+    """Return the executors of the locator's steps and of their fits."""
     if is_held():
         return InlineExecutor(), InlineExecutor()
     return ThreadPoolExecutor(1), ProcessExecutor([survey.__name__], rospy.logwarn)
 
 
 def _memory_file(folder: str) -> Optional[MemoryFile]:
-    # Without roslaunch nobody says which run it is. Its own word lasts as long as the ROS master, which may outlive the
-    # robot's start.
+    # Without roslaunch, the run is unknown. /run_id lasts as long as the ROS master, which may outlive a start of the
+    # robot.
     run_id = rospy.get_param(names.ROBOT_RUN, rospy.get_param("/run_id", ""))
     return MemoryFile(pathlib.Path(folder) / "car_locator.json", run_id) if folder and run_id else None
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("car_locator", LocatorParameters, CarLocatorNode)

@@ -1,4 +1,4 @@
-"""The Car from the files that localization's replay of a recorded drive leaves."""
+"""Fit of the Car to the output files of localization's replay."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import json
@@ -31,16 +31,15 @@ DEFAULTS = LocatorParameters()
 
 
 class FilesUnusable(RobotError):
-    """A file is missing or lacks what is needed; the text says which and what."""
+    """A file is missing or incomplete; the text has the details."""
 
 
 def fit_files(folder: pathlib.Path, prior: Optional[Pose2] = None, parameters: LocatorParameters = DEFAULTS,
               scans: Iterable[Scan] = ()) -> CarFit:
-    """The Car in map from surfaces.csv; prior is its guessed pose in map.
+    """Return the Car in map from surfaces.csv; prior is its guessed pose in map.
 
-    Without a prior the first pose in key_frames.csv counts as the starting place. The drive's scans, in the order of
-    their times, make its size more exact. NotLocated when there is no Car that can be trusted, FilesUnusable when a
-    file cannot be used.
+    Without a prior, the first pose in key_frames.csv is the starting place. The drive's scans, in the order of their
+    times, make the size more accurate. Raises NotLocated without a trustworthy Car, FilesUnusable for an unusable file.
     """
     folder = pathlib.Path(folder)
     surfels = surfels_from(_table(folder / SURFACES, SURFACE_COLUMNS))
@@ -49,7 +48,7 @@ def fit_files(folder: pathlib.Path, prior: Optional[Pose2] = None, parameters: L
 
 
 def close_up_of(folder: pathlib.Path, scans: Iterable[Scan], car: Pose2) -> Optional[CloseUp]:
-    """Returns near the Car of the scans between the first and the last key-frame; None without scans."""
+    """Return the returns near the Car between the first and the last key-frame; None without scans."""
     frames = _table(folder / KEY_FRAMES, KEY_FRAME_COLUMNS)
     if len(frames) == 0:
         return None
@@ -87,7 +86,7 @@ def _range_bias(folder: pathlib.Path) -> RangeBias:
     try:
         summary = json.loads(path.read_text(encoding="utf-8"))
         front = float(summary[FRONT_BIAS])
-        # Before each LiDAR had its own, one number was that of both.
+        # Older files have one bias for both LiDARs.
         return RangeBias(front, float(summary.get(REAR_BIAS, front)))
     except OSError as error:
         raise FilesUnusable(f"{path} cannot be read: {error.strerror}.") from None
@@ -96,7 +95,7 @@ def _range_bias(folder: pathlib.Path) -> RangeBias:
 
 
 def summary_of(fit: CarFit) -> List[str]:
-    """The Car in a few lines for a person."""
+    """Return a summary of the Car for a person."""
     car, (x, y, heading) = fit.rectangle, fit.sigmas
     plane = ", ".join(f"{name} {size:.4f} m (1 sigma {sigma:.4f} m)" for name, size, sigma in (
         ("length", fit.in_plane.length, fit.in_plane.length_sigma),
@@ -119,7 +118,7 @@ def _prior(folder: pathlib.Path, car: Optional[Pose2], parameters: LocatorParame
 
 
 def _table(path: pathlib.Path, columns: Sequence[str], maximum: float = math.inf) -> FloatArray:
-    """The wanted columns of a file with a header, up to the row whose first one is above the maximum.
+    """Return columns of a file with a header, up to the row whose first one is above the maximum.
 
     Lines that begin with # are skipped.
     """

@@ -7,36 +7,36 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
-# A body may stand back so far in the LiDARs' plane behind its widest part, on each side.
+# Largest inset of a body in the scan plane behind its widest part, on each side.
 MAX_INSET_M = 0.06
-# A data sheet's sizes and overhang differ from this Car's by number plates, load and trim levels.
+# Deviation from a data sheet's sizes and overhang by number plates, load and trim levels.
 DATA_SHEET_SIGMA_M = 0.005
-# Cars without a data sheet: from a small one to a delivery van each size is as likely, and beyond that soon none is.
+# Ordinary sizes, from a small car to a delivery van, are equally likely without a data sheet; others soon impossible.
 ORDINARY_LENGTH_M, ORDINARY_WIDTH_M = (3.0, 6.0), (1.4, 2.2)
 
 
 @dataclass(frozen=True)
 class DataSheet(ParameterSet):
-    """What is known of the Car before it is measured; zeros mean that it is not known.
+    """Prior knowledge about the Car; zero means unknown.
 
     Attributes:
         expected_length_m: length of an ordinary Car.
         expected_width_m: width of an ordinary Car.
-        size_tolerance_m: a length or width farther from the expected one is not believed.
-        known_length_m: length from the Car's data sheet; it is published, for distances count from the widest parts,
-            and what the LiDARs' plane shows is compared with it.
-        known_width_m: the same of the width without mirrors.
-        front_overhang_m: front axle to the front's tip, from the data sheet; where the tyres are seen it tells the
-            front, and with the length the rear.
-        wheelbase_m: distance of the axles, from the data sheet; it makes the axles more exact and unambiguous.
-        side_inset_m: how far the surfaces in the LiDAR's plane lie inside of the Car's widest part, on each side; used
-            when the width is not known.
-        side_inset_sigma_m: 1 sigma of what side_inset_m leaves out, as long as the width is not known. By default that
-            of an inset of which nothing is known but that it is 0 to MAX_INSET_M: the root of the mean square, for the
-            mean is not corrected (docs/accuracy.md, Limits).
-        front_inset_sigma_m: 1 sigma of the normal distribution whose positive half is the prior of how far the front
-            stands back in the LiDARs' plane: 95 % of all cars by less than twice as much (docs/accuracy.md, Limits).
-        rear_inset_sigma_m: the same of the rear.
+        size_tolerance_m: largest deviation of length or width from the expected one.
+        known_length_m: length from the Car's data sheet; it is published, because distances refer to the widest parts,
+            and compared with the length in the scan plane.
+        known_width_m: width without mirrors from the data sheet, used in the same way.
+        front_overhang_m: front axle to the tip of the front, from the data sheet; if the tyres are seen, it determines
+            the front, and together with the length the rear.
+        wheelbase_m: distance of the axles, from the data sheet; it makes the axles more accurate and unambiguous.
+        side_inset_m: distance of the surfaces in the scan plane from the Car's widest part, on each side; used if the
+            width is not known.
+        side_inset_sigma_m: 1 sigma of the error of side_inset_m, if the width is not known. The default is the root
+            mean square of an inset that is uniformly distributed from 0 to MAX_INSET_M, because the mean is not
+            corrected (docs/accuracy.md, Limits).
+        front_inset_sigma_m: sigma of the half-normal prior of the front's inset in the scan plane: in 95 % of all cars,
+            the inset is below 2 sigma (docs/accuracy.md, Limits).
+        rear_inset_sigma_m: the same for the rear.
     """
 
     expected_length_m: float = number(4.5, 2.0, 10.0, "m")
@@ -64,16 +64,16 @@ class DataSheet(ParameterSet):
 
 @dataclass(frozen=True)
 class RefinementParameters(ParameterSet):
-    """When the Car is observed again, what changes its frame, and what the self-check allows.
+    """Timing of repeated observations, limits of frame corrections, and limits of the self-check.
 
     Attributes:
-        look_s: scans of one observation, taken while the robot stands.
-        refine_least_m: a smaller shift of the Car does not change its frame.
-        refine_least_rad: the same for its turn.
-        refine_most_m: a larger shift is not a correction: the Car was moved.
-        refine_most_rad: the same for its turn.
+        look_s: duration of one observation while the robot is stationary.
+        refine_least_m: lowest shift of the Car that changes its frame.
+        refine_least_rad: lowest turn that changes its frame.
+        refine_most_m: largest shift that is corrected; above it, the Car was moved.
+        refine_most_rad: largest turn that is corrected.
         check_limit_m: shift of the Car's centre or side at which the self-check fails.
-        check_limit_rad: turn of the Car at which it fails.
+        check_limit_rad: turn of the Car at which the self-check fails.
         check_distance_m: distance from the Car at which the self-check observes it.
     """
 
@@ -89,26 +89,26 @@ class RefinementParameters(ParameterSet):
 
 @dataclass(frozen=True)
 class LocatorParameters(ParameterSet):
-    """What the Car locator is started with.
+    """Parameters of the Car locator.
 
     Attributes:
         start_x_m: where the Operator puts the robot, in the Car's frame.
         start_y_m: the same, to the Car's left.
         start_heading_rad: the robot's heading there; towards the Car's centre by default.
-        position_tolerance_m: the Car's centre is not looked for farther from where the starting place puts it.
-        heading_tolerance_rad: the same for its heading.
+        position_tolerance_m: largest distance of the Car's centre from its position by the starting place.
+        heading_tolerance_rad: largest deviation of the Car's heading.
         prior_margin_m: added around the expected Car, for the planner, before it has been seen.
-        seen_margin_m: the same after the first sides have been seen.
-        ring_distance_m: distance from the Car at which the robot goes round it.
-        arrival_m: so close to a place of the ring the robot is sent to the next one.
-        blocked_limit_s: waited for an obstacle on the way round, before the robot goes round the other way.
-        look_first_s: observation of the Car, standing, before the way round it is laid.
-        look_limit_s: the Car has to be seen from the starting place by then.
-        map_limit_s: localization has to have adjusted its map by then; one that dies meanwhile is told at once. At a
-            load of 15 on two cores it took more than 15 s.
-        rear_lidar: the robot has one.
-        time_increment_s: from beam to beam, where the scans do not say it; 0: all are measured at once.
-        memory_folder: of the file with which a node that is started again in the same run goes on; empty for none.
+        seen_margin_m: added after the first sides have been seen.
+        ring_distance_m: distance from the Car at which the robot drives round it.
+        arrival_m: distance from a place of the ring at which the robot continues to the next one.
+        blocked_limit_s: waiting time for an obstacle before the robot drives round the other way.
+        look_first_s: stationary observation of the Car before the path round it is planned.
+        look_limit_s: time limit for seeing the Car from the starting place.
+        map_limit_s: time limit for the adjustment of the map by localization; its failure is reported at once. At a
+            load of 15 on two cores the adjustment lasted more than 15 s.
+        rear_lidar: the robot has a rear LiDAR.
+        time_increment_s: time between beams if the scans do not state it; 0: all beams are simultaneous.
+        memory_folder: folder of the file with which a restarted node resumes within the same run; empty for none.
     """
 
     start_x_m: float = number(4.0, -20.0, 20.0, "m")
@@ -140,5 +140,5 @@ class LocatorParameters(ParameterSet):
 
     @property
     def car_from_start(self) -> Pose2:
-        """Where the robot starts, in the Car's frame."""
+        """Start pose of the robot in the Car's frame."""
         return Pose2(self.start_x_m, self.start_y_m, self.start_heading_rad)

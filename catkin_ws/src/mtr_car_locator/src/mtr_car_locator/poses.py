@@ -1,4 +1,4 @@
-"""The robot's recent poses, at any time between them."""
+"""Recent poses of the robot, interpolated at any time between them."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -11,17 +11,17 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2, wrap_angle
 
-# Localization gives a pose each 20 ms; over a longer gap nothing is interpolated.
+# Localization publishes a pose every 20 ms; longer gaps are not interpolated.
 MAX_GAP_S = 0.1
 KEPT = 100
-# An older pose is not where the robot is: none has been valid since.
+# An older pose is outdated: none has been valid since.
 FRESH_S = 0.5
-# Below these a robot stands.
+# Limits of a stationary robot.
 STANDING_MPS, STANDING_RADPS = 0.01, 0.01
 
 
 class PoseMode(enum.IntEnum):
-    """What localization works with, as in LocalizedPose."""
+    """Reference of localization, as in LocalizedPose."""
 
     DEAD_RECKONING = 0
     MAPPING = 1
@@ -34,7 +34,7 @@ class RobotPose:
     """A valid pose of base_link in map.
 
     Attributes:
-        map_revision: map that it is in; poses of two maps have nothing to do with each other.
+        map_revision: map that it is in; poses of different maps are unrelated.
         covariance: row-major 3x3 of x, y, heading in map.
     """
 
@@ -53,7 +53,7 @@ class RobotPose:
 
     @property
     def stands(self) -> bool:
-        """True when the robot does not move."""
+        """True if the robot is stationary."""
         return abs(self.speed_mps) < STANDING_MPS and abs(self.yaw_rate_radps) < STANDING_RADPS
 
 
@@ -62,7 +62,7 @@ class PoseHistory:
 
     Attributes:
         newest: the last one.
-        stands_since_s: time since which the robot stands, None while it moves.
+        stands_since_s: start of the standstill, None while the robot moves.
     """
 
     def __init__(self, first: RobotPose):
@@ -72,7 +72,7 @@ class PoseHistory:
         self.add(first)
 
     def add(self, robot: RobotPose) -> None:
-        """Take the next pose; another map, or a time that is not later than the last, starts anew."""
+        """Add the next pose; another map, or a time that is not later than the last one, restarts the history."""
         heading = robot.pose.heading
         if self._rows:
             if robot.time_s <= self._rows[-1][0] or robot.map_revision != self.newest.map_revision:
@@ -88,11 +88,11 @@ class PoseHistory:
             self.stands_since_s = robot.time_s
 
     def is_fresh(self, now_s: float) -> bool:
-        """The robot's pose is known now."""
+        """Return True if the robot's pose is known at present."""
         return now_s - self.newest.time_s <= FRESH_S
 
     def at(self, times_s: FloatArray) -> Optional[Tuple[FloatArray, FloatArray, FloatArray]]:
-        """x, y and heading at the times, None when they are not covered."""
+        """Return x, y and heading at the times; None if they are not covered."""
         if len(self._rows) < 2 or len(times_s) == 0:
             return None
         rows = np.array(self._rows)
@@ -107,5 +107,5 @@ class PoseHistory:
         return x, y, heading
 
     def standing_s(self, now_s: float) -> float:
-        """How long the robot has been standing, 0 while it moves."""
+        """Return the duration of the standstill, 0 while the robot moves."""
         return 0.0 if self.stands_since_s is None else max(now_s - self.stands_since_s, 0.0)

@@ -1,14 +1,14 @@
-"""What the Car locator says to the Operator."""
+"""Messages of the Car locator to the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 
-# What it does
+# Progress
 POSE_UNKNOWN = Sentence("car_locator.pose_unknown", "The robot's pose is not known yet.")
 FIRST_LOOK = Sentence("car_locator.first_look", "The robot looks at the Car from where it stands.")
 GOES_ROUND = Sentence("car_locator.goes_round", "The robot goes round the Car: place {place} of {total}.")
 MAKES_MAP = Sentence("car_locator.makes_map", "The robot makes a map of what it has seen.")
 
-# The Car was found
+# Located
 FOUND = Sentence(
     "car_locator.found",
     "The Car was found: {length_m:.2f} m long (1 sigma {length_sigma_cm:.1f} cm), {width_m:.2f} m wide (1 sigma "
@@ -27,7 +27,7 @@ CORRECTED = Sentence(
     "The Car's frame was corrected by {shift_cm:.1f} cm and {turn_deg:.2f} deg, as it is seen now; it has revision "
     "{revision}.")
 
-# It was not, or is so no longer
+# Not located, or lost
 NOT_FOUND = Sentence("car_locator.not_found",
                      "The Car was not found. {cause} Put the robot at the starting place and map again.")
 LOST = Sentence("car_locator.lost",

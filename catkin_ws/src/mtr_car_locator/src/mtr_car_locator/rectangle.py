@@ -12,7 +12,7 @@ from mtr_core.se2 import Pose2
 # x and y in m.
 Point = Tuple[float, float]
 
-# Within this distance of its middle line a Car has no outside: directions outwards are counted from there.
+# Distance from the middle line within which directions outwards are undefined; they are computed from there.
 CORE_M = 0.6
 
 
@@ -25,21 +25,21 @@ class Rectangle:
     width: float
 
     def outline(self, margin_m: float = 0.0) -> List[Point]:
-        """Corners in the Car's own frame, counterclockwise, grown by the margin on each side."""
+        """Return the corners in the Car's own frame, counterclockwise, grown by the margin on each side."""
         x, y = 0.5 * self.length + margin_m, 0.5 * self.width + margin_m
         return [(x, y), (-x, y), (-x, -y), (x, -y)]
 
     def outside(self, in_car: FloatArray) -> FloatArray:
-        """Distance of points in the Car's frame outwards of the nearest side, negative inside."""
+        """Return the distance of points in the Car's frame outwards of the nearest side, negative inside."""
         beyond = np.abs(in_car) - (0.5 * self.length, 0.5 * self.width)
         return np.max(beyond, axis=1)
 
     def outwards(self, in_car: FloatArray) -> FloatArray:
-        """Unit vectors (n, 2) away from the Car at points in its frame; round the corners they turn."""
+        """Return unit vectors (n, 2) away from the Car at points in its frame; they rotate round the corners."""
         core = np.maximum(np.array([0.5 * self.length, 0.5 * self.width]) - CORE_M, 0.1)
         away = in_car - np.clip(in_car, -core, core)
         return away / np.maximum(np.linalg.norm(away, axis=1), 1e-9)[:, np.newaxis]
 
     def moved_by(self, motion: Pose2) -> "Rectangle":
-        """Same size, moved in its own frame."""
+        """Return a rectangle of the same size, moved in its own frame."""
         return dataclasses.replace(self, pose=self.pose @ motion)

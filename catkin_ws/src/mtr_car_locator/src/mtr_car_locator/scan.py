@@ -1,4 +1,4 @@
-"""From a laser scan to points in map, each beam from where the robot was at its own time."""
+"""Conversion of a laser scan to points in map, each beam from the robot's pose at its own time."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -11,19 +11,19 @@ from mtr_core.se2 import Pose2
 
 from .poses import PoseHistory
 
-# As localization takes a sweep; drivers round the last angle of a whole turn.
+# Limits of a sweep, as in localization; drivers round the last angle of a whole turn.
 MAX_SWEEP_S = 0.25
 MAX_TURN_RAD = 1.01 * math.tau
-# What the adjustment of the map leaves of a LiDAR's range bias: its covariance, which SurfaceMap does not carry, says 3
-# mm (kMinBiasSigmaM of mtr_surfel_map), in the open 3.4 (docs/accuracy.md).
+# Remaining range bias after the adjustment of the map. Its covariance, which SurfaceMap does not contain, gives 3 mm
+# (kMinBiasSigmaM of mtr_surfel_map), and 3.4 mm in the open (docs/accuracy.md).
 ADJUSTED_BIAS_SIGMA_M = 0.0035
 
 
 @dataclass(frozen=True)
 class Scan:
-    """One sweep; start_s is the first beam's time, ranges_m (n,), base_from_lidar the mounting of the LiDAR.
+    """One sweep; start_s is the time of the first beam, ranges_m (n,), base_from_lidar the mount of the LiDAR.
 
-    is_rear: of the rear LiDAR, else of the front one.
+    is_rear: True for the rear LiDAR, False for the front one.
     """
 
     start_s: float
@@ -38,7 +38,7 @@ class Scan:
 
     @property
     def makes_sense(self) -> bool:
-        """Its times, angles and limits are numbers, and those of one turn; a broken driver says anything."""
+        """Return True if times, angles and limits are finite and plausible for one turn; drivers may be broken."""
         numbers = (self.start_s, self.beam_period_s, self.first_angle_rad, self.beam_angle_rad, self.range_min_m,
                    self.range_max_m)
         steps = len(self.ranges_m) - 1
@@ -47,24 +47,24 @@ class Scan:
 
 
 class RangeBias(NamedTuple):
-    """Constant errors of the LiDARs' ranges, and 1 sigma of what each of them is still wrong by, in m."""
+    """Constant range errors of the LiDARs, and 1 sigma of the remaining error of each, in m."""
 
     front_m: float = 0.0
     rear_m: float = 0.0
     sigma_m: float = ADJUSTED_BIAS_SIGMA_M
 
     def of(self, is_rear: bool) -> float:
-        """That of one LiDAR."""
+        """Return the bias of one LiDAR."""
         return self.rear_m if is_rear else self.front_m
 
 
-# Of ranges that are taken as they are.
+# Bias of uncorrected ranges.
 NO_BIAS = RangeBias()
 
 
 @dataclass(frozen=True)
 class Returns:
-    """Points (n, 2) in map, and where the LiDAR and the robot were in the middle of the sweep, at time_s."""
+    """Points (n, 2) in map, and the positions of LiDAR and robot in the middle of the sweep, at time_s."""
 
     points: FloatArray
     viewer: FloatArray
@@ -74,9 +74,9 @@ class Returns:
 
 
 def returns_in_map(scan: Scan, poses: PoseHistory, range_bias: RangeBias = NO_BIAS) -> Optional[Returns]:
-    """Returns of a scan; None when it makes no sense or the robot's poses do not cover the sweep.
+    """Return the returns of a scan; None for an implausible scan, or if poses do not cover it.
 
-    range_bias: is taken off.
+    range_bias: is subtracted.
     """
     if not scan.makes_sense:
         return None

@@ -1,4 +1,4 @@
-"""The topics that the locator hears: poses always, scans only while it needs them, maps when there is a new one."""
+"""Subscriptions of the locator: poses always, scans only when needed, maps when there is a new one."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 import time
@@ -22,13 +22,12 @@ from .scan import Scan
 from .steps import SCAN_LAG_NS, ScanWindow, is_map_due
 from .survey.surface_map import SurfaceMap
 
-# A map that a pose speaks of is waited for as long as any other message: what is given up sooner depends on how busy
-# the machine is.
+# A map announced by a pose is awaited like any other message: a shorter wait would depend on the machine load.
 MAP_WAIT_WALL_S = schedule.PRODUCER_LOST_AFTER_WALL_S
 
 
 class PoseSource:
-    """The robot's poses.
+    """Poses of the robot.
 
     Attributes:
         map_revision: map that the newest pose is in.
@@ -39,7 +38,7 @@ class PoseSource:
         self.map_revision = 0
 
     def take(self, tick_ns: int) -> List[RobotPose]:
-        """The valid poses up to the tick, each once."""
+        """Return the valid poses up to the tick, each once."""
         valid = [message for message in self._queue.take(tick_ns) if message.valid]
         if valid:
             self.map_revision = valid[-1].map_revision
@@ -47,16 +46,16 @@ class PoseSource:
 
 
 class ScanSource:
-    """Scans of the LiDARs, from when they are wanted on."""
+    """Scans of the LiDARs while they are needed."""
 
     def __init__(self, lidars: LidarMounts, time_increment_s: float = 0.0):
-        """time_increment_s: from beam to beam, where the scans do not say it."""
+        """Create a source. time_increment_s: time between beams, if the scans do not state it."""
         self._mounts, self._time_increment_s = scan_mounts(lidars), time_increment_s
         self._queues: List[StampedQueue] = []
         self._window = ScanWindow()
 
     def take(self, tick_ns: int, wanted: bool) -> List[Scan]:
-        """Scans that have come since the last tick."""
+        """Return the scans since the last tick."""
         self._window.follow(tick_ns, wanted)
         if not wanted:
             self._close()
@@ -75,7 +74,7 @@ class ScanSource:
 
 
 class MapSource:
-    """Localization's newest map of surfaces."""
+    """Newest surface map of localization."""
 
     def __init__(self) -> None:
         self._changed = threading.Condition()
@@ -85,7 +84,7 @@ class MapSource:
         self._subscriber = rospy.Subscriber(names.SURFACE_MAP, SurfaceMapMessage, self._take, queue_size=2)
 
     def at(self, tick_ns: int, pose_revision: int) -> Optional[SurfaceMap]:
-        """The map at a tick; in lock-step it waits for the one that the poses are in."""
+        """Return the map at a tick; in lock-step, wait for the map of the poses."""
         deadline = time.monotonic() + self._patience_s
         with self._changed:
             while self._revision() < pose_revision and time.monotonic() < deadline:

@@ -1,4 +1,4 @@
-"""The locator's steps beside the node's ticks: a long fit silences nobody; which scans and maps count at one."""
+"""Execution of locator steps without delaying the node's ticks, and the timing of scans and maps."""
 # SPDX-License-Identifier: Apache-2.0
 import concurrent.futures
 from dataclasses import replace
@@ -11,18 +11,18 @@ from .locator import CarLocator
 from .poses import RobotPose
 from .scan import Scan
 
-# A tick waits so long for its step before it repeats what was known: most steps are done within it.
+# Waiting time of a tick for its step before it repeats the previous estimate; most steps are faster.
 PATIENCE_S = 0.04
-# A scan bears its first beam's time and is there when the sweep has ended; the pose of its last beam is there too then.
+# A scan is stamped with its first beam and arrives after the sweep; the pose of its last beam has arrived by then.
 SCAN_LAG_NS = 100 * MILLISECOND_NS
-# Scans that come while the connections are being made are not used: how many there are depends on the machine.
+# Scans during the connection setup are not used, because their number depends on the machine.
 CONNECTING_NS = 200 * MILLISECOND_NS
-# A map counts from this long after its stamp on.
+# Delay from the stamp of a map to its use.
 MAP_LAG_NS = 100 * MILLISECOND_NS
 
 
 class LocatorSteps:
-    """Makes one step after another; what comes meanwhile waits for the next one.
+    """Executes one step at a time; inputs that arrive meanwhile wait for the next one.
 
     In lock-step the executor works inline, and each tick has the estimate of its own inputs.
     """
@@ -36,7 +36,7 @@ class LocatorSteps:
         self._estimate: Optional[Estimate] = None
 
     def wants_scans(self, inputs: Inputs, poses: Sequence[RobotPose]) -> bool:
-        """True while scans are collected or about to be; poses: those up to the tick, each is given once."""
+        """Return True while scans are collected or will be soon; poses: the new ones up to the tick."""
         self._poses.extend(poses)
         if self._running is None:
             self._add_poses()
@@ -44,13 +44,13 @@ class LocatorSteps:
         return self._wanted
 
     def estimate(self, inputs: Inputs) -> Estimate:
-        """The newest that is known of the Car at a tick; raises what the locator raised."""
+        """Return the newest estimate at a tick; exceptions of the locator are raised here."""
         self._scans.extend(inputs.scans)
         if self._running is None:
             scans, self._scans = self._scans, []
             self._running = self._executor.submit(self._locator.step, replace(inputs, scans=scans))
         try:
-            # Before the first estimate there is nothing to repeat.
+            # Before the first estimate, there is nothing to repeat, so wait without a limit.
             self._estimate = self._running.result(self._patience_s if self._estimate else None)
             self._running = None
         except concurrent.futures.TimeoutError:
@@ -64,25 +64,25 @@ class LocatorSteps:
 
 
 class ScanWindow:
-    """From when on scans count while they are wanted."""
+    """Time from which on scans are used while they are requested."""
 
     def __init__(self) -> None:
         self._usable_from_ns: Optional[int] = None
 
     def follow(self, tick_ns: int, wanted: bool) -> None:
-        """Whether they are wanted at a tick."""
+        """Update the request at a tick."""
         if not wanted:
             self._usable_from_ns = None
             return
         latest_ns = tick_ns + CONNECTING_NS
-        # A clock that was set back must not leave the scans unused until it has come to that time again.
+        # A clock that was set back must not block the scans until it reaches the old time again.
         self._usable_from_ns = latest_ns if self._usable_from_ns is None else min(self._usable_from_ns, latest_ns)
 
     def counts(self, stamp_ns: int) -> bool:
-        """True for a scan that counts."""
+        """Return True for a scan that is used."""
         return self._usable_from_ns is not None and stamp_ns >= self._usable_from_ns
 
 
 def is_map_due(stamp_ns: int, tick_ns: int) -> bool:
-    """True when a map counts at a tick, whatever the poses speak of."""
+    """Return True if a map is used at a tick, independent of the poses."""
     return stamp_ns + MAP_LAG_NS <= tick_ns

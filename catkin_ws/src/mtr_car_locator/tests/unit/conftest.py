@@ -1,4 +1,4 @@
-"""Makes the simulated surroundings importable by the tests beside them, and has a world in which the Car was found."""
+"""Imports of the simulated surroundings, and fixtures of a world in which the Car was found."""
 # SPDX-License-Identifier: Apache-2.0
 import copy
 import pathlib
@@ -11,7 +11,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 @pytest.fixture(scope="session")
 def located():
-    """A world in which the Car, with bumpers and wheels, was found; not to be changed."""
+    """Return a world in which the Car, with bumpers and wheels, was found; shared, so it must not be changed."""
     from locator_simulation import Scene, World, car_with_bumpers
 
     from mtr_core.states import CarState
@@ -22,5 +22,5 @@ def located():
 
 @pytest.fixture
 def world(located):
-    """A world of its own in which the Car has just been found."""
+    """Return a separate world in which the Car has just been found."""
     return copy.deepcopy(located)

@@ -1,4 +1,4 @@
-"""A parked car of line segments, a robot that goes where the locator wants, and two noisy LiDARs, for tests."""
+"""Simulation for tests: a parked car of line segments, a robot that follows the locator, and two noisy LiDARs."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
@@ -30,28 +30,28 @@ WHEEL: Points = ((.32, .105), (-.32, .105), (-.32, -.105), (.32, -.105))
 
 
 def closed(points: Points, at: Tuple[float, float] = (0.0, 0.0)) -> np.ndarray:
-    """Segments (n, 4) of a closed polygon."""
+    """Return segments (n, 4) of a closed polygon."""
     shifted = [(x + at[0], y + at[1]) for x, y in points]
     return np.array([(*a, *b) for a, b in zip(shifted, [*shifted[1:], shifted[0]])])
 
 
 def wheels_alone() -> np.ndarray:
-    """A Car of 4.5 m that the LiDARs look under."""
+    """Return a Car of 4.5 m with a body above the scan plane."""
     return np.vstack([closed(WHEEL, (x, y)) for x in (1.325, -1.325) for y in (.77, -.77)])
 
 
 def leg_at(x: float, y: float) -> np.ndarray:
-    """A person's leg."""
+    """Return a person's leg."""
     return closed([(.07 * math.cos(a), .07 * math.sin(a)) for a in np.arange(8) * math.pi / 4.0], (x, y))
 
 
 def mirrored(points: Points) -> List[Tuple[float, float]]:
-    """The right side of what is given for the left, in reverse order."""
+    """Return the right side for a given left side, in reverse order."""
     return [(x, -y) for x, y in points[::-1]]
 
 
 def car_with_bumpers() -> np.ndarray:
-    """Rounded bumpers, sills set in by 2 cm, wheels in their arches; 4.5 m by 1.8 m."""
+    """Return a car with rounded bumpers, sills inset by 2 cm, wheels in their arches; 4.5 m by 1.8 m."""
     body = closed([*FRONT, *mirrored(FRONT), *mirrored(REAR), *REAR])
     wheels = [closed(WHEEL, (x, y)) for x in (1.325, -1.325) for y in (.77, -.77)]
     return np.vstack([body, *wheels])
@@ -59,7 +59,7 @@ def car_with_bumpers() -> np.ndarray:
 
 @dataclass
 class Scene:
-    """Truth of one test: segments in the Car's frame, where the robot starts there, and the errors."""
+    """Truth of one test: segments and start of the robot in the Car's frame, and the errors."""
 
     segments: np.ndarray
     start: Pose2 = PARAMETERS.car_from_start
@@ -82,8 +82,10 @@ class Scene:
 
 
 class Mapper:
-    """Localization's part: key-frames from exact poses, and some time after the order to freeze a map that is free of
-    the range biases."""
+    """Simulated mapping of localization.
+
+    It records key-frames from exact poses, and some time after the order to freeze it gives a map without range biases.
+    """
 
     def __init__(self, scene: Scene, centre: Pose2):
         self._scene, self._centre = scene, centre
@@ -96,7 +98,7 @@ class Mapper:
         self._frames: List[Tuple[float, float, float, float]] = []
 
     def add_pose(self, now_s: float, pose: Pose2) -> None:
-        """True pose; each half second it is a key-frame."""
+        """Add a true pose; every half second it becomes a key-frame."""
         robot = RobotPose(now_s, pose)
         if self._poses is None:
             self._poses = PoseHistory(robot)
@@ -106,7 +108,7 @@ class Mapper:
             self._frames.append((now_s, pose.x, pose.y, pose.heading))
 
     def follow(self, now_s: float, estimate: Estimate, scans: Sequence[Scan]) -> None:
-        """Take the locator's order."""
+        """Process the locator's order."""
         if estimate.phase is MapPhase.COLLECT and estimate.map_id != self._map_id:
             self._map_id, self._freeze_s, self.revision = estimate.map_id, math.inf, 0
             self._grid = SurfelGrid(self._centre.x, self._centre.y)
@@ -132,7 +134,7 @@ class World:
     Attributes:
         car: true pose of the Car in map.
         checking: order to check the Car, 0 for none.
-        pushed_mps: somebody pushes the robot ahead.
+        pushed_mps: speed at which the robot is pushed ahead.
         is_lost: localization gives no valid pose.
     """
 
@@ -153,7 +155,7 @@ class World:
         self.mapper = Mapper(scene, self.car)
 
     def place_car(self, car: Pose2, segments: np.ndarray) -> None:
-        """Put the Car, and what is beside it, somewhere in map."""
+        """Put the Car, and objects next to it, somewhere in map."""
         self.car = car
         self.segments = np.hstack([self._to_map(segments[:, :2]), self._to_map(segments[:, 2:])])
 
@@ -168,7 +170,7 @@ class World:
         return self.estimates[-1]
 
     def run(self, limit_s: float = 150.0, map_car_id: int = 7) -> Estimate:
-        """Map the Car until the locator has made up its mind."""
+        """Map the Car until it is located or has failed."""
         for _ in range(int(limit_s / PERIOD_S)):
             self.step(mapping=True, map_car_id=map_car_id)
             if self.estimates and self.newest.state in (CarState.LOCATED, CarState.FAILED):
@@ -176,7 +178,7 @@ class World:
         return self.newest
 
     def check(self, check_car_id: int, limit_s: float = 120.0) -> Estimate:
-        """Have the Car checked."""
+        """Run a check of the Car."""
         self.checking = check_car_id
         for _ in range(int(limit_s / PERIOD_S)):
             self.step(mapping=False, map_car_id=7)
@@ -186,13 +188,13 @@ class World:
         return self.newest
 
     def stand(self, duration_s: float) -> Estimate:
-        """Let time pass while the robot stands."""
+        """Advance the time while the robot is stationary."""
         for _ in range(int(duration_s / PERIOD_S)):
             self.step(mapping=False, map_car_id=7, drives=False)
         return self.newest
 
     def step(self, mapping: bool, map_car_id: int, drives: bool = True) -> None:
-        """20 ms: the robot moves; each 160 ms, or 320 ms on the way, a scan, each 100 ms a tick of the locator."""
+        """Advance by 20 ms: motion; a scan every 160 ms (320 ms on the way), a tick of the locator every 100 ms."""
         self.steps += 1
         before = self.pose
         place = self.newest.waypoint if self.estimates else None
@@ -212,7 +214,7 @@ class World:
             self._tick(mapping, map_car_id)
 
     def error(self) -> Tuple[float, float, float, float]:
-        """Distance, heading, length and width error of the newest estimate."""
+        """Return distance, heading, length and width error of the newest estimate."""
         found = self.newest.rectangle
         at = self.car.inverse() @ found.pose
         return math.hypot(at.x, at.y), at.heading, found.length - 4.5, found.width - 1.8
@@ -250,7 +252,7 @@ class World:
         self.pose = self.pose @ Pose2(ahead, 0.0, turn)
 
     def _is_through_car(self, goal: Pose2) -> bool:
-        """A way that a planner would lead round the Car."""
+        """Return True for a path that a planner would lead round the Car."""
         here, there = (self.car.inverse() @ pose for pose in (self.pose, goal))
         points = [(here.x + s * (there.x - here.x), here.y + s * (there.y - here.y)) for s in np.linspace(0, 1, 20)]
         return any(abs(x) < 2.6 and abs(y) < 1.2 for x, y in points)
@@ -270,7 +272,7 @@ class World:
                          self.mapper.revision, covariance)
 
     def _scan(self, mount: Pose2, is_rear: bool) -> Scan:
-        """A sweep that ends now; each beam from the true pose at its own time."""
+        """Return a sweep that ends now; each beam from the true pose at its own time."""
         times = self.now - SWEEP_S + np.arange(BEAMS) * SWEEP_S / BEAMS
         known = np.array([(t, p.x, p.y, p.heading) for t, p in self._trail])
         heading = np.interp(times, known[:, 0], np.unwrap(known[:, 3]))
@@ -286,7 +288,7 @@ class World:
 
 
 def cast(x: np.ndarray, y: np.ndarray, angle: np.ndarray, segments: np.ndarray) -> np.ndarray:
-    """Distance to the nearest segment along each beam, infinite when there is none."""
+    """Return the distance to the nearest segment along each beam, or infinity."""
     cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]
     ax, ay = segments[:, 0] - x[:, None], segments[:, 1] - y[:, None]
     ex, ey = segments[:, 2] - segments[:, 0], segments[:, 3] - segments[:, 1]

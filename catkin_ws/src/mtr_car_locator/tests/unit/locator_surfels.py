@@ -17,7 +17,7 @@ SIDES = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": 
 
 
 def box(pose=ORIGIN, sides=tuple(SIDES), length=LENGTH_M, width=WIDTH_M, seed=1):
-    """Rows of surfels on the sides of a box."""
+    """Return rows of surfels on the sides of a box."""
     rng = np.random.default_rng(seed)
     rows = []
     for name in sides:
@@ -31,11 +31,11 @@ def box(pose=ORIGIN, sides=tuple(SIDES), length=LENGTH_M, width=WIDTH_M, seed=1)
 
 
 def surfels(*things) -> Surfels:
-    """All rows as surfels."""
+    """Return all rows as surfels."""
     return surfels_from(np.array([row for rows in things for row in rows]))
 
 
 def prior(x=0.0, y=0.0, heading=0.0):
-    """The Car guessed there, from a robot before its front's left corner."""
+    """Return a guess of the Car, from a robot at its front left corner."""
     pose = Pose2(x, y, heading)
     return Prior(Rectangle(pose, LENGTH_M, WIDTH_M), pose @ PARAMETERS.car_from_start)

@@ -1,4 +1,4 @@
-"""The Car looked at again: self-check from two places, corrections of its frame at standstill."""
+"""Repeated observation of the Car: self-check from two places, frame corrections at standstill."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -10,13 +10,13 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check
 
 CAR = car_with_bumpers()
-# A robot that goes on standing looks every 10 s; two looks have to agree.
+# A stationary robot observes every 10 s, and two observations must agree.
 LOOKED_AGAIN_S = 15.0
 DOOR = closed(((1.0, 0.9), (1.0, 0.95), (0.6, 1.7), (0.55, 1.7)))
 
 
 def moved(world, x, y, degrees):
-    """The Car moves in its own frame."""
+    """Move the Car in its own frame."""
     world.place_car(world.car @ Pose2(x, y, math.radians(degrees)), CAR)
 
 
@@ -41,7 +41,7 @@ def test_moved_car_fails_with_the_difference(world, motion, difference_m):
 
 
 def drifting(world, seed):
-    """Poses as in an open field with LiDARs of a data sheet: 1 cm rms in each direction, wandering within seconds."""
+    """Set pose errors of an open field with LiDARs by data sheet: 1 cm rms per direction, varying within seconds."""
     scene = world.scene
     scene.drift_m, scene.drift_rad, scene.pose_sigma_m, scene.range_sigma_m = 0.01, 0.002, 0.01, 0.02
     scene.rng = np.random.default_rng(seed)
@@ -150,7 +150,7 @@ def test_car_that_was_moved_far_is_lost_with_a_sentence(world):
 @pytest.mark.parametrize("motion", [(0.3, 0.0, 0.0), (-0.5, 0.0, 0.0), (1.0, 0.0, 0.0), (2.0, 0.0, 0.0),
                                     (0.0, 0.4, 0.0), (0.0, -0.8, 1.0), (0.6, 0.3, 3.0)])
 def test_car_that_was_moved_along_its_own_sides_is_lost_and_not_corrected_by_a_part_of_it(world, motion):
-    """Its long sides lie on the same lines, and what is nearest to a surface of before is another one."""
+    """Its long sides stay on the same lines, and the nearest old surface is another one."""
     moved(world, *motion)
     after = world.stand(LOOKED_AGAIN_S)
     assert after.state == CarState.FAILED and "was moved" in after.message.text

@@ -1,4 +1,4 @@
-"""Axles from tyres: treads, outer faces that are seen in part, data sheets, and how sure the result is."""
+"""Axles from tyres: treads, partly seen outer faces, data sheets, and uncertainty of the result."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -20,7 +20,7 @@ SHEET = {"known_length_m": LENGTH_M, "front_overhang_m": OVERHANG_M}
 
 
 def tyres(treads, seen=0.7, shift=0.15):
-    """Rows of the outer faces, of which a part is missing at the front, and of treads (axle, side, way it faces)."""
+    """Return rows of outer faces with a missing part at the front, and of treads (axle, side, direction)."""
     rows = [(axle - HALF_CHORD_M * shift, side * 0.5 * WIDTH_M, side * 0.5 * math.pi, 2.0 * HALF_CHORD_M * seen,
              SIGMA_M, 90) for axle in (FRONT_M, REAR_M) for side in (1.0, -1.0)]
     for axle, side, facing in treads:
@@ -30,14 +30,14 @@ def tyres(treads, seen=0.7, shift=0.15):
 
 
 def mirrors(x=0.65, out=0.06):
-    """Rows of what stands out on both sides between the wheels, with the short edge along the sill below it."""
+    """Return rows of protruding parts on both sides between the wheels, with the short edge along the sill below."""
     rows = [(x, side * (0.5 * WIDTH_M + out), side * 0.5 * math.pi, 0.16, SIGMA_M, 60) for side in (1.0, -1.0)]
     return rows + [(x + end * 0.08, side * 0.5 * WIDTH_M, 0.0 if end > 0.0 else math.pi, 0.14, SIGMA_M, 60)
                    for end in (1.0, -1.0) for side in (1.0, -1.0)]
 
 
 def in_line(rows, shift_m):
-    """The same, of a car that is parked before the Car or behind it, with a body that is seen."""
+    """Return rows of a car parked in line with the Car, with a visible body."""
     other = [(x + shift_m, *rest) for x, *rest in rows]
     return other + [(shift_m, side * (0.5 * WIDTH_M + 0.02), side * 0.5 * math.pi, 4.4, SIGMA_M, 90)
                     for side in (1.0, -1.0)]
@@ -139,5 +139,5 @@ def test_errors_of_the_centre_agree_with_its_sigma():
         rows = [(x + rng.normal(0.0, SIGMA_M), y, *rest) for x, y, *rest in tyres(TREADS)]
         wheels = wheels_of(rows, known_length_m=LENGTH_M, front_overhang_m=OVERHANG_M + rng.normal(0.0, 0.005))
         ratios.append((wheels.ends.centre_m - CENTRE_M) / wheels.ends.centre_sigma_m)
-    # Treads lie where they should here, so that only part of their sigma is used up.
+    # Treads have no errors here, so only a part of their sigma is used.
     assert 0.4 < math.sqrt(np.mean(np.square(ratios))) < 1.1

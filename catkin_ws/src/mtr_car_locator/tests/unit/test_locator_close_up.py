@@ -1,4 +1,4 @@
-"""Returns of the way round: moved as the key-frames were, free of the range bias, and not the same again and again."""
+"""Returns of the drive: transformed like the key-frames, corrected by the range bias, without repetitions."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pickle
@@ -15,7 +15,7 @@ THING = (3.0, 1.5)
 
 
 def drift(time_s):
-    """Where the robot takes the frame of the adjusted map to be."""
+    """Return the frame of the adjusted map as assumed by the robot."""
     return Pose2(0.02 * time_s, -0.01 * time_s, 0.003 * time_s)
 
 
@@ -24,7 +24,7 @@ def true_pose(time_s):
 
 
 def sweep(time_s, bias_m=0.0, is_rear=False):
-    """One return of the thing, where a robot that drifts puts it."""
+    """Return one return of the object, as located by a drifting robot."""
     viewer = true_pose(time_s).apply(LIDAR.x, LIDAR.y)
     away = np.subtract(THING, viewer)
     point = THING + bias_m * away / np.linalg.norm(away)
@@ -83,6 +83,6 @@ def test_robot_that_stands_adds_nothing_and_what_is_far_is_left_out():
 def test_sweeps_get_to_another_process_as_two_arrays_however_many_they_are():
     buffers = []
     sweeps = way_round(np.arange(0.0, 80.0, 0.04)).sweeps()
-    # Whoever pickles holds the interpreter's lock; thousands of objects took a node half a second on a busy machine.
+    # Pickling holds the interpreter lock; thousands of objects blocked a node for half a second on a busy machine.
     assert len(pickle.dumps(sweeps, 5, buffer_callback=buffers.append)) < 1000
     assert len(buffers) == 2 and len(sweeps.rows) > 1000

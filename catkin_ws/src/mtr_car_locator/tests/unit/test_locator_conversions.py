@@ -1,4 +1,4 @@
-"""ROS messages to the locator's types and back, and what rviz is shown."""
+"""Conversions between ROS messages and the locator's types, and rviz markers."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -120,7 +120,7 @@ def test_estimate_survives_as_a_message(estimate):
     assert (message.next_waypoint.frame_id, message.next_waypoint.direction) == ("map", 1)
     assert (message.front_sigma, message.rear_sigma) == (0.11, 0.075)
     assert (message.left_sigma, message.right_sigma) == (0.03, 0.04)
-    # The Car's x axis points to map's y: 0.1 m along the Car is along y.
+    # The Car's x axis is along map's y: 0.1 m along the Car is along y.
     assert message.covariance[[0, 4, 8]] == pytest.approx([0.04, 0.01, 0.0001])
     assert len(message.outline_x) == len(message.outline_y) == len(estimate.outline)
 

@@ -1,4 +1,4 @@
-"""Data sheet against the LiDARs' plane: what is published, what stays measured, and when a sentence warns."""
+"""Data sheet and scan plane: published size, measured size, and warnings."""
 # SPDX-License-Identifier: Apache-2.0
 import re
 
@@ -20,7 +20,7 @@ def test_size_is_that_of_the_data_sheet_and_the_measured_one_stays_in_the_fit():
     assert (known.length_sigma, known.width_sigma) == (0.005, 0.005)
     assert (known.in_plane.length, known.in_plane.width) == pytest.approx((plain.in_plane.length, plain.in_plane.width))
     assert known.in_plane.length == pytest.approx(LENGTH_M, abs=0.006)
-    # Which end stands back by the 4 cm is not known.
+    # The assignment of the 4 cm inset to the ends is unknown.
     assert known.rectangle.pose.distance_to(plain.rectangle.pose) < 0.003
     assert known.sigmas[1:] == pytest.approx(plain.sigmas[1:]) and 0.008 < known.sigmas[0] < plain.sigmas[0]
     assert not known.warning and not plain.warning
@@ -53,8 +53,8 @@ def test_ends_that_the_length_leaves_vague_are_warned_of(more_m):
                         fit_with(known_length_m=LENGTH_M + more_m).warning)
 
 
-# A side that stands back by anything from 0 to 60 mm, the other alike: twice its root of the mean square. The insets of
-# front and rear are independent, with half-normal priors.
+# Both sides have an inset from 0 to 60 mm: twice its root mean square. The insets of front and rear are independent,
+# with half-normal priors.
 UNSURE = {"length": np.hypot(0.11, 0.075), "width": 2.0 * 0.06 / np.sqrt(3.0)}
 
 

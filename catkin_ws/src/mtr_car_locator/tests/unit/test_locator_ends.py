@@ -1,4 +1,4 @@
-"""Front and rear of a Car whose bumpers stand back differently in the LiDARs' plane: each with an honest sigma."""
+"""Front and rear of a Car with different bumper insets in the scan plane: each with a consistent sigma."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -20,20 +20,20 @@ from mtr_core.se2 import Pose2
 FRONT_SIGMA_M, REAR_SIGMA_M = DataSheet().front_inset_sigma_m, DataSheet().rear_inset_sigma_m
 ORDINARY = Estimate(4.5, 0.87)
 LEVEL_SIGMA_M = 0.003
-# Of a front and a rear in m; the last two are cars among the models of osrf/gazebo_models.
+# Insets of front and rear in m; the last two are cars among the models of osrf/gazebo_models.
 INSETS_M = [(0.0, 0.03), (0.01, 0.06), (0.06, 0.0), (0.0, 0.0), (0.03, 0.03), (0.01, 0.12), (0.105, 0.014),
             (0.221, 0.015)]
 
 
 def fit_of(front_inset_m, rear_inset_m, **sheet):
-    """A box in the plane of a Car that is longer by the insets; its centre is the origin."""
+    """Return the fit of a box in the scan plane of a Car that is longer by the insets; its centre is the origin."""
     pose = Pose2(0.5 * (rear_inset_m - front_inset_m), 0.0, 0.0)
     in_plane = box(pose, length=LENGTH_M - front_inset_m - rear_inset_m)
     return fit_car(surfels(in_plane), prior(0.1, 0.1, 0.03), LocatorParameters(sheet=DataSheet(**sheet)))
 
 
 def ends_of_fit(fit):
-    """Errors outwards and sigmas of front and rear."""
+    """Return errors outwards and sigmas of front and rear."""
     x, half = fit.rectangle.pose.x, 0.5 * fit.rectangle.length
     return ((x + half - 0.5 * LENGTH_M, fit.side_sigmas.front), (half - x - 0.5 * LENGTH_M, fit.side_sigmas.rear))
 
@@ -62,7 +62,7 @@ def test_outline_reaches_both_ends_where_the_centre_is_not_midway_between_the_bu
     fit = fit_of(0.105, 0.014, known_length_m=LENGTH_M)
     along = [x for x, _ in fit.outline]
     assert max(along) == pytest.approx(0.5 * LENGTH_M) and min(along) == pytest.approx(-0.5 * LENGTH_M)
-    # Surfels are where they were seen, in the frame of the published Car.
+    # Surfels are at their measured places, in the frame of the published Car.
     seen = fit.rectangle.pose.x + fit.surfels.position[:, 0]
     assert seen.max() == pytest.approx(0.5 * LENGTH_M - 0.105, abs=0.01)
     assert seen.min() == pytest.approx(0.014 - 0.5 * LENGTH_M, abs=0.01)
@@ -91,8 +91,8 @@ def test_intervals_of_a_known_length_hold_insets_from_their_prior():
                        evidence(2.25 - rear_m + noise[1], REAR_SIGMA_M), ORDINARY, 4.5 + chance.normal(0.0, 0.005))
         row[:] = (abs(ends.front_m - 2.25) <= 1.96 * ends.front_sigma_m,
                   abs(ends.rear_m + 2.25) <= 1.96 * ends.rear_sigma_m)
-    # One standard deviation of 95 % is 0.9 %. Insets of a known sum are nearly uniform, so that 1.96 standard
-    # deviations hold a little more than 95 %.
+    # One standard deviation of 95 % is 0.9 %. Insets of a known sum are nearly uniform, so 1.96 standard deviations
+    # contain slightly more than 95 %.
     assert np.all(held.mean(axis=0) > 0.95 - 0.027) and np.all(held.mean(axis=0) < 0.995)
 
 
@@ -119,7 +119,7 @@ def test_bumper_beyond_the_front_of_the_data_sheet_is_contradictory(beyond_m):
         assert near.contradiction_m(is_axle_sure=is_axle_sure) == 0.0
 
 
-# The bumper's level ahead of the origin, and where a front axle and an overhang of 0.9 m put the front.
+# Level of the bumper ahead of the origin, and front from the front axle and an overhang of 0.9 m.
 @pytest.mark.parametrize(("axle_m", "front_m", "wheelbase_m"), [
     (1.35, 2.25, 0.0), (1.35, 2.25, 2.7), (1.50, 2.40, 0.0), (1.9, 2.15, 0.0), (1.9, 2.8, 2.7), (1.1, 2.15, 2.7)])
 def test_front_by_an_axle_that_the_bumper_contradicts_is_not_used(axle_m, front_m, wheelbase_m):
@@ -131,8 +131,8 @@ def test_front_by_an_axle_that_the_bumper_contradicts_is_not_used(axle_m, front_
     assert ("front_overhang_m" in warning_of(extents, ends, sheet)) is (front_m != 2.25)
 
 
-# Length, wheelbase and front overhang by makers' data sheets, or with an overhang that is usual for the class: two
-# large saloons, a pick-up, an executive saloon, a compact car, the smallest class, a delivery van.
+# Length, wheelbase and front overhang from makers' data sheets, or with a typical overhang of the class: two large
+# saloons, a pick-up, an executive saloon, a compact car, the smallest class, a delivery van.
 CARS = [(5.38, 2.91, 1.09), (5.20, 2.86, 1.05), (5.36, 3.22, 0.95), (4.92, 2.94, 0.84), (4.28, 2.62, 0.88),
         (3.395, 2.52, 0.47), (4.89, 3.00, 0.91)]
 

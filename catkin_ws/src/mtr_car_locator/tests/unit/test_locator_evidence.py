@@ -1,4 +1,4 @@
-"""What is taken for a motion of the Car and what is not, and how sure its frame is afterwards."""
+"""Distinction between motion of the Car and errors, and uncertainty of the frame afterwards."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -13,7 +13,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import CarState, Check
 
 CAR = car_with_bumpers()
-# A robot that goes on standing looks every 10 s; two looks have to agree.
+# A stationary robot observes every 10 s, and two observations must agree.
 LOOKED_AGAIN_S = 15.0
 
 
@@ -23,7 +23,7 @@ def test_range_bias_is_no_motion_of_the_car(front_m, rear_m):
     world.run()
     report = world.check(3).check
     assert report.state is Check.PASSED and report.difference_m < 0.005
-    # Each LiDAR in turn looks at the Car's front alone.
+    # Each LiDAR in turn sees the Car's front only.
     for heading in (math.pi, 0.0):
         world.pose = world.car @ Pose2(4.0, 0.3, heading)
         world.stand(0.5)
@@ -32,7 +32,7 @@ def test_range_bias_is_no_motion_of_the_car(front_m, rear_m):
 
 
 def look_from(world, distance_m, *, heading_off_rad):
-    """The robot stands behind the Car's left front, its position exact and its heading wrong."""
+    """Place the robot at the Car's front left, with an exact position and a wrong heading."""
     bearing = math.radians(25.0)
     world.pose = world.car @ Pose2(distance_m * math.cos(bearing), distance_m * math.sin(bearing), math.pi + bearing)
     world.scene.drift_time_s = 1e9
@@ -43,7 +43,7 @@ def look_from(world, distance_m, *, heading_off_rad):
 
 @pytest.mark.parametrize("distance_m, sigmas", [(7.5, 2.0), (7.5, -2.0), (4.0, 2.0)])
 def test_heading_of_the_robot_is_no_motion_of_the_car(world, distance_m, sigmas):
-    """Of 2 mrad in 7.5 m an unmoved Car seems to be 15 mm aside."""
+    """With 2 mrad at 7.5 m, an unmoved Car seems to be 15 mm off."""
     world.scene.pose_sigma_m = 0.004
     after = look_from(world, distance_m, heading_off_rad=sigmas * 0.5 * world.scene.pose_sigma_m)
     assert after.revision == 1 and world.error()[0] < 0.005
@@ -57,7 +57,7 @@ def test_motion_of_the_car_is_seen_from_afar_by_a_robot_whose_heading_is_right(w
 
 
 def front_seen(located, robot, bias_sigma_m=0.0):
-    """Evidence of exact returns of the Car's front, seen from ahead of it by the front LiDAR of a robot in map."""
+    """Return evidence of exact returns of the Car's front, from the front LiDAR of a robot ahead of it."""
     fit = located.newest.fit
     points = fit.surfels.samples()[0]
     front = points[(points[:, 0] > 2.0) & (np.abs(points[:, 1]) < 0.6)]
@@ -68,7 +68,7 @@ def front_seen(located, robot, bias_sigma_m=0.0):
 
 
 def test_errors_of_the_robots_pose_that_go_together_count_together(located):
-    """Scans laid on the Car itself leave an error that turns the robot about the Car: that shifts nothing there."""
+    """Scan matching with the Car leaves an error that rotates the robot about the Car, without a shift of the Car."""
     car = located.newest.rectangle.pose
     robot = car @ Pose2(10.0, 0.0, math.pi)
     across = np.array([car.y - robot.y, robot.x - car.x, 1.0])
@@ -100,7 +100,7 @@ def test_a_corrected_frame_is_as_unsure_as_the_robot_that_saw_the_car(world, see
 
 
 def test_what_was_not_seen_of_a_moved_car_is_not_sure(world):
-    """From its middle a side tells next to nothing of where the Car stands along it."""
+    """The middle of a side contains almost no information about the Car's position along it."""
     world.scene.pose_sigma_m = 0.002
     world.pose = world.car @ Pose2(0.0, 2.5, -0.5 * math.pi)
     world.place_car(world.car @ Pose2(0.03, 0.04, 0.0), CAR)

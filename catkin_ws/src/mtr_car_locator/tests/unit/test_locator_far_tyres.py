@@ -1,4 +1,4 @@
-"""A Car on its wheels beside which another car is parked: of its far tyres the inner faces are seen, under the Car."""
+"""A Car on its wheels next to another car: only the inner faces of its far tyres are seen, under the Car."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -16,7 +16,7 @@ SALOON, SMALL = (1.8, 2.85), (1.45, 2.1)
 
 
 def tyre(x, outer_m, side, *, outer_face, rng):
-    """Rows of one tyre: its inner face, both treads, and its outer face where that is seen."""
+    """Return rows of one tyre: its inner face, both treads, and its outer face if it is seen."""
     faces = [(outer_m - TYRE_M, -side)] + ([(outer_m, side)] if outer_face else [])
     rows = [(x + part, side * out, facing * 0.5 * math.pi, 0.2, SIGMA_M, 60)
             for out, facing in faces for part in (-0.2, 0.0, 0.2)]
@@ -26,14 +26,14 @@ def tyre(x, outer_m, side, *, outer_face, rng):
 
 
 def wheels(width_m, wheelbase_m, near=1.0, seed=1, far=True):
-    """Rows of a Car's tyres that are seen from the side `near`."""
+    """Return rows of a Car's tyres as seen from the side `near`."""
     rng = np.random.default_rng(seed)
     return [row for x in (0.5 * wheelbase_m, -0.5 * wheelbase_m) for side in (near, -near) if far or side == near
             for row in tyre(x, 0.5 * width_m, side, outer_face=side == near, rng=rng)]
 
 
 def flank(width_m, near=1.0, turn_deg=0.0, length_m=4.4):
-    """Rows of the near side of the car that is parked beside it, which faces the Car."""
+    """Return rows of the side of the adjacent car that faces the Car."""
     turn = math.radians(turn_deg)
     y = -near * (0.5 * width_m + GAP_M + 0.5 * length_m * math.sin(abs(turn)))
     return [(along * math.cos(turn), y + along * math.sin(turn), near * 0.5 * math.pi + turn, 0.4, SIGMA_M, 90)
@@ -85,7 +85,7 @@ def test_other_rectangle_about_the_same_wheels_is_no_second_car(seed):
 
 def test_outer_faces_that_are_seen_are_not_replaced_by_inner_ones():
     rng = np.random.default_rng(1)
-    # Outer faces lie where they are, though the inner ones are of other tyres.
+    # Outer faces are at their true places, although the inner ones belong to other tyres.
     rows = [row for x in (1.4, -1.4) for side, width_m in ((1.0, 1.8), (-1.0, 1.8))
             for row in tyre(x, 0.5 * width_m, side, outer_face=True, rng=rng)]
     rows = [(x, y + (0.05 if -0.75 < y < -0.65 else 0.0), *rest) for x, y, *rest in rows]

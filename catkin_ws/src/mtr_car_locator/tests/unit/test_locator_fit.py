@@ -1,4 +1,4 @@
-"""Fit of the Car to given surfels: other things near it, sides that were not seen, choice between two."""
+"""Fit of the Car to given surfels: other objects nearby, unseen sides, choice between two candidates."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -13,7 +13,7 @@ from mtr_core.se2 import Pose2
 
 
 def error_of(fit, actual=ORIGIN):
-    """Distance in m and angle in rad of the fit from the truth."""
+    """Return distance in m and angle in rad between fit and truth."""
     at = actual.inverse() @ fit.rectangle.pose
     return math.hypot(at.x, at.y), abs(at.heading)
 
@@ -35,8 +35,8 @@ def test_errors_are_as_large_as_the_sigmas_say():
         fit = fit_car(surfels(box(seed=seed)), prior(0.2, 0.1, 0.05), PARAMETERS)
         at = fit.rectangle.pose
         squares.append(np.square(np.array([at.x, at.y, at.heading]) / fit.sigmas))
-    # The sigma of a map is common to neighbours and does not average out; here it does, so the errors are smaller. That
-    # along the Car holds insets of its ends, which a box has not.
+    # The sigma of a map is common to neighbours and does not average out; here it does, so the errors are smaller. The
+    # sigma along the Car includes insets of its ends, which a box does not have.
     assert np.all(np.mean(squares, axis=0) < 1.5)
     assert np.all(np.mean(squares, axis=0)[1:] > 0.005)
 
@@ -102,7 +102,7 @@ def test_thing_of_another_size_is_no_car(length, width, name):
 @pytest.mark.parametrize("length, width", [(3.05, 1.45), (3.57, 1.63), (5.3, 2.0), (5.95, 2.15)])
 @pytest.mark.parametrize("guess", [(0.0, 0.0, 0.0), (0.6, -0.5, 0.1)])
 def test_small_and_large_cars_are_found_without_a_data_sheet(length, width, guess):
-    """Where both ends are seen, an ordinary length from one of them is no second Car."""
+    """If both ends are seen, an ordinary length from one of them is not a second Car."""
     fit = fit_car(surfels(box(length=length, width=width)), prior(*guess), PARAMETERS)
     assert error_of(fit)[0] < 0.005
     assert fit.rectangle.length == pytest.approx(length, abs=0.006)

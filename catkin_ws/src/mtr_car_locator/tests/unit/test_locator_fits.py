@@ -1,4 +1,4 @@
-"""What the survey has done in another process: all fits, with arguments and results that get there and back."""
+"""Fits in another process: arguments and results survive the transfer."""
 # SPDX-License-Identifier: Apache-2.0
 import pickle
 from concurrent.futures import Executor, Future
@@ -13,7 +13,7 @@ from mtr_core.states import CarState
 
 
 class PicklingExecutor(Executor):
-    """Does its work with copies that pickle makes, as another process does."""
+    """Executor that works with pickled copies, as another process does."""
 
     def __init__(self):
         self.functions = []
@@ -30,7 +30,7 @@ class PicklingExecutor(Executor):
 
 
 def mapped(scene, fits=None):
-    """World after the survey."""
+    """Return the world after the survey."""
     world = World(scene)
     world.locator = CarLocator(scene.parameters, fits=fits)
     world.run()

@@ -1,4 +1,4 @@
-"""Mapping the Car while the robot's position is lost."""
+"""Mapping of the Car while the robot's position is lost."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 from locator_simulation import Scene, World, car_with_bumpers
@@ -22,7 +22,7 @@ def test_map_of_a_lost_robot_waits_for_its_position_and_begins_where_that_is():
     found = world.run()
     world.is_lost = True
     wait(world, 1.0, mapping=False)
-    # Somebody brings it back to the starting place: the newest valid pose is another one.
+    # The robot is brought back to the starting place, so the newest valid pose is another one.
     assert world.pose.distance_to(START) > 1.0
     world.pose = START
     ordered = wait(world, 5.0, mapping=True)
@@ -40,7 +40,7 @@ def test_car_whose_position_was_lost_is_not_where_it_was_found():
     world.run()
     world.is_lost = True
     wait(world, 1.0, mapping=False)
-    # The new map's frame is another one: in it the Car stands elsewhere.
+    # The new map has another frame, in which the Car is elsewhere.
     world.place_car(world.car @ Pose2(3.0, 2.0, 0.3), car_with_bumpers())
     world.pose = world.car @ world.scene.start
     wait(world, 0.5, mapping=True)
@@ -51,7 +51,7 @@ def test_car_whose_position_was_lost_is_not_where_it_was_found():
 
 @pytest.fixture
 def refused():
-    """The map is refused, and the position lost with it, for which the state machine ends the mapping at once."""
+    """Return a world with a rejected map and a lost position, for which the state machine ends the mapping at once."""
     world = World(Scene(car_with_bumpers(), map_problem=REFUSED))
     while world.mapper.map is None:
         world.step(mapping=True, map_car_id=7)

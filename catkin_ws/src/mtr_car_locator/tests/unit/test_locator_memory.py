@@ -1,4 +1,4 @@
-"""The Car that a locator is started again with."""
+"""Restart of a locator with a stored Car."""
 # SPDX-License-Identifier: Apache-2.0
 import copy
 import json
@@ -21,7 +21,7 @@ CAR = car_with_bumpers()
 
 def remembered(estimate):
     car = RememberedCar(estimate.fit, estimate.map_revision, estimate.revision, estimate.map_car_id)
-    # As a file brings it.
+    # Round trip through a file.
     return remembered_from(json.loads(json.dumps(plain(car))))
 
 
@@ -66,7 +66,7 @@ def test_a_car_that_was_moved_meanwhile_is_noticed(world):
 
 @pytest.fixture(scope="module")
 def biased():
-    """A world whose LiDARs measure 15 mm too much, in which the Car was found; not to be changed."""
+    """Return a world with 15 mm range bias, in which the Car was found; shared, so it must not be changed."""
     running = World(Scene(CAR, range_bias=RangeBias(0.015, 0.015), pose_sigma_m=0.002))
     assert running.run().state == CarState.LOCATED
     return running
@@ -139,7 +139,7 @@ def frame_of(car):
 
 
 class Kept:
-    """A keeper whose disk answers at once, and what it said."""
+    """Keeper with an immediate disk, and its log."""
 
     def __init__(self, path, run_id="run 1"):
         self.said = []

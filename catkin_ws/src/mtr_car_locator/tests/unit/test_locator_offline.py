@@ -1,4 +1,4 @@
-"""The Car from recorded surfaces: files, command line, and what a wrong file gets."""
+"""The Car from recorded surfaces: files, command line, and reaction to invalid files."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -63,14 +63,14 @@ def test_unusable_file_is_named(folder, name, text):
 
 
 def pose_at(time_s):
-    """On an ellipse round the Car, which the robot faces."""
+    """Return a pose on an ellipse round the Car, facing it."""
     angle = 2.0 * math.pi * (time_s - FIRST_S) / LOOP_S
     x, y = 4.2 * math.cos(angle), 3.2 * math.sin(angle)
     return CAR @ Pose2(x, y, math.atan2(-y, -x))
 
 
 def scans_round_the_car():
-    """Sweeps of a robot that stops for each of them, with noise and a range that is too long."""
+    """Return sweeps of a robot that stops for each of them, with noise and a range bias."""
     rng = np.random.default_rng(3)
     corners = closed(BOX)
     segments = np.hstack([[CAR.apply(x, y) for x, y in corners[:, columns]] for columns in ((0, 1), (2, 3))])
@@ -85,7 +85,7 @@ def scans_round_the_car():
 
 @pytest.fixture
 def replayed(folder):
-    """Surfaces that are 15 mm too far inside; the rest as replay writes it."""
+    """Write surfaces that are 15 mm too far inside, and the other files of a replay."""
     rows = "\n".join(",".join(map(str, row)) for row in box(CAR, length=LENGTH_M - 0.03, width=WIDTH_M - 0.03))
     (folder / "surfaces.csv").write_text(f"x_m,y_m,normal_rad,length_m,sigma_m,hits\n{rows}\n")
     for name, step_s, more in (("trajectory.csv", 0.02, "valid,map_revision"), ("key_frames.csv", 0.5, "returns")):

@@ -1,4 +1,4 @@
-"""Parts of the locator: prior, way round, poses at beam times, sides, wheels, maps, parameters."""
+"""Parts of the locator: prior, ring, poses at beam times, sides, wheels, maps, parameters."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -38,7 +38,7 @@ def history(rows):
 
 
 def side(outward, name="left", sigma=0.002):
-    """A side with one sample per centimetre, ten of them per surfel."""
+    """Return a side with one sample per centimetre, ten of them per surfel."""
     count = len(outward)
     return Side(name, np.arange(count) * 0.01 - 0.005 * count, np.asarray(outward, dtype=float), np.full(count, sigma),
                 np.arange(count) // 10)
@@ -58,7 +58,7 @@ def test_prior_before_mapping_follows_the_robot_and_is_grown_by_the_margin():
 
 def test_error_of_the_prior_is_that_of_the_robots_place_not_of_the_cars():
     prior = prior_from_start(ORIGIN, PARAMETERS)
-    # The robot stands where it should and is turned by 20 degrees: the Car is 1.7 m from where the prior puts it.
+    # The robot is at the right place and rotated by 20 degrees: the Car is 1.7 m from the prior.
     actual = PARAMETERS.car_from_start @ Pose2(0.0, 0.0, math.radians(20.0))
     car = actual.inverse()
     assert car.distance_to(prior.car.pose) > 1.6
@@ -78,7 +78,7 @@ def test_ring_goes_round_and_back_to_its_first_place_beginning_with_the_smaller_
 
 
 def visited(ring, blocked=()):
-    """Places in the order in which a robot gets there that cannot get to the blocked ones."""
+    """Return the places in the order of a robot that cannot reach the blocked ones."""
     places = []
     while not ring.is_finished:
         place = ring.place(CAR)

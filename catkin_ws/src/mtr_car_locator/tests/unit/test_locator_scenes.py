@@ -1,4 +1,4 @@
-"""The locator maps whole synthetic scenes: what it finds, and when it says that it found nothing."""
+"""Mapping of complete synthetic scenes: located Car, or a report that there is none."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -24,7 +24,7 @@ from mtr_core.states import CarState
 
 NOMINAL = PARAMETERS.car_from_start
 OFF = Pose2(NOMINAL.x + 0.25, NOMINAL.y - 0.20, NOMINAL.heading + math.radians(5.0))
-# The most that the Operator may be off: 1 m and 20 degrees.
+# Largest placement error of the Operator: 1 m and 20 degrees.
 FAR_OFF = Pose2(NOMINAL.x - 0.8, NOMINAL.y + 0.6, NOMINAL.heading - math.radians(19.0))
 CAR = car_with_bumpers()
 DRIFT = {"drift_m": 0.02, "drift_rad": math.radians(1.0)}
@@ -118,7 +118,7 @@ def test_localization_without_a_map_leaves_the_locator_its_own_surfels():
     world = World(Scene(CAR, start=OFF, maps=False, pose_sigma_m=0.02, **DRIFT))
     estimate = world.run()
     assert estimate.state == CarState.LOCATED, estimate.message
-    # The drift moves the Car as it moves the robot.
+    # The drift moves the Car like the robot.
     assert world.error()[0] < 2.0 * world.scene.pose_sigma_m
     assert estimate.length_sigma > 0.02
 

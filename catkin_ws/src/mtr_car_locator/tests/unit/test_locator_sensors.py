@@ -1,4 +1,4 @@
-"""Topics as the locator reads them: which scans count, when a map counts, without a ROS master."""
+"""Subscriptions of the locator without a ROS master: selection of scans, and time from which a map is used."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 
@@ -14,10 +14,10 @@ MILLISECOND_NS = 1_000_000
 
 
 class FakeQueue:
-    """A topic whose messages are all there already.
+    """A topic whose messages have all arrived.
 
     Attributes:
-        opened: topics that are open now.
+        opened: currently open topics.
     """
 
     opened = []

@@ -1,4 +1,4 @@
-"""Profiles of sides from returns: levels without bias at any noise, wheel arches, strays, and too little to tell."""
+"""Profiles of sides from returns: unbiased levels at any noise, wheel arches, strays, and insufficient data."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -13,7 +13,7 @@ SEEDS = range(12)
 
 
 def side_with_arches(along):
-    """Shoulders of 7.6 degrees beside the arches reach out to 0; sills are 20 mm inside, tyres 25 mm, corners round."""
+    """Shoulders of 7.6 degrees next to the arches extend to 0; sills are 20 mm inside, tyres 25 mm, corners round."""
     away = np.abs(along)
     shoulder = -math.tan(math.radians(7.6)) * (away - ARCH_M)
     bent = -0.019 - 0.6 * (away - BEND_M)
@@ -22,14 +22,14 @@ def side_with_arches(along):
 
 
 def side_with_short_bumpers(along):
-    """Bumpers' sides of 10 cm, bowed, reach out to 0 beside the arches; sills are 20 mm inside, tyres 25 mm."""
+    """Sides of bumpers of 10 cm, curved, extend to 0 next to the arches; sills are 20 mm inside, tyres 25 mm."""
     away = np.abs(along)
     inner = np.where(away < 0.6, -0.02, np.where((away > 0.7) & (away < 1.38), -0.025, np.nan))
     return np.where(away < 1.42, inner, -900.0 * (away - 1.42) ** 4)
 
 
 def side_with_round_bumpers(along):
-    """Bumpers of a small car, superellipses 0.235 m deep, reach 0 beside the arches alone; sills are 20 mm inside."""
+    """Bumpers of a small car, superellipses 0.235 m deep, reach 0 at the arches only; sills are 20 mm inside."""
     away = np.abs(along)
     inner = np.where(away < 0.75, -0.02, np.where((away > 0.86) & (away < 1.44), -0.025, np.nan))
     share = np.clip((away - 1.55) / 0.235, 0.0, 1.0)
@@ -37,12 +37,12 @@ def side_with_round_bumpers(along):
 
 
 def side_with_steps(along):
-    """A sill at 0, with what stands out by 3 cm between the wheels."""
+    """A sill at 0, with parts between the wheels that protrude by 3 cm."""
     return np.where(np.abs(np.abs(along) - 0.65) < 0.035, 0.03, 0.0)
 
 
 def bumper(along):
-    """A superellipse 1.8 m broad and 0.6 m deep with its tip at 0."""
+    """A superellipse 1.8 m wide and 0.6 m deep with its tip at 0."""
     return 0.6 * ((1.0 - np.minimum(np.abs(along) / 0.9, 1.0) ** 2.8) ** (1.0 / 2.8) - 1.0)
 
 
@@ -59,7 +59,7 @@ def returns(shape, half_m, noise_m, seed):
 
 
 def errors(find, shape, half_m, noise_m):
-    """Levels that should be 0, and their sigmas, over the seeds."""
+    """Return levels that should be 0, and their sigmas, over the seeds."""
     found = [find(profile_of(*returns(shape, half_m, noise_m, seed))) for seed in SEEDS]
     return np.array([each.level for each in found]), np.array([each.sigma for each in found])
 

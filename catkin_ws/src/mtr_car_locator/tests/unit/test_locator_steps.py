@@ -1,4 +1,4 @@
-"""The locator's steps beside the node's ticks, with a locator that takes as long as the test wants."""
+"""Steps of the locator during the node's ticks, with a locator of adjustable duration."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 from concurrent.futures import ThreadPoolExecutor
@@ -13,7 +13,7 @@ LIMIT_S = 20.0
 
 
 class SlowLocator:
-    """Its estimate is the time of its inputs; a step at `holds_s` lasts until it is let go."""
+    """Its estimate is the time of its inputs; a step at `holds_s` lasts until it is released."""
 
     def __init__(self, holds_s=None):
         self.poses, self.scans, self.steps = [], [], []
@@ -44,7 +44,7 @@ def thread():
 
 
 def tick(steps, number, scans=()):
-    """One tick of a node, with one pose; what it says."""
+    """Run one tick of a node with one pose and return its estimate."""
     steps.wants_scans(Inputs(float(number)), [number])
     return steps.estimate(Inputs(float(number), scans=scans))
 

@@ -1,4 +1,4 @@
-"""Axles from the outer faces of the tyres: exact although noise and uneven ground smear them."""
+"""Axles from the outer faces of the tyres: exact despite noise and uneven ground."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -16,7 +16,7 @@ SHEET = DataSheet(known_length_m=4.85, front_overhang_m=1.0, wheelbase_m=2.85)
 
 
 def face(rng, middle_m, returns=20_000, half_m=0.3, *, heights_m=0.0, level_m=LEVEL_M):
-    """Returns of a tyre on the left; heights_m: how much its half chord varies with the height at which it is met."""
+    """Return returns of a tyre on the left; heights_m: variation of its half chord with the height of the hits."""
     half = half_m + heights_m * rng.uniform(-1.0, 1.0, returns)
     along = middle_m + half * rng.uniform(-1.0, 1.0, returns)
     return np.column_stack((along, np.full(returns, level_m))) + NOISE_M * rng.standard_normal((returns, 2))
@@ -32,7 +32,7 @@ def middles(faces):
 
 
 def tyres_at(*sides):
-    """Faces of tyres of one size with these middles, left and right."""
+    """Return faces of equal tyres with these middles, left and right."""
     return [[Face(middle - 0.3, middle + 0.3) for middle in each] for each in sides]
 
 

@@ -1,2 +1,2 @@
-"""From surfaces to the one rectangle that is the Car, or to a sentence that says why there is none."""
+"""Search for the Car in surfaces: one rectangle, or a sentence with the reason for a failure."""
 # SPDX-License-Identifier: Apache-2.0

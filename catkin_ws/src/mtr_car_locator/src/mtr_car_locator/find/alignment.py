@@ -1,4 +1,4 @@
-"""Moves a rectangle that may be the Car to what surfels, and on wheels all returns, show of it."""
+"""Alignment of a candidate rectangle with surfels, and for a Car on wheels with all returns."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -20,19 +20,22 @@ from ..surfels import Surfels
 from .errors import NotLocated
 
 ROUNDS = 4
-# In the first round the rectangle is rough.
+# The first round uses a larger gate, because the rectangle is rough.
 FIRST_BEYOND_M = 0.12
 
 
 class Alignment:
-    """Fits rectangles to the same surfels in map."""
+    """Fits rectangles to given surfels in map."""
 
     def __init__(self, seen: Surfels, close_up: Optional[CloseUp], sheet: DataSheet, *, on_wheels: bool):
-        """close_up: all returns near the Car, None when there are none; on_wheels: neither front nor rear was seen."""
+        """Create an alignment.
+
+        close_up: all returns near the Car, or None; on_wheels: neither front nor rear was seen.
+        """
         self._seen, self._close_up, self._sheet, self._on_wheels = seen, close_up, sheet, on_wheels
 
     def aligned(self, car: Rectangle) -> AlignedCar:
-        """The rectangle where its outline meets the surfels; NotLocated when these do not tell."""
+        """Return the rectangle aligned with the surfels; NotLocated if they do not determine it."""
         found = self._moved(car, FIRST_BEYOND_M)
         for _ in range(ROUNDS - 1):
             found = self._moved(found.car, BEYOND_M)
@@ -55,8 +58,10 @@ class Alignment:
         return axis
 
     def _wheels(self, in_car: Surfels, car: Rectangle, extents: Dict[str, SideExtent]) -> Optional[CarWheels]:
-        """What tells the Car's place along it when its ends do not; None when they do. An end alone leaves the
-        rectangle far too rough to tell which surfels are the Car's."""
+        """Return the wheels if they must determine the Car's position along its axis, otherwise None.
+
+        A single end leaves the rectangle too rough to assign surfels to the Car.
+        """
         lacks_an_end = not all(name in extents for name in ENDS)
         if not self._on_wheels and not lacks_an_end:
             return None

@@ -1,4 +1,4 @@
-"""A guess, from one place, of a Car that the LiDARs look under: they see parts of three of its wheels or of four."""
+"""Initial guess from one place for a Car that the LiDARs look under: parts of three or four wheels are visible."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -18,16 +18,16 @@ from ..surfels import Surfels, in_frame
 from .candidates import is_allowed, near
 from .prior import Prior
 
-# Parts of a wheel are nearer to each other than this, and a wheel is larger than a leg and smaller than a sill.
+# Parts of a wheel are within this distance; a wheel is larger than a leg and smaller than a sill.
 LINK_M = 0.3
 MIN_WHEEL_M, MAX_WHEEL_M = 0.1, 0.95
 MIN_TRACK_M, MAX_TRACK_M = 1.2, 1.9
-# The middle of what is seen of a wheel is at most so far from the wheel's own middle.
+# Largest offset between the centre of the visible part of a wheel and the centre of the wheel.
 OFF_M = 0.4
 
 
 def guess_from_blobs(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Optional[Rectangle]:
-    """The Car whose wheels the blobs may be, the one next to the prior; None when there is none."""
+    """Return the Car whose wheels the blobs may be, nearest to the prior; None if there is none."""
     blobs = in_frame(_blobs(near(surfels, prior, parameters)), prior.car.pose)
     cars = (Rectangle(prior.car.pose @ at.pose, at.length, at.width) for at in _cars(blobs, parameters))
     found = [car for car in cars if is_allowed(car, prior, parameters)]
@@ -35,7 +35,7 @@ def guess_from_blobs(surfels: Surfels, prior: Prior, parameters: LocatorParamete
 
 
 def _blobs(surfels: Surfels) -> FloatArray:
-    """Middles (n, 2) of things of a wheel's size."""
+    """Return the centres (n, 2) of objects with the size of a wheel."""
     if len(surfels) < 2:
         return np.empty((0, 2))
     labels = fcluster(linkage(surfels.position, "single"), LINK_M, "distance")
@@ -49,7 +49,7 @@ def _blobs(surfels: Surfels) -> FloatArray:
 
 
 def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangle]:
-    """Rectangles, in the frame of the blobs, with two wheels on one side and a third beside one of them."""
+    """Yield rectangles, in the frame of the blobs, with two wheels on one side and one opposite."""
     for rear, front in itertools.permutations(blobs, 2):
         wheelbase, heading = math.hypot(*(front - rear)), math.atan2(*(front - rear)[::-1])
         if (not MIN_WHEELBASE_M <= wheelbase <= MAX_WHEELBASE_M
@@ -62,7 +62,7 @@ def _cars(blobs: FloatArray, parameters: LocatorParameters) -> Iterator[Rectangl
 
 
 def _tracks(blobs: List[List[float]], wheelbase: float) -> Iterator[float]:
-    """Sideways distances of blobs that stand beside one of the axles, to the left positive."""
+    """Yield the lateral distances of blobs next to one of the axles, positive to the left."""
     for along, across in blobs:
         if min(abs(along), abs(along - wheelbase)) <= OFF_M and MIN_TRACK_M <= abs(across) <= MAX_TRACK_M:
             yield across

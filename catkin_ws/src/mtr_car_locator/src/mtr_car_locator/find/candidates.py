@@ -1,4 +1,4 @@
-"""Rectangles that may be the Car: pairs of opposite surfaces at a Car's distance, near where it should stand."""
+"""Candidate rectangles: pairs of opposite surfaces at a Car's distance, near the expected place."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -20,17 +20,17 @@ from .levels import levels, peaks, sharpness, smoothed
 from .prior import Prior
 from .scoring import Score, score_of
 
-# Surface within this distance beyond the expected Car and the tolerance of its place may be its own.
+# Surfaces within this distance beyond the expected Car and its position tolerance are considered.
 MARGIN_M = 0.8
 HEADING_BIN_RAD, HEADING_SIGMA_BINS = math.radians(0.5), 3.0
 MAX_HEADINGS, MIN_SHARE_OF_BEST_HEADING = 3, 0.4
-# Directions of a few surfaces of wheels are off by so many bins together, either way.
+# Directions of the few surfaces of wheels may have a common error of this number of bins, in both directions.
 FAN_STEPS = 10
 
 
 @dataclass(frozen=True)
 class CarCandidate:
-    """A rectangle with its evidence, the surfels that give it; wheels when neither front nor rear was seen."""
+    """A rectangle with its score and supporting surfels; with wheels if neither front nor rear was seen."""
 
     car: Rectangle
     score: Score
@@ -39,14 +39,14 @@ class CarCandidate:
 
 
 def near(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Surfels:
-    """Those that may be the Car's."""
+    """Return the surfels that may belong to the Car."""
     car, swing_m = prior.car, prior.reach_m * parameters.heading_tolerance_rad
     reach = 0.5 * math.hypot(car.length, car.width) + parameters.position_tolerance_m + swing_m + MARGIN_M
     return surfels.where(np.hypot(*(surfels.position - (car.pose.x, car.pose.y)).T) < reach)
 
 
 def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> List[CarCandidate]:
-    """Candidates within the tolerance of the prior, best first."""
+    """Return the candidates within the tolerance of the prior, best first."""
     sheet = parameters.sheet
     found = []
     for turn in headings(surfels, prior, parameters.heading_tolerance_rad):
@@ -61,13 +61,13 @@ def candidates(surfels: Surfels, prior: Prior, parameters: LocatorParameters) ->
 
 
 def is_allowed(car: Rectangle, prior: Prior, parameters: LocatorParameters) -> bool:
-    """True when the Operator may have been so wrong."""
+    """Return True if the candidate is within the Operator's placement tolerance."""
     off_m, off_rad = prior.error_of(car.pose)
     return off_m <= parameters.position_tolerance_m and off_rad <= parameters.heading_tolerance_rad
 
 
 def headings(surfels: Surfels, prior: Prior, tolerance_rad: float) -> List[float]:
-    """Turns from the prior's heading at which much surface is parallel or square to the Car."""
+    """Return the turns from the prior's heading with much surface parallel or perpendicular to the Car."""
     turn = np.arctan2(surfels.normal[:, 1], surfels.normal[:, 0]) - prior.car.pose.heading
     quarter = np.remainder(turn + 0.25 * math.pi, 0.5 * math.pi) - 0.25 * math.pi
     edges = np.arange(-0.25 * math.pi, 0.25 * math.pi + HEADING_BIN_RAD, HEADING_BIN_RAD)
@@ -85,10 +85,10 @@ def headings(surfels: Surfels, prior: Prior, tolerance_rad: float) -> List[float
 
 
 def sharp_turns(seen: Surfels) -> List[float]:
-    """Turns of the frame, in rad, in which the long sides' surface lies at the sharpest levels: all of it, and what is
-    left without bodies, for another car's side, parked beside the Car, has more surface than the Car's wheels.
+    """Return the turns, in rad, with the sharpest levels of the long sides: with all surfaces, and without bodies.
 
-    The places of a wheel's few surfaces are known better than their directions, and two wheels of a side lie far apart.
+    The side of another car parked alongside has more surface than the wheels of the Car. The positions of a wheel's few
+    surfaces are known better than their directions, and two wheels of a side are far apart.
     """
     of_all = _sharpest(seen)
     turned = seen.in_frame(Pose2(0.0, 0.0, of_all))
@@ -98,7 +98,7 @@ def sharp_turns(seen: Surfels) -> List[float]:
 def _sharpest(seen: Surfels) -> float:
     best_turn, best = 0.0, -1.0
     for step in range(-FAN_STEPS, FAN_STEPS + 1):
-        # From the middle outwards, so that of two alike the smaller turn is kept.
+        # Start with the smallest turn, so that it wins among equal ones.
         turn = HEADING_BIN_RAD * ((step + FAN_STEPS + 1) // 2) * (-1.0) ** (step + FAN_STEPS)
         turned = seen.in_frame(Pose2(0.0, 0.0, turn))
         found = sum(sharpness(side_of(name, turned, -math.inf)) for name in LONG_SIDES)
@@ -108,7 +108,7 @@ def _sharpest(seen: Surfels) -> float:
 
 
 def _is_body(seen: Surfels) -> BoolArray:
-    """Mask of the surfels at levels of the long sides that have more surface than two tyres."""
+    """Return a mask of the surfels at levels of the long sides that have more surface than two tyres."""
     found = np.zeros(len(seen), dtype=bool)
     for side in (side_of(name, seen, -math.inf) for name in LONG_SIDES):
         for level in levels(side):
@@ -119,7 +119,7 @@ def _is_body(seen: Surfels) -> BoolArray:
 
 
 def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Optional[CarWheels]]]:
-    """Rectangles in the frame of seen, whose x axis is the Car's."""
+    """Yield rectangles in a frame whose x axis is the Car's."""
     left, right = (side_of(name, seen, -math.inf) for name in LONG_SIDES)
     front, rear = (side_of(name, seen, -math.inf) for name in ENDS)
     treads = wheel_sides(seen)
@@ -134,7 +134,7 @@ def _rectangles(seen: Surfels, sheet: DataSheet) -> Iterator[Tuple[Rectangle, Op
 
 def _spans(ahead: List[float], behind: List[float], expected_m: float,
            tolerance_m: float) -> Iterator[Tuple[float, float]]:
-    """Middle and size between opposite surfaces, one of which may not have been seen."""
+    """Yield middle and size between opposite surfaces, one of which may be unseen."""
     for a, b in itertools.product(ahead, behind):
         if abs(a + b - expected_m) <= tolerance_m:
             yield 0.5 * (a - b), a + b

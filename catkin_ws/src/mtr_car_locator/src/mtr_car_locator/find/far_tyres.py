@@ -1,4 +1,4 @@
-"""Tyres of the side to which the robot does not get: under the Car their inner faces are seen, not their outer ones."""
+"""Tyres of the inaccessible side: their inner faces are seen under the Car, but not their outer ones."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -14,17 +14,17 @@ from ..measure.wheels import FACE_DEPTH_M, SQUARE_M, Face, FacePair, face_pairs,
 from ..surfels import Surfels, joined
 from .levels import levels
 
-# Nominal widths of passenger cars' and delivery vans' tyres are 0.145 to 0.285 m.
+# Nominal widths of tyres of passenger cars and delivery vans are 0.145 to 0.285 m.
 MIN_TYRE_M, MAX_TYRE_M = 0.12, 0.30
-# Tracks of such cars are 1.2 to 1.9 m: so far apart are the inner faces.
+# Distance of the inner faces; tracks of such cars are 1.2 to 1.9 m.
 MIN_BETWEEN_M, MAX_BETWEEN_M = 0.9, 1.75
-# What is under a Car, and what stands beside it, has more levels than the sides of a body.
+# Objects under and next to a Car have more levels than the sides of a body.
 MAX_LEVELS = 12
 
 
 @dataclass(frozen=True)
 class _NearTyres:
-    """Two tyres that are seen from both their sides: where along the Car, and the levels of their faces, m outwards."""
+    """Two tyres that are seen from both sides: positions along the Car, and levels of their faces, m outwards."""
 
     faces: FacePair
     outer_m: float
@@ -32,10 +32,10 @@ class _NearTyres:
 
 
 def with_far_tyres(in_frame: Surfels) -> Iterator[Surfels]:
-    """The surfels, in a frame whose x axis is the Car's, and in each way in which they may be those of a Car that is
-    seen from one side, the same with the outer faces of the other side's tyres.
+    """Yield the surfels, and variants with the outer faces of the far tyres for a Car seen from one side.
 
-    The tyres of an axle are of one size: an outer face lies as far from its inner one as on the side that is seen.
+    The frame has its x axis along the Car. Tyres of one axle have equal sizes: the distance between outer and inner
+    face is the one measured on the near side.
     """
     yield in_frame
     for near, far in (LONG_SIDES, LONG_SIDES[::-1]):
@@ -55,17 +55,17 @@ def _near_tyres(towards: Side, away: Side) -> Iterator[_NearTyres]:
 
 
 def _square_pair(side: Side, level_m: float, others: List[FacePair]) -> Optional[FacePair]:
-    """The two faces at a level that are squarest to one of the others; None when none is."""
+    """Return the faces at a level that are squarest to one of the others; None if there are none."""
     both = [(off_square_m(pair, other), pair) for pair in face_pairs(side, level_m) for other in others]
     off_m, pair = min(both, default=(math.inf, None), key=lambda each: each[0])
     return pair if off_m <= SQUARE_M else None
 
 
 def _far_level(towards: Side, away: Side, tyres: _NearTyres) -> Optional[float]:
-    """Where the inner faces of the far tyres are, m outwards of the near side; None where nothing stands as they do, or
-    where the outer ones were seen.
+    """Return the level of the inner faces of the far tyres, m outwards of the near side, or None.
 
-    The next level is taken or none: behind the far tyres those of a neighbour may stand as these do.
+    None means that no matching faces exist, or that the outer ones were seen. Only the next level is tried, because
+    tyres of a neighbour may be behind the far ones.
     """
     level = max((each for each in levels(towards, MAX_LEVELS)
                  if MIN_BETWEEN_M <= tyres.inner_m - each <= MAX_BETWEEN_M), default=None)
@@ -76,7 +76,7 @@ def _far_level(towards: Side, away: Side, tyres: _NearTyres) -> Optional[float]:
 
 
 def _with_outer_faces(in_frame: Surfels, near: str, tyres: _NearTyres, inner_m: float) -> Surfels:
-    """The surfels and the far tyres' outer faces, each as far from its inner one as on the near side of its axle."""
+    """Return the surfels with the outer faces of the far tyres, each at the tyre width of its axle's near side."""
     outwards = np.array(OUTWARDS[near])
     found = [in_frame]
     for face in tyres.faces:
@@ -92,7 +92,7 @@ def _with_outer_faces(in_frame: Surfels, near: str, tyres: _NearTyres, inner_m: 
 
 
 def _of_face(in_frame: Surfels, facing: FloatArray, level_m: float, face: Face) -> BoolArray:
-    """Mask of the surfels that face so, at that level, about as far along as the face."""
+    """Return a mask of the surfels with this direction and level, at about the position of the face."""
     along = in_frame.position[:, 0]
     return ((in_frame.normal @ facing > MIN_COSINE) & (np.abs(in_frame.position @ facing - level_m) <= FACE_DEPTH_M)
             & (along >= face.low_m - SQUARE_M) & (along <= face.high_m + SQUARE_M))

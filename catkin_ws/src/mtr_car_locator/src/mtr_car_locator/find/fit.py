@@ -1,4 +1,4 @@
-"""Finds the Car among surfels in map and measures it."""
+"""Search for the Car among surfels in map, and its measurement."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -20,23 +20,23 @@ from .errors import NotLocated
 from .prior import Prior
 from .scoring import new_share, score_of
 
-# A whole Car, seen from all sides, has a quality of 0.7 and more, one seen from one side and one end 0.35; a wall,
-# a group of persons or a neighbour's near side stays below 0.2 (tests/unit/test_locator_scenes.py).
+# Quality of a complete Car seen from all sides: at least 0.7; seen from one side and one end: 0.35. A wall, a group of
+# persons or the near side of a neighbour stays below 0.2 (tests/unit/test_locator_scenes.py).
 MIN_QUALITY = 0.25
-# The faces of four tyres are 0.2 to 0.3 of a Car's outline; that they stand as a car's do has been checked before.
+# The faces of four tyres cover 0.2 to 0.3 of a Car's outline; their arrangement has already been checked.
 MIN_QUALITY_ON_WHEELS = 0.15
-# Two candidates are two things when their centres are so far apart, and alike when their evidence is.
+# Distance of the centres of two different objects, and ratio of their scores that makes them ambiguous.
 TWO_THINGS_M, ALIKE = 0.8, 0.5
 MIN_SURFACE_M = 1.0
-# Another thing shows so much surface that is none of the first one's.
+# A different object has at least this share of surface that the first one does not explain.
 MIN_NEW_SHARE = 0.2
 
 
 def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
             close_up: Optional[CloseUp] = None) -> CarFit:
-    """The Car near the prior; NotLocated, with what was seen, when in doubt.
+    """Return the Car near the prior; NotLocated with the reason if in doubt.
 
-    Surfels tell what the Car is and where; close_up, all returns near it, tells its sides to millimetres.
+    Surfels determine the Car and its pose; close_up, all returns near it, determines its sides to millimetres.
     """
     seen = near(surfels, prior, parameters)
     if seen.length.sum() < MIN_SURFACE_M:
@@ -51,7 +51,7 @@ def fit_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters,
 
 
 def rough_car(surfels: Surfels, prior: Prior, parameters: LocatorParameters) -> Rectangle:
-    """A guess that is good enough to go round the Car; NotLocated, with what was seen, when there is none."""
+    """Return a guess for the drive round the Car; NotLocated with the reason if there is none."""
     try:
         return fit_car(surfels, prior, parameters).rectangle
     except NotLocated:
@@ -78,13 +78,13 @@ def _chosen(found: List[CarCandidate]) -> CarCandidate:
 
 
 def _is_same_thing(best: CarCandidate, other: CarCandidate) -> bool:
-    """True of a rectangle that has an end at the treads of the wheels that tell the Car, and its other end nowhere."""
+    """Return True for a rectangle that shares the Car's wheel treads at one end, without evidence at the other."""
     return best.wheels is not None and new_share(best.seen, best.car, other.car) < MIN_NEW_SHARE
 
 
 def _check(fit: CarFit, prior: Prior, parameters: LocatorParameters) -> None:
     sheet, car, size = parameters.sheet, fit.rectangle, fit.in_plane
-    # A length that wheels tell is a guess within its sigma.
+    # A length derived from wheels has a large sigma.
     guess_m = 2.0 * fit.length_sigma if fit.by_wheels else 0.0
     for name, found_m, expected, unsure_m in (("length", size.length or car.length, sheet.length_m, guess_m),
                                               ("width", size.width or car.width, sheet.width_m, 0.0)):

@@ -1,4 +1,4 @@
-"""Where the Car should be, by what the Operator or an earlier map says."""
+"""Expected pose of the Car, from the Operator or an earlier map."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Tuple
@@ -11,19 +11,19 @@ from ..rectangle import Rectangle
 
 @dataclass(frozen=True)
 class Prior:
-    """A guess of the Car.
+    """Prior guess of the Car.
 
     Attributes:
-        car: where it should be.
-        pivot: place whose position and heading relative to the Car the guess rests on: where the robot was put. A
-            heading that is wrong there moves the Car on an arc about it.
+        car: expected rectangle.
+        pivot: pose on which the guess is based, given relative to the Car: the placement of the robot. A heading error
+            there moves the Car on an arc about it.
     """
 
     car: Rectangle
     pivot: Pose2
 
     def error_of(self, car: Pose2) -> Tuple[float, float]:
-        """How wrong the guess was if the Car is there: m and rad, of the pivot as seen from the Car."""
+        """Return the error of the guess for a true pose of the Car: m and rad, of the pivot as seen from the Car."""
         assumed, actual = self.car.pose.inverse() @ self.pivot, car.inverse() @ self.pivot
         return assumed.distance_to(actual), abs(wrap_angle(actual.heading - assumed.heading))
 
@@ -34,11 +34,11 @@ class Prior:
 
 
 def prior_from_start(robot: Pose2, parameters: LocatorParameters) -> Prior:
-    """The Car when the robot stands at the starting place."""
+    """Return the expected Car for a robot at the starting place."""
     pose = robot @ parameters.car_from_start.inverse()
     return Prior(Rectangle(pose, parameters.sheet.length_m, parameters.sheet.width_m), robot)
 
 
 def prior_at(car: Rectangle) -> Prior:
-    """A Car that was there before."""
+    """Return the prior for a previously located Car."""
     return Prior(car, car.pose)

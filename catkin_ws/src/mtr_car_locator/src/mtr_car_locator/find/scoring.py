@@ -1,4 +1,4 @@
-"""How well a rectangle explains what surfels show: the evidence that there stands a Car."""
+"""Score of a rectangle: evidence of the surfels for a Car."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -15,25 +15,25 @@ from ..rectangle import Rectangle
 from ..surfels import Surfels
 from .prior import Prior
 
-# A surfel speaks against a Car there when it lies deep inside, where no surface of a Car can be seen, or when it is a
-# continued surface that faces outwards beside the outline.
+# Contradicting surfels: deep inside the Car, or outward-facing continued surfaces next to
+# the outline.
 DEEP_M, BESIDE_M = 0.55, 0.50
 COVER_BIN_M = 0.25
-# A Car whose sides go on by so much in this stretch beyond one of its ends is longer than that.
+# A Car whose sides continue by this much in this range beyond one of its ends is longer.
 CONTINUED_FROM_M, CONTINUED_TO_M, CONTINUED_M = 0.1, 0.5, 0.3
-# What the LiDARs' plane shows of a Car of a known size, or beyond the ordinary ones.
+# Spread of the measured size around a known size, or beyond ordinary sizes.
 LENGTH_SPREAD_M, WIDTH_SPREAD_M = 0.3, 0.15
-# The starting place has this 1 sigma in the choice between two that look alike.
+# 1 sigma of the starting place, for the choice between two similar candidates.
 PLACE_SIGMA_M, PLACE_SIGMA_RAD = 0.8, math.radians(12.0)
 
 
 @dataclass(frozen=True)
 class Score:
-    """Evidence for a rectangle, 0 to 1 each.
+    """Evidence for a rectangle, each 0 to 1.
 
     Attributes:
-        quality: that what was seen is a Car.
-        total: the same times how well it stands where the Car should.
+        quality: likelihood that the object is a Car.
+        total: quality, weighted by the agreement with the expected pose.
         cover: share of the outline that was seen.
     """
 
@@ -43,7 +43,7 @@ class Score:
 
 
 def score_of(surfels: Surfels, car: Rectangle, prior: Prior, sheet: DataSheet) -> Score:
-    """Evidence that surfels in map give for the Car."""
+    """Return the evidence of surfels in map for the Car."""
     seen = surfels.in_frame(car.pose)
     outside = car.outside(seen.position)
     explained = belongs(seen, car)
@@ -60,17 +60,17 @@ def score_of(surfels: Surfels, car: Rectangle, prior: Prior, sheet: DataSheet) -
 
 
 def new_share(surfels: Surfels, car: Rectangle, other: Rectangle) -> float:
-    """Of the surface that the other rectangle explains, the share that the Car's does not."""
+    """Return the share of the surface explained by the other rectangle that the Car does not explain."""
     explained, anew = (belongs(surfels.in_frame(each.pose), each) for each in (car, other))
     return float(surfels.length[anew & ~explained].sum() / max(surfels.length[anew].sum(), 1e-9))
 
 
 def cover_of(explained: Surfels, car: Rectangle) -> float:
-    """Share of the outline beside which there is a surface that faces outwards."""
+    """Return the share of the outline that has an outward-facing surface."""
     covered = total = 0
     for name, outwards in OUTWARDS.items():
         half = 0.5 * (car.width if name in ("front", "rear") else car.length)
-        # Of a number of NumPy 1.17, Ubuntu 20.04's, round() makes no whole one.
+        # In NumPy 1.17 (Ubuntu 20.04), round() of a NumPy number does not return an int.
         bins = max(round(float(2.0 * half / COVER_BIN_M)), 1)
         mine = explained.where(explained.normal @ np.array(outwards) > MIN_OUTWARD_COSINE)
         along = mine.samples()[0] @ np.abs(np.array(outwards[::-1]))
@@ -80,7 +80,7 @@ def cover_of(explained: Surfels, car: Rectangle) -> float:
 
 
 def _size_likelihood(car: Rectangle, sheet: DataSheet) -> float:
-    """1 for a size that a Car may have, less the farther it is from that."""
+    """Return the likelihood of a size: 1 for a plausible one, decreasing with the deviation."""
     lengths = (sheet.known_length_m,) * 2 if sheet.known_length_m else ORDINARY_LENGTH_M
     widths = (sheet.known_width_m,) * 2 if sheet.known_width_m else ORDINARY_WIDTH_M
     return math.exp(-0.5 * (_beyond(car.length, lengths) / LENGTH_SPREAD_M) ** 2
@@ -92,7 +92,7 @@ def _beyond(value: float, limits: Tuple[float, float]) -> float:
 
 
 def _continued_m(seen: Surfels, car: Rectangle) -> float:
-    """Surface on the lines of the long sides just beyond their ends, m."""
+    """Return the surface on the lines of the long sides just beyond their ends, m."""
     beyond, aside = (np.abs(seen.position) - (0.5 * car.length, 0.5 * car.width)).T
     faces_out = seen.normal[:, 1] * np.sign(seen.position[:, 1]) > MIN_OUTWARD_COSINE
     on_line = (beyond > CONTINUED_FROM_M) & (beyond < CONTINUED_TO_M) & (np.abs(aside) < BEYOND_M) & faces_out
@@ -100,5 +100,5 @@ def _continued_m(seen: Surfels, car: Rectangle) -> float:
 
 
 def _along(seen: Surfels, car: Rectangle) -> BoolArray:
-    """True beside a side, not beside a corner: there a neighbour may well show a surface that faces the same way."""
+    """Return a mask of surfels next to a side; at a corner, a neighbour may have surfaces of that direction."""
     return np.any(np.abs(seen.position) < (0.5 * car.length, 0.5 * car.width), axis=1)

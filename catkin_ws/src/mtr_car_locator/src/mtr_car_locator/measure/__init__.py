@@ -1,2 +1,2 @@
-"""The found Car's pose, size and outline, each with its uncertainty."""
+"""Pose, size and outline of the found Car with their uncertainties."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The Car's axis of symmetry from its long sides: heading and lateral position."""
+"""Axis of symmetry of the Car from its long sides: heading and lateral position."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -11,20 +11,21 @@ from mtr_core.arrays import FloatArray
 
 from .side import BIN_M, MAP_SHARE, Side
 
-# The ends of a side bend towards the bumpers; with one side alone they would turn the axis. Of a short Car whose sill
-# is too high that leaves too little, for there are its wheels; its bumpers are short, too.
+# Excluded ends of a side: they curve towards the bumpers and would rotate the axis of a single side. For a short Car
+# with a high sill, a shorter length is excluded, because otherwise its wheels would be missing; its bumpers are short,
+# too.
 ENDS_M = (0.6, 0.3)
 MIN_BINS = 6
-# A car's surface spreads so much about its symmetric shape; bins farther off count less and less.
+# Scatter of a car's surface about its symmetric shape; bins farther away have less weight.
 SHAPE_SIGMA_M = 0.005
 ROUNDS = 8
 
 
 @dataclass(frozen=True)
 class SymmetryAxis:
-    """Slope and offset of the axis in the frame of the sides, and how well they are known.
+    """Slope and offset of the axis in the frame of the sides, with sigmas.
 
-    is_centred: False when only one side was seen; then the offset is that of the side.
+    is_centred: False if only one side was seen; the offset then refers to that side.
     """
 
     slope: float
@@ -35,7 +36,7 @@ class SymmetryAxis:
 
 
 def axis_of(left: Side, right: Side, *, length: float) -> Optional[SymmetryAxis]:
-    """Middle between both sides where both were seen, else parallel to one; None when they tell nothing."""
+    """Return the middle between both sides, or a parallel to a single one; None without sufficient data."""
     lefts, rights = left.bins(), right.bins()
     both = sorted(set(lefts) & set(rights))
     if len(both) >= MIN_BINS:
@@ -52,14 +53,14 @@ def axis_of(left: Side, right: Side, *, length: float) -> Optional[SymmetryAxis]
 
 def _axis(along: FloatArray, level: FloatArray, common_sigma_m: float, is_centred: bool) -> SymmetryAxis:
     slope, offset, slope_sigma, offset_sigma = robust_line(along, level)
-    # What the map is wrong by on one side may differ from its one end to the other.
+    # Errors of the map on one side may differ between its ends.
     span = max(float(np.ptp(along)), BIN_M)
     return SymmetryAxis(slope, offset, math.hypot(slope_sigma, math.sqrt(2.0) * common_sigma_m / span),
                 math.hypot(offset_sigma, common_sigma_m), is_centred)
 
 
 def robust_line(along: FloatArray, level: FloatArray) -> Tuple[float, float, float, float]:
-    """Slope and offset at 0 of the line through most points, and their 1 sigma by the scatter."""
+    """Return slope and offset at 0 of the line through most points, and their 1 sigma from the scatter."""
     matrix = np.column_stack((along, np.ones_like(along)))
     weights = np.ones(len(level))
     line = np.array([0.0, float(np.median(level))])

@@ -1,4 +1,4 @@
-"""Where a Car's axles are: midway between front and rear of its tyres' treads."""
+"""Axles of a Car: midway between the front and rear treads of its tyres."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -9,21 +9,21 @@ import numpy as np
 from ..surfels import SAMPLE_M
 from .side import Side
 
-# The LiDARs' plane cuts twice this out of a tyre: radii of passenger cars' tyres are 0.29 to 0.36 m, the plane is
-# 0.15 to 0.35 m high; these are the middle of the range and a quarter of its width.
+# Half the chord of a tyre in the scan plane. Radii of passenger car tyres are 0.29 to 0.36 m, and the plane is 0.15 to
+# 0.35 m high; the values are the middle of the range and a quarter of its width.
 HALF_CHORD_M, HALF_CHORD_SIGMA_M = 0.31, 0.025
-# The middle of an outer face of which the ends may be missing was up to 5 cm off on recorded drives.
+# The middle of an outer face with possibly missing ends was up to 5 cm off in recorded drives.
 FACE_SIGMA_M = 0.04
-# When all returns tell it, it was 1 mm rms off on level ground, 5 mm on slopes of 1 deg (recorded drives).
+# From all returns, the error was 1 mm rms on level ground and 5 mm on slopes of 1 deg (recorded drives).
 EXACT_FACE_SIGMA_M = 0.004
-# Faces of one Car differ so much in length at most: tyres are met at different heights where the ground is uneven. What
-# is longer has something beside it, on one side of its middle.
+# Largest difference of face lengths on one Car, because tyres are met at different heights on uneven ground. A longer
+# face includes an adjacent object on one side.
 FACE_SIZE_NOISE_M = 0.04
-# So far from where the face puts it a tread is looked for, and so much of its width has to be seen.
+# Search range of a tread round its position from the face, and its lowest visible width.
 TREAD_GATE_M, MIN_TREAD_M = 0.12, 0.06
-# Treads of recorded drives lie up to 5 mm inside, by their rounded shoulders and the smeared edge towards the face.
+# Treads in recorded drives are up to 5 mm inside, because of rounded shoulders and the smeared edge of the face.
 TREAD_SIGMA_M = 0.005
-# The wheelbase of a data sheet differs from this Car's by the tolerance of the wheels' alignment, and load.
+# Deviation of a wheelbase from the data sheet by wheel alignment tolerance and load.
 WHEELBASE_SIGMA_M = 0.005
 
 
@@ -39,16 +39,16 @@ class Axles:
 
     @property
     def wheelbase_m(self) -> float:
-        """Distance between them."""
+        """Distance between the axles."""
         return self.front_m - self.rear_m
 
 
 def axles_at(front_m: float, rear_m: float, ahead: Sequence[Side], behind: Sequence[Side],
              known_wheelbase_m: float = 0.0) -> Axles:
-    """Axles near the middles of the outer faces; ahead and behind are treads by the way they face, left and right.
+    """Return the axles near the middles of the outer faces, from treads by direction, left and right.
 
-    Least squares over both axles and the half chord, which all tyres share: so three treads, the inner ones of both
-    axles and one more, or the inner ones and the wheelbase, tell all.
+    Least squares over both axles and the half chord, which is common to all tyres. Sufficient are three treads (the
+    inner ones of both axles and one more), or the inner ones and the wheelbase.
     """
     rows: List[Tuple[Tuple[float, float, float], float, float]] = [
         ((1.0, 0.0, 0.0), front_m, FACE_SIGMA_M), ((0.0, 1.0, 0.0), rear_m, FACE_SIGMA_M),
@@ -64,10 +64,10 @@ def axles_at(front_m: float, rear_m: float, ahead: Sequence[Side], behind: Seque
 
 def axles_between(fronts: Sequence[Tuple[float, float]], rears: Sequence[Tuple[float, float]],
                   known_wheelbase_m: float = 0.0) -> Axles:
-    """Axles from the middles of the outer faces alone, left and right, with 1 sigma each, when all returns tell these.
+    """Return the axles from the middles of the outer faces with 1 sigma each, left and right, from all returns.
 
-    Where the ground is uneven the front of a tyre is met at another height than its rear, and so at another chord; both
-    ends of its face are met at the same.
+    On uneven ground, the front of a tyre is met at another height and chord than its rear, but both ends of a face are
+    met at the same height.
     """
     rows: List[Tuple[Tuple[float, float, float], float, float]] = [((0.0, 0.0, 1.0), HALF_CHORD_M, HALF_CHORD_SIGMA_M)]
     rows += [((1.0, 0.0, 0.0), *front) for front in fronts]
@@ -78,7 +78,7 @@ def axles_between(fronts: Sequence[Tuple[float, float]], rears: Sequence[Tuple[f
 
 
 def _treads(sides: Sequence[Side], outward_m: float) -> List[Tuple[float, float]]:
-    """Level and 1 sigma of each tread near a distance outwards."""
+    """Return level and 1 sigma of each tread near a distance outwards."""
     found = []
     for side in sides:
         near = np.abs(side.outward - outward_m) <= TREAD_GATE_M
@@ -95,7 +95,7 @@ def _solved(rows: List[Tuple[Tuple[float, float, float], float, float]]) -> Axle
     covariance = np.linalg.inv(matrix.T @ matrix)
     front, rear, half_chord = covariance @ (matrix.T @ values)
     rest = values - matrix @ (front, rear, half_chord)
-    # What does not fit together makes all of it less sure.
+    # Residuals larger than their sigmas increase the covariance.
     covariance = covariance * max(1.0, float(rest @ rest) / (len(rows) - 3 or 1))
     return Axles(float(front), float(rear), math.sqrt(covariance[0, 0]), math.sqrt(covariance[1, 1]),
                  float(covariance[0, 1]))

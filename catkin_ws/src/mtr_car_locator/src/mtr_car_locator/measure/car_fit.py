@@ -1,4 +1,4 @@
-"""The Car as it was found, with everything that is known of it."""
+"""The located Car with all its measurements."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -11,8 +11,7 @@ from ..surfels import Surfels
 
 @dataclass(frozen=True)
 class PlaneSize:
-    """Length and width in m of what the LiDARs' plane meets of the Car, 1 sigma each; None where an end or a side was
-    not seen."""
+    """Measured length and width in the scan plane, m, 1 sigma each; None if an end or a side was not seen."""
 
     length: Optional[float] = None
     length_sigma: float = 0.0
@@ -21,7 +20,7 @@ class PlaneSize:
 
 
 class SideSigmas(NamedTuple):
-    """1 sigma of where each side of the rectangle is, across itself at its middle, m: of centre and size together."""
+    """1 sigma of each side of the rectangle, perpendicular at its middle, m: of centre and size together."""
 
     front: float
     rear: float
@@ -29,12 +28,12 @@ class SideSigmas(NamedTuple):
     right: float
 
     def moved(self, along_m: float, across_m: float) -> "SideSigmas":
-        """With independent 1 sigma of a motion of the whole Car added."""
+        """Return the sigmas with an independent 1 sigma of a motion of the whole Car added."""
         return SideSigmas(math.hypot(self.front, along_m), math.hypot(self.rear, along_m),
                           math.hypot(self.left, across_m), math.hypot(self.right, across_m))
 
 
-# Nobody has measured it.
+# Sides without a measurement.
 UNKNOWN_SIDES = SideSigmas(math.nan, math.nan, math.nan, math.nan)
 
 
@@ -49,14 +48,14 @@ class CarFit:
         length_sigma: m, 1 sigma.
         width_sigma: m, 1 sigma.
         seen: names of the sides that were seen.
-        surfels: all that lie within its outline, in its own frame: sides, wheels, what is seen under it.
+        surfels: all surfels within its outline, in its own frame: sides, wheels, and objects under it.
         quality: evidence that it is a Car, 0 to 1.
-        by_wheels: length and centre come from the wheels alone.
-        in_plane: what was measured.
-        warning: sentence on a data sheet that does not agree with that.
-        side_sigmas: 1 sigma of each side; those of the ends hold that front and rear may be known differently well.
-        range_bias: constant errors of the LiDARs' ranges that the surfels are free of; it has to be taken off whatever
-            is compared with them. Zero for surfels of ranges as they are: these share it with what is seen again.
+        by_wheels: length and centre are derived from the wheels only.
+        in_plane: measured size in the scan plane.
+        warning: sentence about a contradicting data sheet.
+        side_sigmas: 1 sigma of each side; front and rear may differ.
+        range_bias: constant range errors of the LiDARs that the surfels are corrected for; scans that are compared with
+            them need the same correction. Zero for surfels of uncorrected ranges, which share the bias with new scans.
     """
 
     rectangle: Rectangle

@@ -1,4 +1,4 @@
-"""All returns of the way round the Car, moved to where localization's adjusted map puts them."""
+"""All returns of the drive round the Car, transformed by the adjustment of the localization map."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Tuple
@@ -11,9 +11,9 @@ from mtr_core.se2 import Pose2
 from ..scan import RangeBias, Returns
 from ..surfels import rotated_back
 
-# The Car's farthest corner is so far from where the Car was guessed: half its diagonal and the Operator's error.
+# Largest distance of a corner of the Car from its guess: half its diagonal and the Operator's error.
 HALF_SIDE_M = 4.5
-# A robot that stands sees the same again; a way round has some 2500 sweeps of two LiDARs.
+# Lowest motion between sweeps, because a stationary robot sees the same; a drive has about 2500 sweeps of two LiDARs.
 MIN_MOTION_M, MIN_TURN_RAD, MAX_SWEEPS = 0.005, 0.005, 10_000
 # Columns of the rows of Sweeps.
 _TIME, _ROBOT, _VIEWER, _IS_REAR, _COUNT, _COLUMNS = 0, slice(1, 4), slice(4, 6), 6, 7, 8
@@ -27,13 +27,13 @@ class CloseUp:
     beams: FloatArray
 
     def in_frame(self, pose: Pose2) -> "CloseUp":
-        """The same as seen from a pose in map."""
+        """Return the returns relative to a pose in map."""
         return CloseUp(rotated_back(self.points - (pose.x, pose.y), pose.heading),
                        rotated_back(self.beams, pose.heading))
 
 
 class WayRound:
-    """Collects the returns near a place in map, while poses are still those of a map that is not adjusted."""
+    """Collects returns near a place in map, with poses before the adjustment of the map."""
 
     def __init__(self, x: float, y: float):
         self._centre = np.array([x, y])
@@ -41,7 +41,7 @@ class WayRound:
         self._last: Dict[Pose2, Pose2] = {}
 
     def add(self, seen: Returns, lidar: Pose2) -> None:
-        """Take a sweep of the LiDAR with that mounting, if the robot has moved since its last one."""
+        """Add a sweep of the LiDAR with that mount, if the robot has moved since its last one."""
         last = self._last.get(lidar)
         if len(self._sweeps) >= MAX_SWEEPS or (last is not None and not _has_moved(last, seen.robot)):
             return
@@ -51,7 +51,7 @@ class WayRound:
                                     seen.is_rear))
 
     def sweeps(self) -> "Sweeps":
-        """What was collected so far."""
+        """Return everything collected so far."""
         if not self._sweeps:
             return Sweeps(np.empty((0, 2), np.float32), np.empty((0, _COLUMNS)))
         rows = [(sweep.time_s, sweep.robot.x, sweep.robot.y, sweep.robot.heading, *sweep.viewer, sweep.is_rear,
@@ -61,11 +61,11 @@ class WayRound:
 
 @dataclass(frozen=True)
 class Sweeps:
-    """Returns of many sweeps as two arrays: thousands of objects would take long to get to another process.
+    """Returns of many sweeps as two arrays: thousands of objects would be slow to transfer to another process.
 
     Attributes:
-        points: of all sweeps one after another, (n, 2) in map, by the poses of before the adjustment.
-        rows: of each sweep: time in s, the robot's x, y and heading, the LiDAR's x and y, 1 of the rear LiDAR, number
+        points: of all sweeps in sequence, (n, 2) in map, by the poses before the adjustment.
+        rows: of each sweep: time in s, the robot's x, y and heading, the LiDAR's x and y, 1 for the rear LiDAR, number
             of its points.
     """
 
@@ -73,10 +73,10 @@ class Sweeps:
     rows: FloatArray
 
     def close_up(self, key_frames: FloatArray, range_bias: RangeBias) -> Optional[CloseUp]:
-        """What was collected between the first and the last key-frame; None when that is nothing.
+        """Return the data collected between the first and the last key-frame; None without data.
 
-        key_frames: rows (time in s, x, y, heading) after adjustment. Each sweep is moved as the key-frames before and
-        after it were.
+        key_frames: rows (time in s, x, y, heading) after adjustment. Each sweep is transformed like the adjacent
+        key-frames.
         """
         if len(self.rows) < 2 or len(key_frames) < 2:
             return None
@@ -100,7 +100,7 @@ def _has_moved(last: Pose2, now: Pose2) -> bool:
 
 
 def _changes(frames: FloatArray, times_s: FloatArray, raw: FloatArray) -> FloatArray:
-    """Transform (x, y, heading) of each key-frame's surroundings from where the robot took itself to be."""
+    """Return the correction (x, y, heading) of each key-frame relative to the robot's pose before the adjustment."""
     unwrapped = np.column_stack((raw[:, :2], np.unwrap(raw[:, 2])))
     before = _interpolated(frames[:, 0], times_s, unwrapped)
     changes = [Pose2(*frame[1:]) @ Pose2(*robot).inverse() for frame, robot in zip(frames, before)]

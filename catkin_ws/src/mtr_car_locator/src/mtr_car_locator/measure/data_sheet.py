@@ -1,4 +1,4 @@
-"""The size on a Car's data sheet, which distances count from, against what the LiDARs' plane shows of the Car."""
+"""Comparison of the data sheet size, to which distances refer, with the size in the scan plane."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -10,32 +10,32 @@ from .car_fit import CarFit
 from .ends import Ends
 from .side import ENDS, LONG_SIDES, SideExtent
 
-# What is measured beyond this is no chance.
+# Deviations above this number of sigmas are significant.
 SIGMAS = 3.0
-# An inset of more than so many sigmas of its prior is not that of a usual car.
+# A larger inset, in sigmas of its prior, is unusual for a car.
 INSET_SIGMAS = 2.0
-# A front that is known no better than this, 1 sigma, makes distances from it centimetres unsure.
+# A larger 1 sigma of the front makes distances from it uncertain by centimetres.
 VAGUE_M = 0.02
 
 
 def with_data_sheet(fit: CarFit, sheet: DataSheet, warning: str) -> CarFit:
-    """Length and width of the data sheet where they are given, and the outline grown to the Car's size."""
+    """Return the fit with length and width of the data sheet, if given, and an outline of that size."""
     car = fit.rectangle
     car = replace(car, length=sheet.known_length_m or car.length, width=sheet.known_width_m or car.width)
     return replace(fit, rectangle=car, outline=_grown(fit.outline, car), warning=warning)
 
 
 def _grown(outline: Tuple[Point, ...], car: Rectangle) -> Tuple[Point, ...]:
-    """The outline reaching each side of the Car; never shrunk, because what was seen of the Car is there."""
+    """Extend the outline to each side of the Car; never shrink it, because the seen parts are there."""
     half = (0.5 * car.length, 0.5 * car.width)
-    # Factors of what lies ahead and behind of the centre, then of what lies left and right of it.
+    # Factors for the parts in front of and behind the centre, then left and right of it.
     factors = [[max(1.0, half[axis] / max(sign * point[axis] for point in outline)) for sign in (1.0, -1.0)]
                for axis in (0, 1)]
     return tuple((x * factors[0][int(x < 0.0)], y * factors[1][int(y < 0.0)]) for x, y in outline)
 
 
 def warning_of(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> str:
-    """Sentences on a data sheet that does not agree with the plane, or leaves the Car's ends vague; empty for none."""
+    """Return sentences about contradictions of the data sheet or about ends with a large uncertainty; empty if none."""
     found = [_disagreement("wide", [extents.get(name) for name in LONG_SIDES], sheet.known_width_m, 2.0 * MAX_INSET_M)]
     if sheet.known_length_m:
         insets_m = INSET_SIGMAS * math.hypot(sheet.front_inset_sigma_m, sheet.rear_inset_sigma_m)
@@ -51,7 +51,7 @@ def warning_of(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> 
 
 
 def _disagreement(name: str, pair: List[Optional[SideExtent]], known_m: float, most_m: float) -> str:
-    """most_m: the insets of both sides together, at most."""
+    """Return a sentence about a contradiction. most_m: largest sum of the insets of both sides."""
     seen = [each for each in pair if each is not None]
     if len(seen) < 2 or not known_m:
         return ""
@@ -64,7 +64,7 @@ def _disagreement(name: str, pair: List[Optional[SideExtent]], known_m: float, m
 
 
 def _ends_that_disagree(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> Iterator[str]:
-    """One sentence for each end whose bumper is not where the axles and the data sheet put it."""
+    """Yield one sentence for each end whose bumper is not at the position from axles and data sheet."""
     for name, outward_m, sigma_m, inset_sigma_m in (
             ("front", ends.front_m, ends.front_sigma_m, sheet.front_inset_sigma_m),
             ("rear", -ends.rear_m, ends.rear_sigma_m, sheet.rear_inset_sigma_m)):

@@ -1,8 +1,8 @@
-"""Front and rear of the Car along its x axis: from the bumpers in the LiDARs' plane, the axles and the data sheet.
+"""Front and rear of the Car along its x axis: from bumpers in the scan plane, axles and data sheet.
 
-A bumper stands back in the plane behind the foremost or rearmost part of its end by an unknown inset. Insets of front
-and rear are independent and never negative. Their prior is half-normal, so that an end that is published where the
-plane meets it lies farther out by at most 2 sigma in 95 % of all cars.
+In the scan plane, a bumper is behind the outermost part of its end by an unknown inset. Insets of front and rear are
+independent and not negative. Their prior is half-normal: if an end is published at the scan plane, its true position is
+farther out by at most 2 sigma in 95 % of all cars.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -17,9 +17,9 @@ from mtr_core.arrays import FloatArray
 from ..parameters import DATA_SHEET_SIGMA_M
 from .side import SideExtent
 
-# A bumper that the plane meets so far beyond where axles and data sheet put its end contradicts them.
+# A bumper contradicts axles and data sheet if it is this much beyond the end that they define.
 CONTRADICTION_SIGMAS = 4.0
-# A larger inset, in sigmas of its prior, is that of a false axle rather than of a car.
+# With a larger inset, in sigmas of its prior, the axle is probably false.
 IMPLAUSIBLE_SIGMAS = 3.0
 GRID_POINTS, GRID_SIGMAS = 2001, 5.0
 
@@ -33,12 +33,12 @@ class Estimate(NamedTuple):
 
 @dataclass(frozen=True)
 class EndEvidence:
-    """One end, by distances outwards from the frame's origin.
+    """Evidence of one end, by distances outwards from the frame's origin.
 
     Attributes:
-        level: of the bumper in the LiDARs' plane; None when it was not seen.
-        inset_sigma_m: prior of how far that stands back, 1 sigma of the normal distribution whose positive half it is.
-        by_axle: the end from its axle and its overhang; None when these are not known.
+        level: of the bumper in the scan plane; None if it was not seen.
+        inset_sigma_m: sigma of the half-normal prior of the inset.
+        by_axle: the end from its axle and overhang; None if these are unknown.
     """
 
     level: Optional[SideExtent]
@@ -47,7 +47,10 @@ class EndEvidence:
 
     @property
     def alone(self) -> Optional[Estimate]:
-        """The end without the other one. The inset's mean is not corrected: a distance from it is never too short."""
+        """Return the end without the other one.
+
+        The inset's mean is not corrected, so a distance from it is never too short.
+        """
         if self.by_axle is not None:
             return self.by_axle
         if self.level is None:
@@ -55,9 +58,10 @@ class EndEvidence:
         return Estimate(self.level.level, math.hypot(self.level.sigma, self.inset_sigma_m))
 
     def contradiction_m(self, *, is_axle_sure: bool) -> float:
-        """How far the bumper was seen beyond where its axle puts the end, if that is no chance; else 0.
+        """Return the significant excess of the bumper beyond the end from the axle; otherwise 0.
 
-        Negative when it was seen so far inside that the axle is more likely a false one; is_axle_sure: it is none.
+        A negative value means that the bumper is so far inside that the axle is probably false; is_axle_sure excludes
+        that.
         """
         if self.level is None or self.by_axle is None:
             return 0.0
@@ -67,20 +71,20 @@ class EndEvidence:
         return beyond_m if beyond_m > allowed_m or (is_inside and not is_axle_sure) else 0.0
 
     def log_likelihood(self, outward_m: FloatArray, common_sigma_m: float = 0.0) -> FloatArray:
-        """Of the end at these distances; common_sigma_m is added to each of its errors."""
+        """Return the log likelihood of the end at these distances; common_sigma_m is added to each error."""
         total = np.zeros_like(outward_m)
         if self.by_axle is not None:
             sigma_m = math.hypot(self.by_axle.sigma_m, common_sigma_m)
             total -= 0.5 * np.square((outward_m - self.by_axle.value_m) / sigma_m)
         if self.level is not None:
-            # The density of a normal error plus a half-normal inset is a skew normal one.
+            # A normal error plus a half-normal inset has a skew normal density.
             inset_m, sigma_m = outward_m - self.level.level, math.hypot(self.level.sigma, common_sigma_m)
             whole_m = math.hypot(sigma_m, self.inset_sigma_m)
             total += log_ndtr(inset_m * self.inset_sigma_m / (sigma_m * whole_m)) - 0.5 * np.square(inset_m / whole_m)
         return total
 
     def reach(self) -> Tuple[float, float]:
-        """Distances between which the end lies."""
+        """Return the distances between which the end lies."""
         pieces = []
         if self.by_axle is not None:
             value_m, sigma_m = self.by_axle
@@ -93,10 +97,10 @@ class EndEvidence:
 
 @dataclass(frozen=True)
 class Ends:
-    """Front and rear along the x axis, and 1 sigma of each and of their distance, m.
+    """Front and rear along the x axis, with 1 sigma of each and of their distance, m.
 
-    front_beyond_m: how far the bumper was seen beyond where axle and overhang put the front, or negative inside of it,
-        when these were not used because they contradict it; else 0.
+    front_beyond_m: excess of the bumper beyond the front from axle and overhang (negative inside of it), if these were
+    rejected because of the contradiction; otherwise 0.
     """
 
     front_m: float
@@ -108,23 +112,23 @@ class Ends:
 
     @property
     def centre_m(self) -> float:
-        """The middle between them."""
+        """Middle between front and rear."""
         return 0.5 * (self.front_m + self.rear_m)
 
     @property
     def length_m(self) -> float:
-        """Their distance."""
+        """Distance between front and rear."""
         return self.front_m - self.rear_m
 
     @property
     def centre_sigma_m(self) -> float:
-        """1 sigma of the middle, as it follows from the others."""
+        """1 sigma of the middle, derived from the other sigmas."""
         squares = 0.5 * (self.front_sigma_m ** 2 + self.rear_sigma_m ** 2) - 0.25 * self.length_sigma_m ** 2
         return math.sqrt(max(squares, 0.0))
 
 
 def ends_of(front: EndEvidence, rear: EndEvidence, ordinary: Estimate, known_length_m: float = 0.0) -> Optional[Ends]:
-    """Both ends; None when nothing is known of either. ordinary: length of any car, for an end without evidence."""
+    """Return both ends; None without any evidence. ordinary: length of any car, for an end without evidence."""
     length = Estimate(known_length_m, DATA_SHEET_SIGMA_M) if known_length_m else ordinary
     ahead, behind = front.alone, rear.alone
     if ahead and behind:
@@ -140,7 +144,7 @@ def ends_of(front: EndEvidence, rear: EndEvidence, ordinary: Estimate, known_len
 
 
 def _between(front: EndEvidence, rear: EndEvidence, length: Estimate) -> Ends:
-    """Both ends of a Car of known length: its front tells its rear and the other way round."""
+    """Return both ends of a Car of known length, where each end constrains the other."""
     ahead, behind = _posterior(front, rear, length), _posterior(rear, front, length)
     centre_m = 0.5 * (ahead.value_m - behind.value_m)
     front_m, rear_m = centre_m + 0.5 * length.value_m, centre_m - 0.5 * length.value_m
@@ -149,7 +153,7 @@ def _between(front: EndEvidence, rear: EndEvidence, length: Estimate) -> Ends:
 
 
 def _posterior(end: EndEvidence, other: EndEvidence, length: Estimate) -> Estimate:
-    """Mean and standard deviation of one end."""
+    """Return mean and standard deviation of one end."""
     low, high = end.reach()
     nearest, farthest = other.reach()
     grid = np.linspace(min(low, length.value_m - farthest), max(high, length.value_m - nearest), GRID_POINTS)
@@ -162,7 +166,7 @@ def _posterior(end: EndEvidence, other: EndEvidence, length: Estimate) -> Estima
 
 
 def _excess(end: EndEvidence, other: EndEvidence, length: Estimate) -> float:
-    """How much the plane's length is more than the known one, by each end, m: at one of them something is wrong."""
+    """Return the excess of the measured length over the known one, per end, m; it indicates an error at one of them."""
     if end.level is None or other.level is None:
         return 0.0
     return 0.5 * max(0.0, end.level.level + other.level.level - length.value_m)

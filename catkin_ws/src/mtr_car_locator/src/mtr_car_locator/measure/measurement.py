@@ -1,4 +1,4 @@
-"""Size and centre of a Car whose rectangle has been found, with their uncertainty."""
+"""Size and centre of a Car with a known rectangle, with their uncertainties."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -26,19 +26,19 @@ from .side_profile import outermost, profile_of, summit
 from .tyre_faces import faces_in
 from .wheels import CarWheels, wheels_from
 
-# What lies on the outline is the Car's.
+# Surfels within this distance of the outline belong to the Car.
 BEYOND_M = 0.06
-# When nothing is seen of an end or a side each ordinary size is as likely: 1 sigma of a uniform distribution.
+# For an unseen end or side, each ordinary size is equally likely: 1 sigma of a uniform distribution.
 UNSEEN_SIGMA_M = {pair: (high - low) / math.sqrt(12.0)
                   for pair, (low, high) in ((ENDS, ORDINARY_LENGTH_M), (LONG_SIDES, ORDINARY_WIDTH_M))}
-# Tyres stand inside of the body by more than sills and bumpers do; 1 sigma of that on each side.
+# Tyres are farther inside the body than sills and bumpers; 1 sigma of that on each side.
 TYRE_INSET_SIGMA_M = 0.03
-# Returns so near the level that surfels show are the side's.
+# Gate of returns round the level from surfels.
 NEAR_M = 0.12
-# A level is wrong by what its profile does not show too, such as the sway of the robot: with this lengths and widths in
-# 36 drives with 2 cm of noise are as far off as their sigmas say.
+# Level error that is not visible in its profile, such as sway of the robot. With this value, length and width errors in
+# 36 drives with 2 cm of noise agree with their sigmas.
 LEVEL_SIGMA_M = 0.0008
-# Surfels need more support than returns do; so far beyond them there is a leg or a mirror.
+# Surfels need more support than returns do; farther out than this, a return belongs to a leg or a mirror.
 BEYOND_ROUGH_M = 0.04
 
 
@@ -52,7 +52,7 @@ class AlignedCar:
 
 
 def measured(seen: Surfels, found: AlignedCar, sheet: DataSheet, close_up: Optional[CloseUp]) -> CarFit:
-    """Centre, size, sigmas, outline and the surfels that are the Car's; quality is still 0."""
+    """Return centre, size, sigmas, outline and surfels of the Car; quality is still 0."""
     car, axis, wheels = found.car, found.axis, found.wheels
     in_car = seen.in_frame(car.pose)
     extents = extents_of(sides_of(in_car.where(belongs(in_car, car, BEYOND_M))), car)
@@ -65,7 +65,7 @@ def measured(seen: Surfels, found: AlignedCar, sheet: DataSheet, close_up: Optio
     sides = sides_across(extents, axis, sheet, on_wheels=wheels is not None)
     in_plane = seen.in_frame(plane.pose)
     outline = outline_of(in_plane.where(belongs(in_plane, plane, BEYOND_M)), plane, names)
-    # The Car's centre need not be midway between its bumpers in the plane.
+    # The Car's centre may differ from the middle between its bumpers in the scan plane.
     ahead = Pose2(ends.centre_m - (car.pose.inverse() @ plane.pose).x, 0.0, 0.0)
     mine = in_plane.where(plane.outside(in_plane.position) <= BEYOND_M).in_frame(ahead)
     width_m = plane.width + (2.0 * sheet.side_inset_m if all(name in extents for name in LONG_SIDES) else 0.0)
@@ -78,7 +78,7 @@ def measured(seen: Surfels, found: AlignedCar, sheet: DataSheet, close_up: Optio
 
 
 def _in_plane(rough: Rectangle, car: Rectangle, ends: Ends, seen: Dict[str, SideExtent]) -> Rectangle:
-    """The rectangle in the LiDARs' plane: bumpers that were seen, and for the others where the ends are."""
+    """Return the rectangle in the scan plane: bumpers that were seen, otherwise the ends."""
     ahead_m = seen["front"].level if "front" in seen else ends.front_m
     behind_m = -seen["rear"].level if "rear" in seen else ends.rear_m
     y_m = (car.pose.inverse() @ rough.pose).y
@@ -87,18 +87,18 @@ def _in_plane(rough: Rectangle, car: Rectangle, ends: Ends, seen: Dict[str, Side
 
 def sized(car: Rectangle, extents: Dict[str, SideExtent], axis: SymmetryAxis, wheels: Optional[CarWheels],
           sheet: DataSheet) -> Rectangle:
-    """Centre and size from the outermost levels."""
+    """Return centre and size from the outermost levels."""
     y, width = _span([extents.get(name) for name in LONG_SIDES], sheet.width_m)
     if wheels:
         x, length = wheels.ends.centre_m, wheels.ends.length_m
     else:
         x, length = _span([extents.get(name) for name in ENDS], sheet.length_m)
-    # The axis of symmetry tells more than two outermost points.
+    # The axis of symmetry is more accurate than two outermost points.
     return Rectangle(car.pose @ Pose2(x, 0.0 if axis.is_centred else y, 0.0), length, width)
 
 
 def extents_of(sides: Dict[str, Side], car: Rectangle) -> Dict[str, SideExtent]:
-    """Levels of the sides that surfels show."""
+    """Return the levels of the sides from surfels."""
     parts = {name: side.within(*middle_of(_reach(name, car), MIDDLE_SHARE)) if name in ENDS else side
              for name, side in sides.items()}
     found = {name: part.extent() for name, part in parts.items()}
@@ -107,7 +107,7 @@ def extents_of(sides: Dict[str, Side], car: Rectangle) -> Dict[str, SideExtent]:
 
 def finer(extents: Dict[str, SideExtent], close_up: CloseUp, car: Rectangle, ends: Sequence[str]
           ) -> Dict[str, SideExtent]:
-    """The same levels from all returns near them, as far as these tell; close_up is in the Car's frame."""
+    """Return the levels from all returns near them, if sufficient; close_up is in the Car's frame."""
     found = dict(extents)
     for name in (*LONG_SIDES, *ends):
         level = _close_level(name, extents[name], close_up, car) if name in extents else None
@@ -151,7 +151,7 @@ def _plane_size(extents: Dict[str, SideExtent]) -> PlaneSize:
 
 
 def _distance_between(sides: List[SideExtent]) -> Tuple[Optional[float], float]:
-    """Of two opposite sides, and its 1 sigma; None when fewer were seen."""
+    """Return the distance of two opposite sides and its 1 sigma; None if fewer were seen."""
     if len(sides) < 2:
         return None, 0.0
     return sides[0].level + sides[1].level, math.hypot(sides[0].sigma, sides[1].sigma)
@@ -168,7 +168,7 @@ class SidesAcross:
 
 def sides_across(extents: Dict[str, SideExtent], axis: SymmetryAxis, sheet: DataSheet, *,
                  on_wheels: bool) -> SidesAcross:
-    """How well both long sides are known. A body is symmetric: both stand back alike in the LiDARs' plane."""
+    """Return the uncertainty of both long sides. A body is symmetric: both have the same inset in the scan plane."""
     found = {name: extents[name].sigma for name in LONG_SIDES if name in extents}
     tyres_m = math.sqrt(2.0) * TYRE_INSET_SIGMA_M if on_wheels else 0.0
     if len(found) == 2:
@@ -178,14 +178,14 @@ def sides_across(extents: Dict[str, SideExtent], axis: SymmetryAxis, sheet: Data
         middle_m = axis.offset_sigma_m if axis.is_centred else 0.5 * own_m
         return SidesAcross(middle_m, width_m, 2 * (math.hypot(middle_m, 0.5 * width_m),))
     width_m = DATA_SHEET_SIGMA_M if sheet.known_width_m else UNSEEN_SIGMA_M[LONG_SIDES]
-    # Opposite insets cancel in the middle between two sides; that of a single one does not.
+    # Opposite insets cancel in the middle between two sides, but not for a single side.
     near_m = math.hypot(*found.values(), sheet.side_inset_sigma_m, 0.5 * tyres_m) if found else width_m
     left_m, right_m = (near_m if name in found else math.hypot(near_m, width_m) for name in LONG_SIDES)
     return SidesAcross(math.hypot(near_m, 0.5 * width_m), width_m, (left_m, right_m))
 
 
 def axles_in(close_up: CloseUp, extents: Dict[str, SideExtent], sheet: DataSheet) -> Optional[Axles]:
-    """Axles of a Car with a body at the LiDARs' height, by the tyres in its wheel arches; None without clear tyres.
+    """Return the axles of a Car with a body in the scan plane, from tyres in its wheel arches; None if unclear.
 
     close_up is in the frame of the extents.
     """
@@ -196,12 +196,12 @@ def axles_in(close_up: CloseUp, extents: Dict[str, SideExtent], sheet: DataSheet
 
 
 def ends_in(extents: Dict[str, SideExtent], axles: Optional[Axles], sheet: DataSheet) -> Ends:
-    """Front and rear from the bumpers that were seen, and from the axles where the overhang or a bumper is missing."""
+    """Return front and rear from seen bumpers, and from the axles if the overhang is known or a bumper is missing."""
     front, rear = extents.get("front"), extents.get("rear")
     ahead, behind = outwards_of(axles, sheet) if axles else (None, None)
     at_front = EndEvidence(front, sheet.front_inset_sigma_m, ahead if sheet.front_overhang_m or not front else None)
     at_rear = EndEvidence(rear, sheet.rear_inset_sigma_m, None if rear else behind)
-    # With the known wheelbase what stands as wheels do is the Car's wheels.
+    # With a known wheelbase, a matching arrangement identifies the Car's wheels.
     beyond_m = at_front.contradiction_m(is_axle_sure=bool(sheet.wheelbase_m))
     if beyond_m:
         at_front = replace(at_front, by_axle=None)

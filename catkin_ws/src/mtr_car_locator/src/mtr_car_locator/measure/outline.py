@@ -1,4 +1,4 @@
-"""The Car's outline as a polygon: what was seen of it, and where nothing was seen its rectangle or mirror image."""
+"""Outline polygon of the Car: seen parts, completed by its mirror image and its rectangle."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Iterable, List, Tuple
@@ -12,14 +12,17 @@ from ..rectangle import Point, Rectangle
 from ..surfels import Surfels
 from .side import ENDS, OUTWARDS
 
-# What reaches so far beyond the measured side is still the Car's: a mirror or a tow bar.
+# Parts within this distance beyond the measured side still belong to the Car, such as a mirror or a tow bar.
 PROTRUSION_M = 0.25
-# Corners that bend the outline less are left out.
+# Corners with a smaller bend are removed.
 MIN_BEND_M = 0.003
 
 
 def outline_of(surfels: Surfels, car: Rectangle, seen: Iterable[str]) -> Tuple[Point, ...]:
-    """Counterclockwise convex polygon round the Car's surfels, which are in its frame. A Car is symmetric."""
+    """Return the counterclockwise convex polygon round the Car's surfels, which are in its frame.
+
+    A Car is symmetric.
+    """
     ends = surfels.ends()
     ends = ends[car.outside(ends) <= PROTRUSION_M]
     points = np.vstack((ends, ends * (1.0, -1.0), *(_edge(name, car) for name in OUTWARDS)))
@@ -31,12 +34,12 @@ def outline_of(surfels: Surfels, car: Rectangle, seen: Iterable[str]) -> Tuple[P
 
 
 def rounded(car: Rectangle, margin_m: float) -> Tuple[Point, ...]:
-    """Outline of a Car of which nothing but its rectangle is known."""
+    """Return the outline of a Car that is known by its rectangle only."""
     return tuple(car.outline(margin_m))
 
 
 def _edge(name: str, car: Rectangle) -> FloatArray:
-    """A short piece in the middle of a side, so that the outline reaches every measured side."""
+    """Return a short piece in the middle of a side, so that the outline reaches every measured side."""
     return _piece(name, car, 0.1)
 
 
@@ -52,7 +55,7 @@ def _piece(name: str, car: Rectangle, share: float) -> FloatArray:
 
 
 def _simplified(corners: List[List[float]]) -> List[List[float]]:
-    """Without the corners at which the outline hardly bends, the flattest first."""
+    """Remove the corners with the smallest bends, the flattest first."""
     kept = list(corners)
     while len(kept) > 8:
         bends = [_bend(kept[index - 1], kept[index], kept[(index + 1) % len(kept)]) for index in range(len(kept))]
@@ -64,7 +67,7 @@ def _simplified(corners: List[List[float]]) -> List[List[float]]:
 
 
 def _bend(before: List[float], corner: List[float], after: List[float]) -> float:
-    """Distance of a corner from the line between its neighbours."""
+    """Return the distance of a corner from the line between its neighbours."""
     dx, dy = after[0] - before[0], after[1] - before[1]
     cross = dx * (corner[1] - before[1]) - dy * (corner[0] - before[0])
     return abs(cross) / max(math.hypot(dx, dy), 1e-9)

@@ -1,4 +1,4 @@
-"""The profile of one side of the Car from all returns near it, and the outermost level that it reaches."""
+"""Profile of one side of the Car from all returns near it, and its outermost level."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -12,24 +12,23 @@ from mtr_core.arrays import BoolArray, FloatArray, IntArray
 from .side import SideExtent
 
 BIN_M = 0.02
-# A bin with fewer returns is the smeared edge of something; the share is of the median bin.
+# A bin with fewer returns is a smeared edge; the share is relative to the median bin.
 MIN_RETURNS, MIN_SHARE_OF_MEDIAN = 20, 0.3
-# Returns farther than this from the middle of their bin are strays: 2.5 sigma of a LiDAR with 2 cm of noise.
+# Returns farther from the middle of their bin are strays: 2.5 sigma of a LiDAR with 2 cm of noise.
 STRAY_M = 2.5 * sensor_figures.WORST_RANGE_NOISE_M.value
-# Bins farther than this from a parabola count less.
+# Bins farther from a parabola have less weight.
 STRAY_SIGMAS = 3.0
 ROUNDS = 3
-# A piece of a long side is straight as long as the means scatter about its line by no more than their noise and this,
-# 1 sigma; the mean square, one bin and the bend must not exceed these, in sigmas.
+# A piece of a long side is straight if its means scatter about the line by at most their noise and this 1 sigma. The
+# mean square, a single bin and the bend must not exceed these limits, in sigmas.
 MIN_STRAIGHT_BINS, STRAIGHT_SIGMA_M, MAX_MEAN_SQUARE, MAX_SIGMAS, MAX_BEND_SIGMAS = 5, 0.0005, 3.0, 4.0, 3.0
-# Where the next bin falls away from the line by so much, a wheel arch begins in it, and its mean is smeared.
-# Where in it the arch begins is not known: somewhere within half a bin, as the standard deviation of a uniform
-# distribution.
+# A wheel arch begins in the next bin if it falls off the line by this much; the mean of that bin is smeared. The start
+# of the arch within the bin has the standard deviation of a uniform distribution.
 STEP_M, STEP_SIGMAS, EDGE_SIGMA_BINS = 0.003, 2.0, 0.29
-# So many bins beyond that, so near an end of the side, are the side of a short bumper; mirrors are farther from there.
-# It is smeared at the arch and bends towards the end: its outermost place is farther out by some millimetres.
+# Bins beyond the line, this near an end of the side, belong to a short bumper; mirrors are farther away. A short bumper
+# is smeared at the arch and curves towards the end: its outermost point is some millimetres farther out.
 SHORT_BINS, SHORT_REACH_M, SHORT_SIGMA_M = 3, 0.25, 0.005
-# A bumper is a parabola as far as it lies within this distance of its top; 1 sigma of its scatter about that.
+# Depth to which a bumper is a parabola; 1 sigma of its scatter.
 TOP_M, SHAPE_SIGMA_M, MIN_BUMPER_BINS = 0.01, 0.001, 8
 
 
@@ -47,13 +46,13 @@ class SideProfile:
         return (self.number + 0.5) * BIN_M
 
     def below(self, level_m: float) -> "SideProfile":
-        """Without the bins that reach farther out."""
+        """Return the profile without bins that reach farther out."""
         keep = self.level <= level_m
         return SideProfile(self.number[keep], self.level[keep], self.sigma[keep])
 
 
 def profile_of(along: FloatArray, outward: FloatArray) -> Optional[SideProfile]:
-    """SideProfile of returns; None when there are next to none."""
+    """Return the profile of returns; None with too few returns."""
     if len(along) < MIN_RETURNS:
         return None
     number = np.floor(along / BIN_M).astype(int)
@@ -72,7 +71,7 @@ def profile_of(along: FloatArray, outward: FloatArray) -> Optional[SideProfile]:
 
 
 def outermost(side: SideProfile) -> Optional[SideExtent]:
-    """Where a long side reaches farthest out: at the end of a straight piece, as beside a wheel arch."""
+    """Return the outermost level of a long side: at the end of a straight piece, as next to a wheel arch."""
     found = [end for piece in _straight_pieces(side) for end in piece.ends(side)]
     if not found:
         return None
@@ -81,9 +80,9 @@ def outermost(side: SideProfile) -> Optional[SideExtent]:
 
 
 def _with_unresolved_bumper(side: SideProfile, straight: SideExtent) -> SideExtent:
-    """The level, less sure by what stands out beyond it in single bins near the ends of the side.
+    """Return the level with a larger sigma if single bins near the ends of the side protrude.
 
-    A bumper that is round from the wheel arch on reaches its full width over a few centimetres only.
+    A bumper that is round from the wheel arch on has its full width over a few centimetres only.
     """
     from_end_m = BIN_M * np.minimum(side.number[-1] - side.number, side.number - side.number[0])
     beyond_m = side.level - straight.level
@@ -92,7 +91,7 @@ def _with_unresolved_bumper(side: SideProfile, straight: SideExtent) -> SideExte
 
 
 def summit(end: SideProfile) -> Optional[SideExtent]:
-    """How far an end reaches out: the top of the parabola through what is near it."""
+    """Return the outermost level of an end: the top of the parabola through nearby bins."""
     if len(end.number) < MIN_BUMPER_BINS:
         return None
     top = _top_of(end, np.ones(len(end.number), dtype=bool))
@@ -106,7 +105,7 @@ def summit(end: SideProfile) -> Optional[SideExtent]:
 
 @dataclass(frozen=True)
 class _Piece:
-    """Bins first to last of a profile, and the line through them: at its middle, and its rise from bin to bin."""
+    """Bins first to last of a profile, and the line through them: level at its middle, and rise per bin."""
 
     first: int
     last: int
@@ -115,7 +114,7 @@ class _Piece:
     sigma_m: float
 
     def ends(self, side: SideProfile) -> Iterator[SideExtent]:
-        """Levels at both ends; beside a wheel arch the piece goes on into the bin in which that begins."""
+        """Yield the levels at both ends; next to a wheel arch, the piece extends into the bin where the arch begins."""
         half = 0.5 * (self.last - self.first)
         count = self.last - self.first + 1
         for sign, beside, neighbour in ((1.0, self.last, self.last + 1), (-1.0, self.first, self.first - 1)):
@@ -128,7 +127,7 @@ class _Piece:
 
 
 def _short_bumper(side: SideProfile, straight: SideExtent) -> Optional[SideExtent]:
-    """What stands out farther than the straight pieces near an end of the side, and is shorter than these."""
+    """Return a part near an end of the side that protrudes beyond the straight pieces and is shorter than these."""
     found = None
     for first in range(len(side.number) - SHORT_BINS + 1):
         bins = slice(first, first + SHORT_BINS)
@@ -142,7 +141,7 @@ def _short_bumper(side: SideProfile, straight: SideExtent) -> Optional[SideExten
 
 
 def _straight_pieces(side: SideProfile) -> Iterator[_Piece]:
-    """Pieces that are as long as they can be."""
+    """Yield straight pieces of maximum length."""
     last = ended = -1
     for first in range(len(side.number) - MIN_STRAIGHT_BINS + 1):
         last = max(last, first + MIN_STRAIGHT_BINS - 1)
@@ -156,7 +155,7 @@ def _straight_pieces(side: SideProfile) -> Iterator[_Piece]:
 
 
 def _straight(side: SideProfile, first: int, last: int) -> Optional[_Piece]:
-    """The piece between two bins; None when it has gaps or is not straight."""
+    """Return the piece between two bins; None if it has gaps or is not straight."""
     if last >= len(side.number) or side.number[last] - side.number[first] != last - first:
         return None
     bins = np.arange(last - first + 1) - 0.5 * (last - first)
@@ -189,14 +188,14 @@ def _top_of_parabola(along: FloatArray, level: FloatArray, sigma: FloatArray) ->
 
 
 def _falls_away(side: SideProfile, beside: int, neighbour: int, expected_m: float) -> bool:
-    """True when the bin next to another lies clearly inside of where a straight line would go on."""
+    """Return True if the neighbouring bin is clearly inside of the continued line."""
     if not 0 <= neighbour < len(side.number) or abs(side.number[neighbour] - side.number[beside]) != 1:
         return False
     return bool(side.level[neighbour] < expected_m - STEP_M - STEP_SIGMAS * side.sigma[neighbour])
 
 
 def _medians(index: IntArray, values: FloatArray, count: int) -> FloatArray:
-    """Median of each group, 0 for an empty one."""
+    """Return the median of each group, 0 for an empty one."""
     order = np.lexsort((values, index))
     sizes = np.bincount(index, minlength=count)
     middle = np.minimum(np.cumsum(sizes) - sizes + sizes // 2, len(values) - 1)

@@ -1,4 +1,4 @@
-"""Outer faces of the tyres from all returns of the way round: what stands at a level, as long as a tyre is."""
+"""Outer faces of the tyres from all returns of the drive: parts of a level with the length of a tyre."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Tuple
 
@@ -12,23 +12,22 @@ from .side import OUTWARDS
 from .wheels import MAX_FACE_M, MIN_FACE_M, Face
 
 BIN_M = 0.01
-# Returns so near the level are the face's: noise, the robot's sway, and how far the level itself may be off.
+# Gate of returns round the level of a face, for noise, sway of the robot, and the error of the level.
 NEAR_M = 0.06
-# Sills and bumpers that the LiDARs meet now and then, where the ground is uneven, have a tenth of a face's returns.
+# Sills and bumpers that are met occasionally on uneven ground have a tenth of a face's returns.
 MIN_SHARE_OF_DENSEST, DENSEST_PERCENT = 0.25, 90.0
 MIN_RETURNS = 100
-# A shorter gap, in bins, is no end: on a Car whose tyres stand alone, and between a tyre and its wheel arch, which at
-# the height of the hub is 4 to 9 cm away. So many bins at both ends are smeared.
+# Shorter gaps, in bins, do not end a face: on a Car with free-standing tyres, and between a tyre and its wheel arch,
+# which is 4 to 9 cm away at the height of the hub. This number of bins at both ends is smeared.
 GAP_BINS, ARCH_GAP_BINS, SMEARED_BINS = 5, 2, 3
 
 
 def faces_in(close_up: CloseUp, name: str, level_m: float, *, in_arches: bool = False) -> List[Face]:
-    """The faces along the side `name` at its level, from the rear; close_up is in the Car's frame.
+    """Return the faces along the side `name` at its level, from the rear; close_up is in the Car's frame.
 
-    in_arches: the body is at that height, too, so that only the gaps of the wheel arches end a face.
-
-    A face ends where half as many returns are as in its midst: noise and the heights at which it was met smear both its
-    ends alike, so the middle is exact to millimetres although the length is not.
+    in_arches: the body is also at that height, so only the gaps of the wheel arches end a face. A face ends at half of
+    the return density of its middle. Noise and different heights smear both ends equally, so the middle is accurate to
+    millimetres although the length is not.
     """
     outwards = np.array(OUTWARDS[name])
     facing = close_up.beams @ outwards < -MIN_TYRE_INCIDENCE_COSINE
@@ -51,7 +50,7 @@ def _pieces(bins: IntArray, gap_bins: int) -> List[Tuple[int, int]]:
 
 
 def _ends(density: FloatArray, low: int, high: int) -> Tuple[float, float]:
-    """Where the density crosses half of what it is in the midst, in bins."""
+    """Return the positions where the density falls to half of its middle value, in bins."""
     half = 0.5 * float(np.median(density[low + SMEARED_BINS:high + 1 - SMEARED_BINS]))
     full = np.nonzero(density[low:high + 1] >= half)[0] + low
     return _crossing(density, full[0], -1, half), _crossing(density, full[-1], 1, half)

@@ -1,2 +1,2 @@
-"""The located Car in a file, with which a locator that is started again goes on."""
+"""Storage of the located Car in a file, from which a restarted locator resumes."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Keeps the located Car in a file, beside the node's ticks."""
+"""Background storage of the located Car in a file."""
 # SPDX-License-Identifier: Apache-2.0
 import concurrent.futures
 from typing import Any, Callable, Dict, Optional, Tuple
@@ -11,9 +11,9 @@ from .remembered import MemoryUnusable, RememberedCar, plain, remembered_from
 
 
 class CarKeeper:
-    """Reads at the start what a process of this run has kept, and writes each new frame of the Car.
+    """Reads the stored Car of this run at the start, and writes each new frame of the Car.
 
-    file: None keeps nothing. executor: a disk that is slow silences nobody. warn: takes sentences for the log.
+    file: None disables storage. executor: for a disk that must not delay ticks. warn: receives sentences for the log.
     """
 
     def __init__(self, file: Optional[MemoryFile], executor: concurrent.futures.Executor,
@@ -22,7 +22,7 @@ class CarKeeper:
         self._kept: Optional[Tuple[int, int, int]] = None
 
     def read(self) -> Optional[RememberedCar]:
-        """The Car of before; None where there is none, or none of use."""
+        """Return the previous Car; None if there is no usable one."""
         try:
             data = self._file.read() if self._file else None
             car = remembered_from(data) if data else None
@@ -34,7 +34,7 @@ class CarKeeper:
         return car
 
     def note(self, estimate: Estimate) -> None:
-        """Keep the Car of an estimate when its frame is new; forget it when it is not located any more."""
+        """Store the Car of an estimate if its frame is new; delete it if it is no longer located."""
         car = _remembered(estimate)
         frame = (car.map_revision, car.map_car_id, car.revision) if car else None
         if frame != self._kept and self._file is not None:

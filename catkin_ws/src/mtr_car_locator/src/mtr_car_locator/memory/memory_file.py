@@ -1,4 +1,4 @@
-"""A file with which a process that is started again in the same start of the robot goes on."""
+"""File of a process that can be restarted within one start of the robot."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os
@@ -9,16 +9,16 @@ from .remembered import MemoryUnusable
 
 
 class MemoryFile:
-    """Plain data of one run; those of another one count as none, for the robot may have been anywhere since."""
+    """Plain data of one run; data of another run are ignored, because the robot may have been moved since."""
 
     def __init__(self, path: pathlib.Path, run_id: str):
         self._path, self._run_id = path, run_id
 
     def read(self) -> Optional[Dict[str, Any]]:
-        """What was written in this run; None for nothing.
+        """Return the data written in this run, or None.
 
         Raises:
-            MemoryUnusable: there is a file that cannot be read.
+            MemoryUnusable: the file exists but cannot be read.
         """
         try:
             document = json.loads(self._path.read_text(encoding="utf-8"))
@@ -31,10 +31,10 @@ class MemoryFile:
         return document
 
     def write(self, data: Optional[Mapping[str, Any]]) -> None:
-        """Write the file whole, or not at all; None removes it.
+        """Write the file atomically; None removes it.
 
         Raises:
-            MemoryUnusable: that is not possible.
+            MemoryUnusable: the file cannot be written.
         """
         beside = self._path.with_name(self._path.name + ".part")
         try:

@@ -1,4 +1,4 @@
-"""The Car as a locator that is started again goes on with it, and as plain data for a file."""
+"""State of the Car for a restarted locator, and its conversion to plain data."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import asdict, dataclass
 from typing import Any, Dict, Mapping
@@ -14,20 +14,20 @@ from ..rectangle import Rectangle
 from ..scan import RangeBias
 from ..surfels import Surfels
 
-# Files of before it was kept do not say which bias the surfels are free of; data sheets allow for so much.
+# Files of older versions do not have the bias that the surfels are corrected for; the sigma is from data sheets.
 UNKNOWN_BIAS = RangeBias(sigma_m=sensor_figures.ASSUMED_RANGE_BIAS_M.value)
 
 
 class MemoryUnusable(RobotError):
-    """What was kept cannot be read."""
+    """Stored data that cannot be read."""
 
 
 @dataclass(frozen=True)
 class RememberedCar:
-    """A Car that was located.
+    """A located Car.
 
     Attributes:
-        map_revision: of localization's map, in whose frame it is.
+        map_revision: of the localization map, in whose frame it is.
         revision: of the Car's own frame.
         map_car_id: order to map that it answered.
     """
@@ -39,7 +39,7 @@ class RememberedCar:
 
 
 def plain(car: RememberedCar) -> Dict[str, Any]:
-    """The Car as lists, texts and numbers."""
+    """Convert the Car to lists, texts and numbers."""
     data = {name: value for name, value in vars(car).items() if name != "fit"}
     surfels = car.fit.surfels
     columns = (surfels.position, surfels.normal, surfels.length, surfels.sigma, surfels.hits)
@@ -48,10 +48,10 @@ def plain(car: RememberedCar) -> Dict[str, Any]:
 
 
 def remembered_from(data: Mapping[str, Any]) -> RememberedCar:
-    """The Car of plain data.
+    """Restore the Car from plain data.
 
     Raises:
-        MemoryUnusable: the data are none of a Car.
+        MemoryUnusable: the data do not describe a Car.
     """
     try:
         fit = dict(data["fit"])

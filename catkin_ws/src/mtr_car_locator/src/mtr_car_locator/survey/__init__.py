@@ -1,2 +1,2 @@
-"""The way round the Car, and the order to localization to map it."""
+"""Drive round the Car, and the mapping order to localization."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Places around the Car from which all its sides are seen, and the order in which the robot goes there."""
+"""Places around the Car from which all its sides are seen, and their order."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, Tuple
@@ -9,9 +9,9 @@ from ..rectangle import Rectangle
 
 
 class Ring:
-    """Eight places, two at each corner, and at the end the first one again, so that the loop is closed.
+    """Eight places, two at each corner, and the first one again at the end, to close the loop.
 
-    The order is fixed when the ring is made; the places follow the Car as it gets known better.
+    The order is fixed at construction; the places follow the improving estimate of the Car.
     """
 
     def __init__(self, robot: Pose2, car: Rectangle, distance_m: float):
@@ -24,17 +24,17 @@ class Ring:
 
     @property
     def done(self) -> int:
-        """Places that have been passed."""
+        """Number of passed places."""
         return len(self._passed)
 
     @property
     def total(self) -> int:
-        """Places that have been passed or are still ahead."""
+        """Number of passed and remaining places."""
         return len(self._passed) + len(self._ahead)
 
     @property
     def is_finished(self) -> bool:
-        """True when the robot has been everywhere it can go."""
+        """True if no reachable place remains."""
         return not self._ahead
 
     @property
@@ -44,24 +44,24 @@ class Ring:
         return self._left if is_closed or self._cannot_close else [*self._left, *first]
 
     def place(self, car: Rectangle) -> Pose2:
-        """Pose in map of the next place; the heading is that of the way from the place before."""
+        """Return the pose in map of the next place, with the heading of the path from the previous place."""
         places = _places(car, self._distance_m)
         x, y = places[self._ahead[0]]
         back_x, back_y = places[self._before()]
         return car.pose @ Pose2(x, y, math.atan2(y - back_y, x - back_x))
 
     def places_ahead(self, car: Rectangle) -> Tuple[Pose2, ...]:
-        """Places in map where the robot has still to go; their headings say nothing."""
+        """Return the remaining places in map; their headings have no meaning."""
         places = _places(car, self._distance_m)
         return tuple(car.pose @ Pose2(*places[index], 0.0) for index in self._ahead)
 
     def pass_place(self) -> None:
-        """The robot is there, or will never be."""
+        """Mark the place as passed or given up."""
         self._passed.append(self._ahead[0])
         self._left = self._left[1:]
 
     def turn_back(self) -> None:
-        """Something stands in the way: give the place up, and go round the other way to those that are left."""
+        """Give up a blocked place and visit the remaining ones the other way round."""
         self._cannot_close = not self._left
         self._left = self._left[:0:-1]
 
@@ -74,13 +74,13 @@ class Ring:
 
 
 def _places(car: Rectangle, distance_m: float) -> List[Tuple[float, float]]:
-    """Counterclockwise in the Car's frame, from the front's left."""
+    """Return the places counterclockwise in the Car's frame, from the left of the front."""
     x, y, d = 0.5 * car.length, 0.5 * car.width, distance_m
     return [(x + d, y), (x, y + d), (-x, y + d), (-x - d, y), (-x - d, -y), (-x, -y - d), (x, -y - d), (x + d, -y)]
 
 
 def _orders(start: Pose2, places: List[Tuple[float, float]]) -> List[List[int]]:
-    """Indices once round, counterclockwise and clockwise, beginning with the place next to the start."""
+    """Return indices of a circuit, counterclockwise and clockwise, starting with the place nearest to the start."""
     here = math.atan2(start.y, start.x)
     ahead = [math.remainder(math.atan2(y, x) - here, 2.0 * math.pi) % (2.0 * math.pi) for x, y in places]
     counterclockwise = sorted(range(len(places)), key=lambda k: ahead[k])

@@ -1,4 +1,4 @@
-"""What the locator asks of localization's mapper, and what it gets."""
+"""Requests to the mapper of localization, and its result."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from ..surfels import Surfels
 
 
 class MapPhase(enum.IntEnum):
-    """What localization's mapper shall do, as in MappingOrder."""
+    """Phase of the mapper, as in MappingOrder."""
 
     IDLE = 0
     COLLECT = 1
@@ -20,14 +20,14 @@ class MapPhase(enum.IntEnum):
 
 @dataclass(frozen=True)
 class SurfaceMap:
-    """Localization's adjusted map.
+    """Adjusted map of localization.
 
     Attributes:
-        map_id: number of the survey that it was made for.
-        revision: poses with this number are in it.
+        map_id: number of its survey.
+        revision: number of poses in this map.
         key_frames: rows (time in s, x, y, heading) of base_link.
-        message: why it is not valid.
-        range_bias: constant errors of the LiDARs' ranges, which the surfels are free of.
+        message: reason if it is not valid.
+        range_bias: constant range errors of the LiDARs, which the surfels are corrected for.
     """
 
     map_id: int

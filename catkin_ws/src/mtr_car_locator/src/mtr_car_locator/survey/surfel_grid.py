@@ -1,4 +1,4 @@
-"""Surfels made of LiDAR points as they come: the locator's own rough map while the robot goes round the Car."""
+"""Incremental surfels from LiDAR points: the locator's own rough map while the robot drives round the Car."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 from scipy import ndimage
@@ -9,27 +9,27 @@ from ..surfels import Surfels
 
 CELL_M = 0.08
 HALF_SIDE_M = 6.0
-# A cell that was hit less often is dirt in the air or the edge of a beam; a shorter one has no direction.
+# A cell with fewer hits is dirt in the air or the edge of a beam; a shorter one has no direction.
 MIN_HITS = 6
 MIN_LENGTH_M = 0.02
-# A surface that runs along the border of two cells leaves the tail of its noise in one of them: such a cell has fewer
-# hits than its neighbour.
+# A surface along the border of two cells leaves the tail of its noise in one of them, with fewer hits than in the
+# neighbour.
 MIN_SHARE_OF_NEIGHBOUR = 0.35
-# The spread of points does not show the rounding to a straight piece.
+# Lower bound of the sigma, for the approximation by a straight piece.
 SIGMA_FLOOR_M = 0.002
 
 
 class SurfelGrid:
-    """Square of cells about a centre in map; each keeps the moments of its points."""
+    """Square of cells about a centre in map; each stores the moments of its points."""
 
     def __init__(self, x: float, y: float):
         self._centre = np.array([x, y])
         self._side = round(2.0 * HALF_SIDE_M / CELL_M)
-        # The columns are hits, then sums of x, y, xx, xy, yy and of the unit vector towards the LiDAR.
+        # Columns: hits, then sums of x, y, xx, xy, yy and of the unit vector towards the LiDAR.
         self._sums = np.zeros((self._side ** 2, 8))
 
     def add(self, points: FloatArray, viewer: FloatArray) -> None:
-        """Take points (n, 2) in map, seen from viewer (2); those outside of the square do not count."""
+        """Add points (n, 2) in map, seen from viewer (2); points outside of the square are ignored."""
         shifted = points - self._centre
         cells = np.floor((shifted + HALF_SIDE_M) / CELL_M).astype(int)
         inside = np.all((cells >= 0) & (cells < self._side), axis=1)
@@ -42,7 +42,7 @@ class SurfelGrid:
             self._sums[:, number] += np.bincount(index, weights=values, minlength=len(self._sums))
 
     def surfels(self, pose_sigma_m: float) -> Surfels:
-        """One per cell; pose_sigma_m is how well the robot knew where it was."""
+        """Return one surfel per cell. pose_sigma_m: uncertainty of the robot's position."""
         hits = self._sums[:, 0].reshape(self._side, self._side)
         whole = (hits >= MIN_HITS) & (hits >= MIN_SHARE_OF_NEIGHBOUR * ndimage.maximum_filter(hits, 3))
         sums = self._sums[whole.ravel()]

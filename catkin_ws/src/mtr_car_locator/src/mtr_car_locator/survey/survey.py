@@ -1,4 +1,4 @@
-"""One mapping of the Car: the way round it, and the Car from what localization made of it."""
+"""Survey of the Car: the drive round it, and the fit to the map of localization."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import math
@@ -27,19 +27,19 @@ from .surfel_grid import SurfelGrid
 
 
 class Survey:
-    """Leads the robot round the Car, has the map adjusted, and fits the Car.
+    """Guides the robot round the Car, orders the map, and fits the Car.
 
     Attributes:
-        map_id: number of the map that localization shall make.
-        prior: where the Car should be.
-        car: what is known of the Car so far, the prior before it was seen.
-        was_seen: True when car comes from points.
+        map_id: number of the map for localization.
+        prior: expected Car.
+        car: present estimate of the Car, the prior before it was seen.
+        was_seen: True if car is based on points.
         fit: the Car, once it was found.
     """
 
     def __init__(self, prior: Prior, map_id: int, first_waypoint_id: int, parameters: LocatorParameters,
                  fits: Executor):
-        """fits: where the Car is fitted; it is waited for."""
+        """Create a survey. fits: executor of the fits, whose results are awaited."""
         self._parameters, self._fits = parameters, fits
         self._grid = SurfelGrid(prior.car.pose.x, prior.car.pose.y)
         self._way = WayRound(prior.car.pose.x, prior.car.pose.y)
@@ -56,19 +56,19 @@ class Survey:
 
     @property
     def phase(self) -> MapPhase:
-        """What localization shall do."""
+        """Order to localization."""
         return MapPhase.COLLECT if self._frozen_since_s is None else MapPhase.FREEZE
 
     @property
     def waypoint(self) -> Optional[Waypoint]:
-        """Where the robot shall go now."""
+        """Next waypoint of the robot."""
         if self._ring is None or self._ring.is_finished:
             return None
         return Waypoint(self._waypoint_id, CAR_LOCATOR, names.MAP, self._ring.place(self.car), Direction.FORWARD)
 
     @property
     def places_ahead(self) -> Tuple[Pose2, ...]:
-        """Where it has still to go."""
+        """Remaining places."""
         return self._ring.places_ahead(self.car) if self._ring else ()
 
     @property
@@ -78,7 +78,7 @@ class Survey:
 
     @property
     def progress(self) -> Problem:
-        """What it does now."""
+        """Message about the present activity."""
         if self._ring is None:
             return problems.FIRST_LOOK()
         if self._ring.is_finished:
@@ -86,7 +86,7 @@ class Survey:
         return problems.GOES_ROUND(place=self._ring.done + 1, total=self._ring.total)
 
     def collect(self, scans: Sequence[Scan], poses: PoseHistory) -> None:
-        """Take the returns of new scans."""
+        """Add the returns of new scans."""
         self._is_mapped = self._is_mapped or poses.newest.mode is PoseMode.MAPPING
         for scan in scans:
             seen = returns_in_map(scan, poses)
@@ -95,7 +95,7 @@ class Survey:
                 self._way.add(seen, scan.base_from_lidar)
 
     def advance(self, now_s: float, robot: RobotPose, result: Result) -> None:
-        """Lay the way round once the Car is seen; later go on to the next place.
+        """Plan the path once the Car is seen; later continue to the next place.
 
         result: of the motion planner at the present place.
         """
@@ -107,14 +107,13 @@ class Survey:
             self._go_on(self._ring, now_s, robot, result)
 
     def conclude(self, now_s: float, robot: RobotPose, surfaces: Optional[SurfaceMap]) -> None:
-        """After the way round: take the adjusted map once the robot's pose is in it; NotLocated when there is none."""
+        """Use the adjusted map after the drive once the robot's pose is in it; NotLocated if there is no valid one."""
         if self._ring is None or not self._ring.is_finished:
             return
         if self._frozen_since_s is None:
             self._frozen_since_s = now_s
         if not self._is_mapped and robot.mode is PoseMode.DEAD_RECKONING:
-            # A localization of wheels and gyro alone makes no map: what the locator has seen itself must do, and nobody
-            # knows its ranges' biases.
+            # Dead reckoning alone gives no map, so the locator's own surfels are used, with an unknown range bias.
             sigma_m = math.hypot(robot.position_sigma_m, sensor_figures.ASSUMED_RANGE_BIAS_M.value)
             self.fit = self._fits.submit(fit_car, self._grid.surfels(sigma_m), self.prior, self._parameters).result()
         elif surfaces is not None and surfaces.map_id == self.map_id:
@@ -126,7 +125,7 @@ class Survey:
             raise NotLocated(problems.MAP_LATE(limit_s=self._parameters.map_limit_s))
 
     def judge(self, surfaces: Optional[SurfaceMap]) -> None:
-        """NotLocated when the map of this way round cannot be used."""
+        """Raise NotLocated if the map of this drive is not usable."""
         if surfaces is not None and surfaces.map_id == self.map_id and not surfaces.valid:
             raise NotLocated(surfaces.message or problems.NO_MAP())
 
@@ -150,7 +149,7 @@ class Survey:
         self._blocked_since_s = None
 
     def _find_first(self, since_s: float, robot: RobotPose) -> None:
-        """Begin the way round once the Car is seen: nobody goes round what may stand elsewhere."""
+        """Start the drive once the Car is seen: without that, its place is too uncertain."""
         if since_s < self._parameters.look_first_s:
             return
         try:
@@ -162,13 +161,13 @@ class Survey:
         self._ring = Ring(robot.pose, self.car, self._parameters.ring_distance_m)
 
     def _find(self, robot: RobotPose) -> None:
-        """A better idea of the Car for the rest of the way; NotLocated when the points give none."""
+        """Improve the estimate of the Car for the rest of the path; NotLocated if the points do not allow one."""
         seen = self._grid.surfels(robot.position_sigma_m)
         self.car = self._fits.submit(rough_car, seen, self.prior, self._parameters).result()
         self.was_seen = True
 
 
 def _fit_to_map(surfaces: SurfaceMap, sweeps: Sweeps, prior: Prior, parameters: LocatorParameters) -> CarFit:
-    """The Car in the adjusted map, its size by all returns of the way round."""
+    """Return the Car in the adjusted map, with its size from all returns of the drive."""
     fit = fit_car(surfaces.surfels, prior, parameters, sweeps.close_up(surfaces.key_frames, surfaces.range_bias))
     return replace(fit, range_bias=surfaces.range_bias)

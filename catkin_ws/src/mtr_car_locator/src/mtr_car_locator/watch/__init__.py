@@ -1,2 +1,2 @@
-"""The Car seen again: whether it still stands where it was measured."""
+"""Repeated observation of the Car: detection of motion since its measurement."""
 # SPDX-License-Identifier: Apache-2.0

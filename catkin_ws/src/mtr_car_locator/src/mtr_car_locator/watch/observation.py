@@ -1,4 +1,4 @@
-"""An observation of the Car from where the robot stands."""
+"""Observation of the Car by a stationary robot."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from typing import List, Optional, Sequence
@@ -12,24 +12,24 @@ from .comparison import CarReference, Evidence
 
 # A robot that has just stopped still sways.
 SETTLING_S = 0.3
-# Points within this distance of the Car's outline may be its own.
+# Points within this distance of the Car's outline may belong to it.
 NEAR_M = 0.4
 
 
 class CarObservation:
-    """Collects scans while the robot stands, and compares them with the Car as it was measured.
+    """Collects scans of a stationary robot and compares them with the measured Car.
 
-    A robot that moves meanwhile begins again.
+    The observation restarts if the robot moves.
     """
 
     def __init__(self, duration_s: float, range_bias: RangeBias):
-        """range_bias: what the Car's surfels are free of."""
+        """Create an observation. range_bias: bias that the Car's surfels are corrected for."""
         self._duration_s, self._range_bias = duration_s, range_bias
         self._returns: List[Returns] = []
         self._first_s: Optional[float] = None
 
     def collect(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> None:
-        """Take scans of a robot that stands."""
+        """Add scans of a stationary robot."""
         if poses.stands_since_s is None or poses.standing_s(now_s) < SETTLING_S:
             self._returns, self._first_s = [], None
             return
@@ -41,11 +41,11 @@ class CarObservation:
                 self._returns.append(seen)
 
     def is_over(self, now_s: float) -> bool:
-        """True when it has lasted long enough."""
+        """Return True if the duration is reached."""
         return self._first_s is not None and now_s - self._first_s >= self._duration_s
 
     def result(self, car: CarFit, reference: CarReference, poses: PoseHistory) -> Optional[Evidence]:
-        """What it tells, None when it has seen too little of the Car."""
+        """Return the evidence; None if too little of the Car was seen."""
         near = [each for each in (_near(seen, car) for seen in self._returns) if len(each.points)]
         return reference.compare(near, car.rectangle.pose, poses.newest)
 

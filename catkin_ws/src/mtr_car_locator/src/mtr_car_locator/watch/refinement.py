@@ -1,4 +1,4 @@
-"""Observes the Car whenever the robot stands during a test, and tells when its frame has to change."""
+"""Observation of the Car whenever the robot is stationary during a test, with frame corrections."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -13,22 +13,22 @@ from ..scan import Scan
 from .comparison import CarReference, Evidence
 from .observation import SETTLING_S, CarObservation
 
-# A change has to stand out of its own uncertainty by this Mahalanobis distance (99.9 % of three degrees of freedom).
+# A change must exceed its uncertainty by this Mahalanobis distance (99.9 % of three degrees of freedom).
 SIGNIFICANT = 4.0
-# Two observations in a row have to agree.
+# Two consecutive observations must agree.
 AGREE_M, AGREE_RAD = 0.01, math.radians(0.3)
-# A robot that goes on standing observes again after this time; one observation costs some 20 ms.
+# A robot that remains stationary observes again after this time; one observation costs about 20 ms.
 AGAIN_AFTER_S = 10.0
-# A Car that is not seen at all for so long, from so near, has gone; somebody who walks by hides it for less.
+# A Car that is invisible for this time from this distance has gone; passing persons hide it for less.
 UNSEEN_LIMIT_S, SEEN_FROM_M = 5.0, 8.0
 
 
 @dataclass(frozen=True)
 class Change:
-    """The Car stands elsewhere than it was measured.
+    """A changed position of the Car.
 
     Attributes:
-        motion: of the Car in its own frame, None when it has gone.
+        motion: of the Car in its own frame, None if it has gone.
         is_correction: small enough to be applied.
         sigmas: 1 sigma of the motion's x, y (m) and heading (rad).
     """
@@ -39,7 +39,7 @@ class Change:
 
 
 class Refinement:
-    """Two observations that agree on a significant change make a Change; one that shows none ends them for a while."""
+    """Reports a Change after two agreeing significant observations; an insignificant one pauses the observation."""
 
     def __init__(self, car: CarFit, parameters: RefinementParameters):
         self._car, self._parameters = car, parameters
@@ -50,14 +50,14 @@ class Refinement:
         self._unseen_since_s: Optional[float] = None
 
     def wants_scans(self, now_s: float, poses: PoseHistory) -> bool:
-        """True while an observation is under way or due."""
+        """Return True while an observation is in progress or due."""
         if poses.standing_s(now_s) < SETTLING_S:
             self._satisfied_s = self._unseen_since_s = None
             return False
         return self._satisfied_s is None or now_s - self._satisfied_s >= AGAIN_AFTER_S
 
     def step(self, now_s: float, scans: Sequence[Scan], poses: PoseHistory) -> Optional[Change]:
-        """One tick; a change only while the robot stands."""
+        """Process one tick; a change is reported only while the robot is stationary."""
         if not self.wants_scans(now_s, poses):
             self._observation = None
             return None

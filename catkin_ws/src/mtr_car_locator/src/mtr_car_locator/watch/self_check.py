@@ -1,4 +1,4 @@
-"""Self-check: the Car seen anew from two places, compared with where it was."""
+"""Self-check: observation of the Car from two places, compared with its measured pose."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -18,15 +18,15 @@ from .corners import corners, nearest
 from .observation import CarObservation
 
 PLACES = 2
-# A place that is blocked longer than this is left out; the Car has four corners.
+# A place that is blocked longer is skipped; the Car has four corners.
 BLOCKED_LIMIT_S = 10.0
-# Standing at the place, the Car has to be seen by then.
+# Time limit for seeing the Car at the place.
 OBSERVATION_LIMIT_S = 5.0
 
 
 @dataclass(frozen=True)
 class CheckReport:
-    """Where the self-check stands; NaN while unknown."""
+    """State of the self-check; NaN while unknown."""
 
     check_id: int = 0
     state: Check = Check.NONE
@@ -36,10 +36,10 @@ class CheckReport:
 
 
 class SelfCheck:
-    """Goes to two corners of the Car and observes it from there.
+    """Drives to two corners of the Car and observes it from there.
 
     Attributes:
-        report: how it stands.
+        report: state of the check.
     """
 
     def __init__(self, check_id: int, now_s: float, robot: Pose2, car: CarFit, parameters: RefinementParameters):
@@ -54,16 +54,16 @@ class SelfCheck:
 
     @property
     def place(self) -> Optional[Pose2]:
-        """Where the robot shall stand now, in map; None when nothing is left to do."""
+        """Next place of the robot, in map; None when finished."""
         return self._places[0] if self._places and self.report.state is Check.RUNNING else None
 
     @property
     def places_ahead(self) -> Tuple[Pose2, ...]:
-        """Where it has still to go."""
+        """Remaining places."""
         return tuple(self._places[:PLACES - len(self._found)]) if self.place else ()
 
     def step(self, now_s: float, result: Result, scans: Sequence[Scan], poses: PoseHistory) -> None:
-        """One tick; result: what the motion planner says of the present place."""
+        """Process one tick; result: of the motion planner at the present place."""
         if self.report.state is not Check.RUNNING:
             return
         if result in (Result.PENDING, Result.IDLE):
@@ -116,7 +116,7 @@ class SelfCheck:
 
 
 def _order(places: List[Pose2], first: int) -> List[Pose2]:
-    """The nearest corner, the one beside it at the same end, and the others in case that one cannot be reached."""
+    """Return the nearest corner, the other one at the same end, and the remaining ones as replacements."""
     second = 3 - first
     rest = [index for index in range(len(places)) if index not in (first, second)]
     return [places[first], places[second], *(places[index] for index in rest)]
