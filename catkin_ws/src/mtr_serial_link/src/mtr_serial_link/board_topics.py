@@ -1,4 +1,4 @@
-"""What a board may offer: name, type and direction of each topic and service, as this machine expects them."""
+"""Expected topics and services of a board: name, type and direction of each."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Dict, Iterable, NamedTuple, Tuple
@@ -10,7 +10,7 @@ from .wire import ReservedId
 
 
 class Direction(enum.Enum):
-    """As a person writes it."""
+    """Direction as written in parameters."""
 
     FROM_BOARD = "from"
     TO_BOARD = "to"
@@ -18,7 +18,7 @@ class Direction(enum.Enum):
 
 
 class BoardTopic(NamedTuple):
-    """One topic or service; messages of a service go both ways."""
+    """One topic or service; a service has messages in both directions."""
 
     direction: Direction
     name: str
@@ -29,7 +29,7 @@ DIRECTION_OF: Dict[ReservedId, Direction] = {
     ReservedId.PUBLISHER: Direction.FROM_BOARD, ReservedId.SUBSCRIBER: Direction.TO_BOARD,
     ReservedId.SERVICE_REQUEST: Direction.SERVICE, ReservedId.SERVICE_RESPONSE: Direction.SERVICE}
 
-# Those of the project's own firmware, firmware/logic/link/endpoints.cpp.
+# Topics of the project's own firmware, firmware/logic/link/endpoints.cpp.
 FIRMWARE_TOPICS = (
     f"from {names.FIRMWARE_STATE} mtr_msgs/FirmwareState",
     f"from {names.FIRMWARE_HEALTH} mtr_msgs/FirmwareHealth",
@@ -41,7 +41,7 @@ FIRMWARE_TOPICS = (
 
 
 def board_topics(texts: Iterable[str]) -> Tuple[BoardTopic, ...]:
-    """The topics of "direction name type" each; ConfigurationError names one that is not."""
+    """Parse topics written as "direction name type"; ConfigurationError names an invalid one."""
     return tuple(_topic_of(text) for text in texts)
 
 

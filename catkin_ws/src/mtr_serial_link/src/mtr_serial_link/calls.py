@@ -1,18 +1,19 @@
-"""Calls of the device's services: one at a time, each with an end.
+"""Calls of the device's services: one at a time, each with a time limit.
 
-The protocol has no number that ties an answer to its call. So after a call that was not answered in time no other is
-made until the late answer has come or can come no more; else it would be taken for the next call's.
+The protocol has no number that links an answer to its call. After an unanswered call, further calls are therefore
+rejected until the late answer has arrived or is no longer expected. Otherwise it would be mistaken for the answer to
+the next call.
 """
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Optional
 
-# An answer that has not come within so many time-outs will not come any more.
+# Number of time-outs after which a late answer is no longer expected.
 OVERDUE_TIMEOUTS = 2.0
 
 
 class CallState(enum.Enum):
-    """How a service's newest call stands."""
+    """State of a service's newest call."""
 
     IDLE = 0
     WAITING = 1
@@ -21,11 +22,11 @@ class CallState(enum.Enum):
 
 
 class Calls:
-    """The calls of one service.
+    """Calls of one service.
 
     Attributes:
         answer: payload of the newest answered call.
-        late: answers that came after their call had failed.
+        late: number of answers that arrived after their call had failed.
     """
 
     def __init__(self, timeout_s: float):
@@ -36,7 +37,7 @@ class Calls:
         self.late = 0
 
     def begin(self, now_s: float) -> str:
-        """Start a call; returns why that is not possible now, or nothing."""
+        """Start a call; return the reason if that is not possible at present, otherwise an empty text."""
         state = self.state(now_s)
         if state is CallState.WAITING:
             return "another call is under way"
@@ -46,7 +47,7 @@ class Calls:
         return ""
 
     def take(self, answer: bytes, now_s: float) -> None:
-        """Take an answer of the device."""
+        """Accept an answer of the device."""
         if self.state(now_s) is CallState.WAITING:
             self._state, self.answer = CallState.ANSWERED, answer
         else:
@@ -55,11 +56,11 @@ class Calls:
                 self._state = CallState.IDLE
 
     def abort(self) -> None:
-        """The link is gone, and the answer with it."""
+        """Abort the call, because the link and its answer are lost."""
         self._state = CallState.IDLE
 
     def state(self, now_s: float) -> CallState:
-        """How the newest call stands."""
+        """Return the state of the newest call."""
         if self._state is CallState.WAITING and now_s >= self._until_s:
             self._state, self._until_s = CallState.OVERDUE, self._until_s + OVERDUE_TIMEOUTS * self._timeout_s
         if self._state is CallState.OVERDUE and now_s >= self._until_s:

@@ -1,4 +1,4 @@
-"""Topics and services in ROS for the endpoints of a device."""
+"""ROS topics and services for the endpoints of a device."""
 # SPDX-License-Identifier: Apache-2.0
 import io
 import threading
@@ -15,12 +15,12 @@ from .frames import SerialFrame
 from .wire import ReservedId
 
 SERVICE_PARTS = {"Request": "_request_class", "Response": "_response_class"}
-# The condition is checked once more when a call's time is over.
+# Margin for a final check of the condition at the end of a call's time limit.
 CALL_MARGIN_S = 0.05
 
 
 def class_of(type_name: str) -> Optional[Any]:
-    """Class of a message; of a part of a service for a name that ends in Request or Response; None if there is none."""
+    """Return the class of a message, or of a service part (name ends in Request or Response); None if unknown."""
     for part, attribute in SERVICE_PARTS.items():
         if type_name.endswith(part):
             service = _service_of(type_name[:-len(part)])
@@ -33,20 +33,20 @@ def class_of(type_name: str) -> Optional[Any]:
 
 
 def md5_of(type_name: str) -> Optional[str]:
-    """Checksum of this machine's definition."""
+    """Return the checksum of the local definition."""
     found = class_of(type_name)
     return found._md5sum if found else None
 
 
 def bytes_of(message: Any) -> bytes:
-    """A message in ROS's serial form, which is rosserial's payload."""
+    """Serialize a message in ROS format, which is also rosserial's payload."""
     buffer = io.BytesIO()
     message.serialize(buffer)
     return buffer.getvalue()
 
 
 class Connections:
-    """Publishers, subscribers and services: opened as the device describes them, closed when its port is gone."""
+    """Publishers, subscribers and services, opened from the device's descriptions and closed with its port."""
 
     def __init__(self, send: Callable[[str, bytes], None], service_timeout_s: float):
         self._send = send
@@ -57,7 +57,7 @@ class Connections:
         self._responses: Dict[int, ServiceBridge] = {}
 
     def open(self, endpoint: Endpoint) -> None:
-        """Serve an endpoint."""
+        """Open a topic or service for an endpoint."""
         kind, info = endpoint
         if kind is ReservedId.PUBLISHER:
             self._close_publishers(info.name)
@@ -76,7 +76,7 @@ class Connections:
                 self._responses[info.topic_id] = self._services[info.name]
 
     def take(self, frame: SerialFrame) -> str:
-        """Pass a message of the device on; returns a sentence when its bytes are no such message, else nothing."""
+        """Publish a message of the device; return a sentence if its bytes are invalid, otherwise an empty text."""
         if frame.topic_id in self._responses:
             self._responses[frame.topic_id].take(frame.payload)
             return ""
@@ -95,7 +95,7 @@ class Connections:
         return ""
 
     def close(self) -> None:
-        """Take everything down."""
+        """Close all topics and services."""
         for publisher in self._publishers.values():
             publisher.unregister()
         for name in list(self._subscribers):
@@ -117,7 +117,7 @@ class Connections:
 
 
 class ServiceBridge:
-    """A service of the device as a ROS service; a call that the device does not answer fails in time."""
+    """ROS service for a service of the device; an unanswered call fails at its time limit."""
 
     def __init__(self, name: str, service: Any, send: Callable[[str, bytes], None], timeout_s: float):
         self._name, self._send, self._timeout_s = name, send, timeout_s
@@ -128,13 +128,13 @@ class ServiceBridge:
         self._service = rospy.Service(name, service, self._call)
 
     def take(self, payload: bytes) -> None:
-        """Take an answer of the device."""
+        """Accept an answer of the device."""
         with self._changed:
             self._calls.take(payload, time.monotonic())
             self._changed.notify_all()
 
     def close(self) -> None:
-        """Let the calls that wait fail, and take the service down."""
+        """Fail pending calls and close the service."""
         with self._changed:
             self._closed = True
             self._calls.abort()

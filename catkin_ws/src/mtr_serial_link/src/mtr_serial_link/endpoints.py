@@ -1,32 +1,32 @@
-"""Topics and services that a device offers, checked against the message definitions of the host."""
+"""Topics and services of a device, checked against the host's message definitions."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Dict, List, NamedTuple, Optional, Sequence, Set, Tuple
 
 from .board_topics import DIRECTION_OF, BoardTopic
 from .wire import ReservedId, TopicInfo
 
-# Damaged names are not kept without end.
+# Limit for stored names, because names may be corrupt.
 MAX_REFUSED = 20
 
 
 class Endpoint(NamedTuple):
-    """One direction of a topic or service; kind says which."""
+    """One direction of a topic or service, given by kind."""
 
     kind: ReservedId
     info: TopicInfo
 
 
 class Endpoints:
-    """What the device has described so far.
+    """Endpoints that the device has described so far.
 
     Attributes:
         by_id: endpoints by their topic id.
-        refused: kinds and names that cannot be served as the device describes them now.
-        to_device: those that the host sends to (topics the device subscribes to, requests it serves), by name.
+        refused: kinds and names that are rejected as presently described.
+        to_device: endpoints that receive from the host (subscribed topics, service requests), by name.
     """
 
     def __init__(self, md5_of: Callable[[str], Optional[str]], expected: Sequence[BoardTopic] = ()):
-        """With expected topics no others are served; without, all that this machine knows."""
+        """Create the table. With expected topics, only these are accepted; otherwise all with a known type."""
         self._md5_of = md5_of
         self._expected = frozenset(expected)
         self._described: Set[BoardTopic] = set()
@@ -35,10 +35,10 @@ class Endpoints:
         self.refused: Set[Tuple[ReservedId, str]] = set()
 
     def add(self, kind: ReservedId, info: TopicInfo) -> Tuple[Optional[Endpoint], str]:
-        """Take a description.
+        """Add a description.
 
         Returns:
-            The endpoint if it is new or has changed, and a sentence if it cannot be served.
+            The endpoint if it is new or has changed, and a sentence if it is rejected.
         """
         refusal = self._refusal(kind, info)
         if refusal:
@@ -49,7 +49,7 @@ class Endpoints:
         endpoint = Endpoint(kind, info)
         if self.by_id.get(info.topic_id) == endpoint:
             return None, ""
-        # Each topic has one id; without this a board could fill the memory with them.
+        # Each topic has one id, so that a board cannot exhaust the memory with new ids.
         self.by_id = {topic_id: known for topic_id, known in self.by_id.items()
                       if (known.kind, known.info.name) != (kind, info.name)}
         self.by_id[info.topic_id] = endpoint
@@ -58,11 +58,11 @@ class Endpoints:
         return endpoint, ""
 
     def missing(self) -> List[str]:
-        """Names of expected topics that the device has not described yet."""
+        """Return the names of expected topics without a description so far."""
         return sorted({topic.name for topic in self._expected - self._described})
 
     def clear(self) -> None:
-        """Forget everything: another device may be plugged in."""
+        """Clear all descriptions, because another device may be connected."""
         self._described.clear()
         self.refused.clear()
         self.by_id.clear()

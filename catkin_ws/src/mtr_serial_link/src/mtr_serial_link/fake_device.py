@@ -1,4 +1,4 @@
-"""The device's side of the protocol in a few lines, for tests of the host's side."""
+"""Device side of the protocol, for tests of the host."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Dict, List, Sequence, Tuple
 
@@ -7,15 +7,15 @@ from .frames import FrameParser, SerialFrame, encode
 
 
 class FakeSerialDevice:
-    """Answers negotiation and requests, as a microcontroller with these endpoints would.
+    """Microcontroller with given endpoints, which answers negotiation and requests.
 
     Attributes:
-        endpoints: what it describes when asked, (kind, description).
-        answers: by topic id of a request, the topic id of its response and the function that makes it.
+        endpoints: described on request, (kind, description).
+        answers: topic id of a request -> topic id of its response and the function that computes it.
         received: messages on its own topics.
-        asked: how often it was asked for its topics.
-        times: times of the host's clock that it received, ns.
-        stopped: the host has said goodbye.
+        asked: number of requests for its topics.
+        times: received times of the host's clock, ns.
+        stopped: True after the host's stop message.
     """
 
     def __init__(self, endpoints: Sequence[Tuple[wire.ReservedId, wire.TopicInfo]] = ()):
@@ -28,11 +28,11 @@ class FakeSerialDevice:
         self._parser = FrameParser()
 
     def receive(self, data: bytes) -> bytes:
-        """Take bytes from the host; returns its answer."""
+        """Process bytes from the host and return the answer."""
         return b"".join(self._answer(frame) for frame in self._parser.feed(data))
 
     def ask_time(self) -> bytes:
-        """A TIME request."""
+        """Return a TIME request."""
         return encode(SerialFrame(wire.ReservedId.TIME, bytes(8)))
 
     def _answer(self, frame: SerialFrame) -> bytes:

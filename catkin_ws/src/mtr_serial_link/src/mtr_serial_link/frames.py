@@ -1,19 +1,19 @@
-"""Frames of the rosserial protocol, revision 2: bytes to frames and back.
+"""Frames of the rosserial protocol, revision 2: parser and encoder.
 
-Little-endian: FF, FE, length u16, its check, topic id u16, payload, check. No escaping, so FF FE may occur in a
-payload; a frame counts only when both checks agree. Source: rosserial 0.9, serial_node.py.
+Little-endian: FF, FE, length u16, its check, topic id u16, payload, check. There is no escaping, so FF FE may occur in
+a payload; a frame is valid only if both checks match. Source: rosserial 0.9, serial_node.py.
 """
 # SPDX-License-Identifier: Apache-2.0
 import struct
 from typing import List, NamedTuple
 
 SYNC = b"\xff\xfe"
-# Second byte of a frame of protocol revision 1.
+# Start bytes of protocol revision 1.
 SYNC_REVISION_1 = b"\xff\xff"
 HEADER = struct.Struct("<HBH")
 HEADER_BYTES = len(SYNC) + HEADER.size
 OVERHEAD_BYTES = HEADER_BYTES + 1
-# rosserial's host reads the length as a signed number; no message of a microcontroller comes near.
+# Limit, because rosserial's host reads the length as a signed number; messages of microcontrollers are much shorter.
 MAX_PAYLOAD_BYTES = 4096
 
 
@@ -25,7 +25,7 @@ class SerialFrame(NamedTuple):
 
 
 class FrameCounts(NamedTuple):
-    """Counters of a parser since its start; skipped_bytes lie outside of good frames."""
+    """Counters of a parser since its start; skipped_bytes are outside of valid frames."""
 
     frames: int = 0
     skipped_bytes: int = 0
@@ -34,7 +34,7 @@ class FrameCounts(NamedTuple):
 
 
 def encode(frame: SerialFrame) -> bytes:
-    """Bytes of a frame; ValueError when its payload is too long."""
+    """Return the bytes of a frame; ValueError if its payload is too long."""
     if len(frame.payload) > MAX_PAYLOAD_BYTES:
         raise ValueError(f"A payload of {len(frame.payload)} bytes does not fit; allowed are {MAX_PAYLOAD_BYTES}.")
     header = HEADER.pack(len(frame.payload), length_check(len(frame.payload)), frame.topic_id)
@@ -42,21 +42,21 @@ def encode(frame: SerialFrame) -> bytes:
 
 
 def length_check(length: int) -> int:
-    """Check of the two bytes of a length."""
+    """Return the check of the two length bytes."""
     return 255 - (length % 256 + length // 256) % 256
 
 
 def payload_check(topic_id: int, payload: bytes) -> int:
-    """Check of topic id and payload."""
+    """Return the check of topic id and payload."""
     return 255 - (topic_id % 256 + topic_id // 256 + sum(payload)) % 256
 
 
 class FrameParser:
-    """Takes bytes in pieces of any size and gives the good frames among them.
+    """Extracts valid frames from bytes in pieces of any size.
 
-    After damage it looks for the next FF FE from the byte behind the bad one on, so that one flipped bit never costs a
-    good frame that follows. A length that was damaged into a long one would hold up what follows it until so many bytes
-    have come; MAX_PAYLOAD_BYTES bounds that, and a gap in the stream ends it at once (`forget`).
+    After an error, the search for FF FE continues at the next byte, so that a flipped bit never costs a following valid
+    frame. A corrupt length could delay the following frames until that many bytes have arrived. MAX_PAYLOAD_BYTES
+    limits the delay, and a gap in the stream ends it at once (`forget`).
     """
 
     def __init__(self, max_payload_bytes: int = MAX_PAYLOAD_BYTES):
@@ -71,11 +71,11 @@ class FrameParser:
 
     @property
     def has_partial_frame(self) -> bool:
-        """True while part of a frame is waiting for its rest."""
+        """True while a frame is incomplete."""
         return bool(self._buffer)
 
     def feed(self, data: bytes) -> List[SerialFrame]:
-        """Frames that are complete now."""
+        """Add bytes and return the completed frames."""
         self._buffer += data
         found: List[SerialFrame] = []
         while self._seek():
@@ -98,8 +98,10 @@ class FrameParser:
         return found
 
     def forget(self) -> List[SerialFrame]:
-        """The rest of a frame under way will not come, nor that of one inside what was taken for its payload, and so
-        on: the good frames among all of it."""
+        """Give up an incomplete frame and return valid frames within its bytes.
+
+        The same applies to incomplete frames nested in these bytes.
+        """
         found: List[SerialFrame] = []
         while self._buffer:
             self._skip(1)
@@ -107,7 +109,7 @@ class FrameParser:
         return found
 
     def _seek(self) -> bool:
-        """Drop what precedes the next FF FE; True when a whole header is there."""
+        """Drop everything before the next FF FE; return True if a complete header is available."""
         start = self._buffer.find(SYNC)
         if start < 0:
             start = len(self._buffer) - (1 if self._buffer.endswith(SYNC[:1]) else 0)

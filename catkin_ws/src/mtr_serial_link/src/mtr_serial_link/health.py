@@ -1,4 +1,4 @@
-"""Counters of the serial line, and which one thing is wrong with it."""
+"""Counters of the serial line, and diagnosis of its most relevant problem."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -7,19 +7,19 @@ from typing import Dict, Optional
 from .frames import FrameCounts
 from .parameters import SerialParameters
 
-# The longest frame of a device that speaks this protocol is shorter: so many bytes without a frame are no accident.
+# Bytes without a frame that indicate a problem: longer than any frame of the protocol in use.
 MIN_BYTES_WITHOUT_FRAME = 200
 MIN_REVISION_1_SYNCS = 3
-# A disturbed line makes ever new sentences of damaged texts: so many are kept, of so many characters.
+# Limits of stored sentences and their lengths, because a disturbed line produces ever new corrupt texts.
 MAX_REFUSALS = 20
 MAX_REFUSAL_CHARACTERS = 200
 OTHER_REFUSALS = "other refusals"
-# One message that was too long, or one damaged description, is a warning for so long.
+# Duration of the warning after an oversized message or a corrupt description.
 REFUSAL_SHOWN_S = 60.0
 
 
 class LineProblem(enum.Enum):
-    """What is wrong with an open port; the value says it to a person."""
+    """Problem of an open port; the value is its text for a person."""
 
     NONE = ""
     WAITING = "is open and waits for the board's first message"
@@ -34,9 +34,9 @@ class LineHealth:
 
     Attributes:
         bytes_in, frames: received.
-        oversized: messages for the device that it cannot take.
-        unknown_topics: frames of topics that the device has not described.
-        refusals: sentences about what could not be served, with how often.
+        oversized: messages that exceed the buffer of the device.
+        unknown_topics: frames of topics without a description.
+        refusals: sentences about rejected items, with their counts.
         counts: of the parser.
     """
 
@@ -51,20 +51,20 @@ class LineHealth:
         self._revision_1_at_start = 0
 
     def start(self, now_s: float) -> None:
-        """The port has just been opened."""
+        """Reset the state after the port was opened."""
         self._started_s, self._now_s, self._frame_s = now_s, now_s, None
         self._bytes_at_frame = self.bytes_in
         self._revision_1_at_start = self.counts.revision_1_syncs
 
     def add_bytes(self, size: int, counts: FrameCounts, now_s: float) -> None:
-        """Count bytes that were received."""
+        """Count received bytes."""
         self.bytes_in += size
         self.counts = counts
         if self._frame_s == now_s:
             self._bytes_at_frame = self.bytes_in
 
     def add_frame(self, now_s: float) -> None:
-        """Count a good frame."""
+        """Count a valid frame."""
         self.frames += 1
         self._frame_s = self._now_s = now_s
 
@@ -77,7 +77,7 @@ class LineHealth:
         self.add_refusal(f"A message of {size} bytes for {name} was not sent: the firmware takes at most {limit}.")
 
     def add_refusal(self, sentence: str) -> bool:
-        """Count a sentence about what could not be served; True for one that is new and kept."""
+        """Count a sentence about a rejected item; return True for a new, stored one."""
         key = sentence[:MAX_REFUSAL_CHARACTERS]
         if key not in self.refusals and len(self.refusals) >= MAX_REFUSALS:
             key = OTHER_REFUSALS
@@ -86,11 +86,11 @@ class LineHealth:
         return key != OTHER_REFUSALS and self.refusals[key] == 1
 
     def has_refused_lately(self, now_s: float) -> bool:
-        """True for some time after a refusal."""
+        """Return True for some time after a refusal."""
         return now_s - self._refused_s <= REFUSAL_SHOWN_S
 
     def problem(self, now_s: float) -> LineProblem:
-        """What is wrong now."""
+        """Return the present problem."""
         if self._frame_s is not None and now_s - self._frame_s <= self._parameters.lost_after_s:
             return LineProblem.NONE
         bytes_since_frame = self.bytes_in - self._bytes_at_frame

@@ -1,4 +1,4 @@
-"""Runs a session on a port in a thread of its own: opens, reads, writes, and opens again after a replug."""
+"""Thread that runs a session on a port: opens, reads, writes, and reopens after a reconnection."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import contextlib
@@ -20,28 +20,28 @@ MAX_QUEUED_PER_TOPIC = 4
 
 
 class LineObserver:
-    """Is called in the line's thread when something happens; this one ignores it."""
+    """Callbacks in the line's thread; the default implementation does nothing."""
 
     def event(self, event: SessionEvent) -> None:
-        """The session has something to act on."""
+        """Handle an event of the session."""
 
     def closed(self, reason: str) -> None:
-        """The port is gone; nothing of the device is known any more."""
+        """Handle the loss of the port; all knowledge about the device is invalid."""
 
     def tick(self, now_s: float) -> None:
-        """Called in each turn, at least once in TICK_S."""
+        """Called in each iteration, at least once in TICK_S."""
 
     def ended(self) -> None:
-        """The thread ends."""
+        """Handle the end of the thread."""
 
 
 class SerialLine:
-    """The port's thread.
+    """Thread of the port.
 
     Attributes:
-        session: with the device; to be used in the line's thread only, but for its health.
-        trouble: why the port is not open, empty when it is.
-        dropped: messages and frames that were older than the line could carry, or of before a gap.
+        session: with the device; only for use in the line's thread, except for its health.
+        trouble: reason why the port is not open, empty if it is.
+        dropped: messages and frames that were too old, exceeded the line's capacity, or preceded a gap.
     """
 
     def __init__(self, open_port: Callable[[], SerialPort], session: SerialSession, observer: LineObserver):
@@ -68,13 +68,13 @@ class SerialLine:
         self._thread.start()
 
     def stop(self) -> None:
-        """Say goodbye to the device and end; returns when the port is closed."""
+        """Send a stop message to the device and end; returns after the port is closed."""
         self._stopping.set()
         self._wake()
         self._thread.join()
 
     def send(self, name: str, payload: bytes) -> None:
-        """Queue a message for the device; may be called from any thread."""
+        """Queue a message for the device; thread-safe."""
         with self._lock:
             queue = self._queues.setdefault(name, collections.deque(maxlen=MAX_QUEUED_PER_TOPIC))
             self._outrun += len(queue) == MAX_QUEUED_PER_TOPIC
@@ -82,7 +82,7 @@ class SerialLine:
         self._wake()
 
     def _wake(self) -> None:
-        # A full pipe means that it is awake already.
+        # A full pipe means that the thread is already awake.
         with contextlib.suppress(BlockingIOError):
             os.write(self._wake_write, b"w")
 
@@ -115,11 +115,11 @@ class SerialLine:
             self._observer.closed(reason)
 
     def _serve(self, port: SerialPort) -> None:
-        """Until stopped; PortError when the port is gone."""
+        """Serve the port until stopped; PortError if the port is lost."""
         self.trouble = ""
         self._unsent.clear()
         self.session.outbox.clear()
-        # What was ordered while there was no port is not meant for now.
+        # Messages queued without a port are outdated.
         self._take_queued(is_deaf=True)
         self.session.start(time.monotonic())
         ready = select.poll()

@@ -1,4 +1,4 @@
-"""The serial bridge as a ROS node: the firmware's topics and services as if it were a node itself."""
+"""ROS node of the serial bridge: publishes the firmware's topics and services as if it were a node."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import threading
@@ -24,10 +24,10 @@ from .session import SerialSession, SessionEvent
 from .status import LINKED, SerialLineStatus, Severity, StatusReports, line_status
 
 LOG = (rospy.logdebug, rospy.loginfo, rospy.logwarn, rospy.logerr, rospy.logfatal)
-# Of a line of the board's log, characters; and how often it may say one of a level, s.
+# Longest logged text of the board in characters, and shortest period of log lines per level, s.
 MAX_LOGGED, LOG_PERIOD_S = 200, 1.0
 LEVELS = (DiagnosticStatus.OK, DiagnosticStatus.WARN, DiagnosticStatus.ERROR)
-# Changes in quick succession all leave.
+# Size for changes in quick succession, none of which may be lost.
 DIAGNOSTICS_QUEUED = 10
 MAX_TOPICS = 100
 HOST = "builtin"
@@ -35,11 +35,13 @@ HOST = "builtin"
 
 @dataclass(frozen=True)
 class BridgeParameters(SerialParameters):
-    """Attributes:
-        port: path of the board, best the one in /dev/serial/by-id, which stays with the board.
-        topics: what the board may offer, each "from NAME TYPE", "to NAME TYPE" or "service NAME TYPE"; by default those
-            of the project's own firmware.
-        host: which program serves the line, as robot.launch was asked; there is none but this one.
+    """Parameters of the bridge.
+
+    Attributes:
+        port: path of the board, preferably in /dev/serial/by-id, which is permanent for a board.
+        topics: allowed topics of the board, each "from NAME TYPE", "to NAME TYPE" or "service NAME TYPE"; by default
+            those of the project's own firmware.
+        host: program that serves the line, as selected in robot.launch; only this one is available.
     """
 
     port: str = "/dev/serial/by-id/missing"
@@ -56,7 +58,7 @@ class BridgeParameters(SerialParameters):
 
 
 class SerialBridgeNode(LineObserver):
-    """Owns the line, and serves in ROS what the device offers."""
+    """Owns the line and connects the device's topics and services with ROS."""
 
     def __init__(self, parameters: BridgeParameters):
         self._parameters, self._throttle = parameters, Throttle(LOG_PERIOD_S)
@@ -79,7 +81,7 @@ class SerialBridgeNode(LineObserver):
             raise RuntimeError("The thread of the serial line has ended.")
 
     def event(self, event: SessionEvent) -> None:
-        """The session has something to act on; called in the line's thread."""
+        """Handle an event of the session; called in the line's thread."""
         if event.message:
             problem = self._connections.take(event.message)
             if problem:
@@ -92,7 +94,7 @@ class SerialBridgeNode(LineObserver):
             rospy.logerr("%s", event.refused)
 
     def _pass_on(self, level: int, text: str) -> None:
-        """Log what the board says; one that never stops gets a line of each level and period."""
+        """Log a text of the board; excessive logging is limited to one line per level and period."""
         said = self._throttle.passed(level, text[:MAX_LOGGED], time.monotonic())
         if said:
             LOG[level]("Firmware: %s", said)
@@ -102,28 +104,28 @@ class SerialBridgeNode(LineObserver):
         rospy.loginfo("Firmware: %s, %s.", info.name, info.type_name)
         try:
             self._connections.open(endpoint)
-        # Of the name, the type, or the master: the board's other topics go on.
+        # Invalid name or type, or an unavailable master: other topics of the board are not affected.
         except (rospy.ROSException, ValueError, TypeError, OSError, xmlrpc.client.Error) as error:
             sentence = f"{info.name} of the firmware could not be served: {error}."
             if self._line.session.health.add_refusal(sentence):
                 rospy.logerr("%s", sentence)
 
     def closed(self, reason: str) -> None:
-        """The port is gone; called in the line's thread."""
+        """Close all topics after the loss of the port; called in the line's thread."""
         self._connections.close()
 
     def ended(self) -> None:
-        """The line's thread ends; without it there is nothing left to do."""
+        """Stop the node after the end of the line's thread."""
         self._stopped.set()
 
     def tick(self, now_s: float) -> None:
-        """Report how the line is, and log it when it changes; called in the line's thread."""
+        """Publish the status of the line and log its changes; called in the line's thread."""
         session = self._line.session
         status = line_status(self._parameters.port, self._line.trouble, session.problem(now_s),
                              bool(session.endpoints.refused) or session.health.has_refused_lately(now_s),
                              session.missing)
         if self._reports.is_due(status, now_s):
-            # A shutdown closes the topic while the line still runs.
+            # During shutdown, the topic may be closed while the line still runs.
             with contextlib.suppress(rospy.ROSException):
                 self._diagnostics.publish(self._diagnostics_message(status))
         if status.sentence != self._logged:
@@ -156,5 +158,5 @@ class SerialBridgeNode(LineObserver):
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("serial_bridge", BridgeParameters, SerialBridgeNode)

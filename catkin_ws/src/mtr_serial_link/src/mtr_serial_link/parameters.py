@@ -7,15 +7,15 @@ from mtr_core.parameters import ParameterSet, number
 
 @dataclass(frozen=True)
 class SerialParameters(ParameterSet):
-    """How the line is used and judged.
+    """Parameters of the line and its supervision.
 
     Attributes:
         baud: of the UART; 57600 is rosserial's default and exact within 0.8 % on a 16 MHz board.
-        lost_after_s: without a good frame for longer, the device is lost.
-        ask_every_s: a device that is not known or lost is asked for its topics so often.
-        frame_gap_s: a frame does not go on after a pause of this length; a device sends it in one go.
-        max_payload_bytes: longer frames are damage.
-        service_timeout_s: a call that is not answered by then has failed.
+        lost_after_s: time without a valid frame after which the device is lost.
+        ask_every_s: period of topic requests to an unknown or lost device.
+        frame_gap_s: pause after which an incomplete frame is given up; a device sends a frame without pauses.
+        max_payload_bytes: larger frames are corrupt.
+        service_timeout_s: time limit of a call.
     """
 
     baud: int = number(57600, 9600, 1000000, "baud")

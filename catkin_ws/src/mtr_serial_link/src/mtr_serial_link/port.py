@@ -1,4 +1,4 @@
-"""The serial port as a file that one program has for itself."""
+"""Serial port as a file with exclusive access."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import errno
@@ -13,11 +13,11 @@ from mtr_core.errors import RobotError
 
 
 class PortError(RobotError):
-    """The port cannot be used; the text says why and what to do."""
+    """The port cannot be used; the text has the reason and a remedy."""
 
 
 class SerialPort:
-    """An open port; reads and writes never wait.
+    """An open port with non-blocking reads and writes.
 
     Attributes:
         fd: for poll().
@@ -30,12 +30,12 @@ class SerialPort:
         except (serial.SerialException, OSError, ValueError) as error:
             raise PortError(reason_of(path, error)) from error
         self.fd = self._serial.fileno()
-        # The lock above keeps out programs that ask for it; TIOCEXCL keeps out the others.
+        # The lock above excludes cooperating programs; TIOCEXCL excludes all others.
         with contextlib.suppress(OSError):
             fcntl.ioctl(self.fd, termios.TIOCEXCL)
 
     def read(self) -> bytes:
-        """Bytes received so far; PortError when the device is gone."""
+        """Return the bytes received so far; PortError if the device is gone."""
         try:
             data = os.read(self.fd, 4096)
         except BlockingIOError:
@@ -47,7 +47,7 @@ class SerialPort:
         return data
 
     def write(self, data: bytes) -> int:
-        """Number of bytes that were taken; PortError when the device is gone."""
+        """Return the number of written bytes; PortError if the device is gone."""
         try:
             return os.write(self.fd, data)
         except BlockingIOError:
@@ -62,7 +62,7 @@ class SerialPort:
 
 
 def reason_of(path: str, error: BaseException) -> str:
-    """One sentence that says why a port did not open."""
+    """Return one sentence about the reason why a port could not be opened."""
     number: Optional[int] = getattr(error, "errno", None)
     if number is None and isinstance(error.__context__, OSError):
         number = error.__context__.errno

@@ -1,13 +1,13 @@
-"""Frames for the port: bounded in bytes and age, and given up after a gap in which nobody served the line."""
+"""Queue of frames for the port, limited in bytes and age, and cleared after a gap in the service of the line."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import math
 from typing import Deque, Iterable, NamedTuple
 
-# A line of 57600 baud carries so much in MAX_AGE_S; what is older the firmware would refuse.
+# A line of 57600 baud transmits this in MAX_AGE_S; the firmware would reject older messages.
 MAX_BYTES = 3000
 MAX_AGE_S = 0.5
-# A turn of the line takes 0.1 s at most. After a longer gap messages of before it still arrive for a moment.
+# An iteration of the line lasts at most 0.1 s. After a longer gap, outdated messages still arrive for a moment.
 GAP_S = 0.5
 DEAF_S = 0.2
 
@@ -18,10 +18,10 @@ class _Queued(NamedTuple):
 
 
 class SendQueue:
-    """Frames that the port has not taken yet; times are of a clock that never steps.
+    """Frames that are not yet written to the port; times are of a monotonic clock.
 
     Attributes:
-        dropped: frames and messages that were given up.
+        dropped: number of discarded frames and messages.
     """
 
     def __init__(self) -> None:
@@ -35,12 +35,12 @@ class SendQueue:
         return bool(self._rest or self._frames)
 
     def clear(self) -> None:
-        """A new port: nothing of before is meant for it."""
+        """Discard everything, because a new port must not receive earlier messages."""
         self._frames.clear()
         self._rest, self._turn_s, self._deaf_until_s = b"", math.inf, -math.inf
 
     def is_deaf(self, now_s: float) -> bool:
-        """True shortly after a gap since the last turn; to be asked in each turn, before anything is sent."""
+        """Return True shortly after a gap since the last iteration; must be called in each iteration before sending."""
         if now_s - self._turn_s > GAP_S:
             self._deaf_until_s = now_s + DEAF_S
             self.dropped += len(self._frames)
@@ -49,7 +49,7 @@ class SendQueue:
         return now_s < self._deaf_until_s
 
     def put(self, frames: Iterable[bytes], now_s: float) -> None:
-        """Queue frames, whole ones."""
+        """Queue complete frames."""
         self._frames.extend(_Queued(data, now_s) for data in frames)
         excess = sum(len(frame.data) for frame in self._frames) - MAX_BYTES
         while excess > 0:
@@ -57,7 +57,7 @@ class SendQueue:
             self.dropped += 1
 
     def next(self, now_s: float) -> bytes:
-        """What the port shall take now; a frame that has begun goes on, however old."""
+        """Return the bytes for the port; a partly written frame is always completed."""
         while self._frames and now_s - self._frames[0].since_s > MAX_AGE_S:
             self._frames.popleft()
             self.dropped += 1
@@ -66,5 +66,5 @@ class SendQueue:
         return self._rest
 
     def taken(self, count: int) -> None:
-        """The port took so many bytes of what `next` gave."""
+        """Mark bytes returned by `next` as written."""
         self._rest = self._rest[count:]

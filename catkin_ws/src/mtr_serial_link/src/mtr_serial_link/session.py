@@ -1,6 +1,6 @@
 """One rosserial session with a device, without port and ROS: bytes, times and messages in, bytes and events out.
 
-Times are seconds of a clock that never steps; only the answer to the device's TIME request is the robot's clock.
+Times are seconds of a monotonic clock; only the answer to the device's TIME request uses the robot's clock.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -13,29 +13,29 @@ from .frames import FrameParser, SerialFrame, encode
 from .health import LineHealth, LineProblem
 from .parameters import SerialParameters
 
-# Each question costs a tenth of a second of the line: one that was not answered is asked again after twice the time.
+# A request occupies the line for a tenth of a second; unanswered ones are repeated with doubled periods up to this.
 MAX_MISSING_PERIOD_S = 8.0
-# Names of others are not kept.
+# Limit for stored names.
 MAX_MISSED = 20
 
 
 class SessionEvent(NamedTuple):
-    """Something that the outside has to act on; exactly one field is set."""
+    """Event for the owner of the session; exactly one field is set."""
 
     opened: Optional[Endpoint] = None     # a topic or service of the device is known
     message: Optional[SerialFrame] = None       # a message of a known endpoint; topic_id is the endpoint's
-    log: Optional[wire.LogLine] = None    # the device says a sentence
-    refused: str = ""                     # an endpoint cannot be served, and why
+    log: Optional[wire.LogLine] = None    # a log line of the device
+    refused: str = ""                     # an endpoint was rejected, with the reason
 
 
 class SerialSession:
-    """Negotiates with the device, passes messages both ways, and judges the line.
+    """Negotiates with the device, passes messages in both directions, and supervises the line.
 
     Attributes:
-        endpoints: of the device, as far as it has described them.
-        missing: names of its topics for which it was asked again, as their description has not come whole.
+        endpoints: of the device, as far as described.
+        missing: names of its topics that were requested again, because their description did not arrive intact.
         health: counters and the state of the line.
-        outbox: bytes for the port, in order; whoever writes them takes them out.
+        outbox: bytes for the port, in order; the owner writes and removes them.
     """
 
     def __init__(self, parameters: SerialParameters, md5_of: Callable[[str], Optional[str]],
@@ -54,15 +54,15 @@ class SerialSession:
         self.outbox: List[bytes] = []
 
     def start(self, now_s: float) -> None:
-        """The port has just been opened."""
+        """Start negotiation after the port was opened."""
         self.health.start(now_s)
         self._missed.clear()
         self.missing, self._missing_period_s = [], self._parameters.ask_every_s
         self._ask(now_s)
 
     def receive(self, data: bytes, now_s: float) -> List[SessionEvent]:
-        """Take bytes from the port; returns what there is to act on."""
-        # A frame that was cut off does not go on after a pause: a device sends a frame in one go.
+        """Process bytes from the port and return the events."""
+        # After a pause, an incomplete frame is given up: a device sends a frame without pauses.
         frames = self._parser.forget() if now_s - self._byte_s > self._parameters.frame_gap_s else []
         frames += self._parser.feed(data)
         self._byte_s = now_s
@@ -72,7 +72,7 @@ class SerialSession:
         return self._flush()
 
     def tick(self, now_s: float) -> List[SessionEvent]:
-        """To be called at least ten times a second: asks a silent device for its topics."""
+        """Must be called at least ten times per second: requests topics from a silent device and returns events."""
         if self._parser.has_partial_frame and now_s - self._byte_s > self._parameters.frame_gap_s:
             for frame in self._parser.forget():
                 self._take(frame, now_s)
@@ -84,7 +84,10 @@ class SerialSession:
         return self._flush()
 
     def send(self, name: str, payload: bytes) -> bool:
-        """Send a message to the device; False if it has no such topic or cannot take it, which is counted."""
+        """Send a message to the device.
+
+        Returns False, and counts it, if the topic is unknown or the message too long.
+        """
         endpoint = self.endpoints.to_device.get(name)
         if endpoint is None or len(payload) > endpoint.info.buffer_bytes:
             self.health.add_dropped(name, len(payload), endpoint.info.buffer_bytes if endpoint else None)
@@ -95,11 +98,11 @@ class SerialSession:
         return True
 
     def stop(self) -> None:
-        """Say goodbye to the device."""
+        """Send a stop message to the device."""
         self._put(SerialFrame(wire.ReservedId.STOP, b""))
 
     def problem(self, now_s: float) -> LineProblem:
-        """What is wrong with the line."""
+        """Return the problem of the line."""
         return self.health.problem(now_s)
 
     def _take(self, frame: SerialFrame, now_s: float) -> None:
@@ -132,13 +135,13 @@ class SerialSession:
         self.health.add_refusal("The firmware asks for a parameter; this bridge serves none.")
 
     def _unknown(self, now_s: float) -> None:
-        """The device goes on from an earlier session, or its description was lost on the way."""
+        """Request topics: the device continues an earlier session, or its description was lost."""
         self.health.unknown_topics += 1
         if now_s - self._asked_s >= self._parameters.ask_every_s:
             self._ask(now_s)
 
     def _look_for_missing(self, now_s: float) -> None:
-        """Ask again for a topic whose description was damaged: nothing else would show that it is missing."""
+        """Request a topic again after a corrupt description, which is not noticeable otherwise."""
         self._missed -= set(self.endpoints.to_device)
         missing = sorted(self._missed.union(self.endpoints.missing()))
         if not missing:

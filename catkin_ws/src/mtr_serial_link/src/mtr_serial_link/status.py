@@ -1,4 +1,4 @@
-"""How the line is, for a person, and when that is to be reported."""
+"""Status of the line for a person, and timing of its reports."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -11,7 +11,7 @@ REPORT_PERIOD_S = 1.0
 
 
 class Severity(enum.IntEnum):
-    """How bad a status is; the numbers are those of diagnostic_msgs/DiagnosticStatus."""
+    """Severity of a status; values of diagnostic_msgs/DiagnosticStatus."""
 
     OK = 0
     WARN = 1
@@ -19,7 +19,7 @@ class Severity(enum.IntEnum):
 
 
 class SerialLineStatus(NamedTuple):
-    """How the line is, in a word or a sentence."""
+    """Status of the line as a severity and a sentence."""
 
     severity: Severity
     sentence: str
@@ -27,12 +27,12 @@ class SerialLineStatus(NamedTuple):
 
 def line_status(path: str, trouble: str, problem: LineProblem, has_refused: bool,
                 missing: Sequence[str] = ()) -> SerialLineStatus:
-    """Status of a port.
+    """Return the status of a port.
 
     Arguments:
-        trouble: why it is not open.
-        has_refused: something of the device could not be served.
-        missing: topics of the device whose description has not come.
+        trouble: reason why it is not open.
+        has_refused: an item of the device was rejected.
+        missing: topics of the device without a description.
     """
     if trouble:
         return SerialLineStatus(Severity.ERROR, trouble)
@@ -46,10 +46,10 @@ def line_status(path: str, trouble: str, problem: LineProblem, has_refused: bool
 
 
 class StatusReports:
-    """Says when the status of a line is to be reported: in the turn in which it changes, and then once a period.
+    """Schedules status reports: in the iteration of a change, and then once per period.
 
-    Reports in a fixed period alone would only sample the line. A device that speaks in that same period would then be
-    seen silent for ever, although it answers each time.
+    Purely periodic reports would only sample the line. A device that sends with the same period could then always
+    appear silent, although it answers each time.
     """
 
     def __init__(self, period_s: float = REPORT_PERIOD_S):
@@ -58,7 +58,7 @@ class StatusReports:
         self._reported_s = -math.inf
 
     def is_due(self, status: SerialLineStatus, now_s: float) -> bool:
-        """True when the status is to be reported now; it then counts as reported."""
+        """Return True if the status must be reported now; it then counts as reported."""
         if status == self._reported and now_s - self._reported_s < self._period_s:
             return False
         self._reported, self._reported_s = status, now_s

@@ -1,16 +1,16 @@
-"""Payloads that the rosserial protocol itself defines, and their topic ids."""
+"""Payloads and reserved topic ids of the rosserial protocol."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import struct
 from typing import NamedTuple, Tuple
 
 MD5_LENGTH = 32
-# Endpoints of the device's own choosing have ids from here on.
+# First id of endpoints defined by the device.
 MIN_ENDPOINT_ID = 100
 
 
 class ReservedId(enum.IntEnum):
-    """Topic ids with a meaning of their own; a service has one id for each direction."""
+    """Reserved topic ids; a service has one id per direction."""
 
     PUBLISHER = 0
     SUBSCRIBER = 1
@@ -23,11 +23,11 @@ class ReservedId(enum.IntEnum):
 
 
 class WireError(ValueError):
-    """A payload is not what its topic id promises."""
+    """A payload that does not match its topic id."""
 
 
 class TopicInfo(NamedTuple):
-    """The device's description of one of its endpoints; buffer_bytes bounds what it can take."""
+    """Description of one endpoint by the device; buffer_bytes limits the length of messages to it."""
 
     topic_id: int
     name: str
@@ -37,17 +37,17 @@ class TopicInfo(NamedTuple):
 
 
 class LogLine(NamedTuple):
-    """A sentence of the device; level 0 debug to 4 fatal."""
+    """A log text of the device; level 0 debug to 4 fatal."""
 
     level: int
     text: str
 
 
 def decode_topic_info(payload: bytes) -> TopicInfo:
-    """Description in a negotiation frame.
+    """Decode a description in a negotiation frame.
 
     Raises:
-        WireError: it makes no sense.
+        WireError: the payload is invalid.
     """
     try:
         (topic_id,) = struct.unpack_from("<H", payload)
@@ -63,14 +63,14 @@ def decode_topic_info(payload: bytes) -> TopicInfo:
 
 
 def encode_topic_info(info: TopicInfo) -> bytes:
-    """Payload of a negotiation frame, as a device sends it."""
+    """Return the payload of a negotiation frame, as sent by a device."""
     texts = b"".join(struct.pack("<I", len(text)) + text.encode()
                      for text in (info.name, info.type_name, info.md5))
     return struct.pack("<H", info.topic_id) + texts + struct.pack("<i", info.buffer_bytes)
 
 
 def decode_log(payload: bytes) -> LogLine:
-    """A sentence of the device; WireError."""
+    """Decode a log text of the device; WireError if it is invalid."""
     try:
         text, _ = _text(payload, 1)
         return LogLine(payload[0], text)
@@ -79,18 +79,18 @@ def decode_log(payload: bytes) -> LogLine:
 
 
 def encode_log(line: LogLine) -> bytes:
-    """Payload of a log frame, as a device sends it."""
+    """Return the payload of a log frame, as sent by a device."""
     text = line.text.encode()
     return struct.pack("<BI", line.level, len(text)) + text
 
 
 def encode_time(time_ns: int) -> bytes:
-    """The host's clock, in answer to a TIME request."""
+    """Return the host's clock, as the answer to a TIME request."""
     return struct.pack("<II", time_ns // 1_000_000_000 % 2 ** 32, time_ns % 1_000_000_000)
 
 
 def decode_time(payload: bytes) -> int:
-    """Nanoseconds of a TIME payload; WireError."""
+    """Return nanoseconds of a TIME payload; WireError if it is invalid."""
     try:
         seconds, nanoseconds = struct.unpack("<II", payload)
     except struct.error as error:
@@ -99,7 +99,7 @@ def decode_time(payload: bytes) -> int:
 
 
 def _text(payload: bytes, offset: int) -> Tuple[str, int]:
-    """Text with its length before it, and the offset behind it."""
+    """Return a text with a preceding length, and the offset behind it."""
     (length,) = struct.unpack_from("<I", payload, offset)
     start = offset + 4
     if length > len(payload) - start:

@@ -1,4 +1,4 @@
-"""A scripted device at the other end of a pseudo-terminal that can be unplugged; it speaks as real firmware does."""
+"""Scripted device at the other end of a pseudo-terminal, with the behaviour of real firmware and unplugging."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
@@ -9,18 +9,18 @@ import tty
 
 from mtr_serial_link.fake_device import FakeSerialDevice
 
-# Real firmware reports 25 times a second once it has been asked for its topics.
+# Real firmware reports 25 times per second after the request for its topics.
 REPORT_PERIOD_S = 0.04
 
 
 class DeviceOnPty:
-    """Reports and answers in a thread of its own while it is plugged in.
+    """Reports and answers in its own thread while it is plugged in.
 
     Attributes:
-        device: what answers.
-        path: of the port; a link that comes and goes.
-        report: message of its own that it sends in each period.
-        frozen: it takes what comes and says nothing.
+        device: source of the answers.
+        path: of the port; a link that appears and disappears.
+        report: own message that is sent in each period.
+        frozen: True to receive without answering.
     """
 
     def __init__(self, device: FakeSerialDevice, path: pathlib.Path, report: bytes):
@@ -32,7 +32,7 @@ class DeviceOnPty:
         self._master = self._slave = None
 
     def plug(self) -> None:
-        """The port appears."""
+        """Create the port."""
         self._master, self._slave = os.openpty()
         tty.setraw(self._slave)
         self._unplugged.clear()
@@ -41,7 +41,7 @@ class DeviceOnPty:
         self.path.symlink_to(os.ttyname(self._slave))
 
     def unplug(self) -> None:
-        """The port vanishes, if it is there."""
+        """Remove the port, if it exists."""
         if not self._thread:
             return
         self.path.unlink()
@@ -52,7 +52,7 @@ class DeviceOnPty:
         os.close(self._master)
 
     def received(self, limit_s: float) -> list:
-        """Payloads of messages on its own topics; waits for the first."""
+        """Return payloads of messages on its own topics; waits for the first one."""
         with self._changed:
             self._changed.wait_for(lambda: self.device.received, limit_s)
             return [frame.payload for frame in self.device.received]

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The serial bridge as its users see it: topics, a service, unplugging, a frozen device, and its sentences."""
+"""Serial bridge from the user's view: topics, a service, unplugging, a frozen device, and messages."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
@@ -26,18 +26,18 @@ from mtr_serial_link.wire import ReservedId, TopicInfo
 
 LIMIT_S = 10.0
 STOPPED_S = 1.5
-# An order on its way when the bridge was stopped may still leave; the bridge gives up what is older.
+# An order in transit when the bridge is stopped may still be sent; the bridge discards older ones.
 MAX_ORDER_AGE_S = 0.6
 ECHO, HEALTH, CALL, ANSWER = 125, 126, 101, 127
 
 
 def info(topic_id, name, type_name, part=""):
-    """Description with this machine's own checksum."""
+    """Return a description with the local checksum."""
     return TopicInfo(topic_id, name, type_name, md5_of(type_name + part), 280)
 
 
 def echo(seq):
-    """A report of the device on its topic /device/echo."""
+    """Return a report of the device on its topic /device/echo."""
     return encode(SerialFrame(ECHO, bytes((seq,))))
 
 
@@ -49,7 +49,7 @@ ENDPOINTS = (
 )
 
 
-# What the bridge is told to expect; the device describes more.
+# Topics expected by the bridge; the device describes more.
 EXPECTED = ("from /device/echo mtr_msgs/FirmwareEcho", "to /device/health mtr_msgs/FirmwareHealth",
             "service /device/loggers roscpp/GetLoggers")
 WHEELS = "/jackal_velocity_controller/cmd_vel"
@@ -57,7 +57,7 @@ FOREIGN = (ReservedId.PUBLISHER, info(128, WHEELS, "diagnostic_msgs/KeyValue"))
 
 
 class MessageRecorder:
-    """Waits for a message that fits."""
+    """Waits for a matching message."""
 
     def __init__(self, topic, message_class):
         self._changed = threading.Condition()
@@ -79,7 +79,7 @@ class MessageRecorder:
 
 
 class SerialBridgeTest(unittest.TestCase):
-    """One bridge; each test has a fresh device on a fresh port."""
+    """One bridge; each test has a new device on a new port."""
 
     def setUp(self):
         self._folder = tempfile.TemporaryDirectory()
@@ -102,7 +102,7 @@ class SerialBridgeTest(unittest.TestCase):
         return self.diagnostics.wait_for(lambda message: part in message.status[0].message)
 
     def receives(self, seq):
-        """The device reports this number from now on; True when it arrives in ROS."""
+        """Set the number reported by the device; return True when it arrives in ROS."""
         self.board.report = echo(seq)
         return self.echoes.wait_for(lambda message: message.seq == seq)
 
@@ -152,7 +152,7 @@ class SerialBridgeTest(unittest.TestCase):
         self.assertFalse(wheels.wait_for(lambda message: True, 1.0))
 
     def test_bridge_that_was_stopped_sends_no_old_order(self):  # F2, B8
-        """Today four frames of before reach the board when the bridge goes on."""
+        """Without the age limit, old frames reach the board when the bridge continues."""
         self.board.plug()
         publisher = rospy.Publisher("/device/health", FirmwareHealth, queue_size=1)
         self.call()

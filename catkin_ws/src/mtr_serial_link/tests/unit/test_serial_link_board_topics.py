@@ -1,4 +1,4 @@
-"""What a board may offer."""
+"""Allowed topics and services of a board."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""Frames of the serial line: round trip, damage, and finding the way back."""
+"""Frames of the serial line: round trip, corruption, and resynchronization."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 
@@ -82,7 +82,7 @@ def test_payload_that_is_too_long_is_refused():
 
 def test_mutated_frames_never_stop_the_parser_and_it_is_back_within_two_good_ones():
     random_bytes, parser = random.Random(7), FrameParser(512)
-    # Random.randbytes is younger than the robot's Python 3.8.
+    # Random.randbytes requires a newer Python than 3.8 of the robot.
     payloads = [bytes(random_bytes.randrange(256) for _ in range(random_bytes.randrange(24)))
                 for _ in range(BLOCK_FRAMES)]
     block = [encode(SerialFrame(random_bytes.randrange(65536), payload)) for payload in payloads]
@@ -91,7 +91,7 @@ def test_mutated_frames_never_stop_the_parser_and_it_is_back_within_two_good_one
         for _ in range(BLOCK_FRAMES):
             stream[random_bytes.randrange(len(stream))] = random_bytes.randrange(256)
         parser.feed(bytes(stream))
-        # A pause, and then the line is good again.
+        # After a pause, the line works again.
         parser.forget()
         assert not parser.has_partial_frame
         assert parser.feed(STREAM) == GOOD

@@ -1,4 +1,4 @@
-"""Frames that wait for the port: bounded in bytes and age, and given up after a gap."""
+"""Frames that wait for the port: limited in bytes and age, and discarded after a gap."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -8,7 +8,7 @@ FRAME = b"0123456789"
 
 
 def port(queue, now_s, room):
-    """What a port that takes so many bytes gets."""
+    """Return the bytes that a port with this capacity receives."""
     got = b""
     while room > len(got):
         data = queue.next(now_s)[:room - len(got)]
@@ -27,7 +27,7 @@ def test_frames_leave_in_order_though_the_port_takes_them_in_pieces():
 
 
 def test_port_that_takes_nothing_for_forty_seconds_gets_no_old_frame():  # F2
-    """Today 1,858 of 1,858 orders arrive then, up to 40.0 s old."""
+    """Without the age limit, all of these orders arrive, up to 40 s old."""
     queue = SendQueue()
     for turn in range(1, 2000):
         queue.is_deaf(0.02 * turn)

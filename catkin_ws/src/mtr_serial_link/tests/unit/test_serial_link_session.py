@@ -1,4 +1,4 @@
-"""The serial session: negotiation, faults of the line, and everything that stops rosserial's own host."""
+"""Serial session: negotiation, faults of the line, and the faults that stop rosserial's own host."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -37,7 +37,7 @@ class Cable:
         return self.run(0.0)
 
     def run(self, duration_s, said=b"", connected=True):
-        """Let time pass in ticks of 0.1 s; the device says something in each."""
+        """Advance the time in ticks of 0.1 s; the device sends `said` in each."""
         for _ in range(max(1, round(duration_s / 0.1))):
             self.events += self.session.tick(self.now_s)
             to_device, self.session.outbox[:] = b"".join(self.session.outbox), []
@@ -148,7 +148,7 @@ def test_host_says_goodbye():
 
 
 def damaged(line):
-    """The device describes /command with a flipped byte, once."""
+    """Corrupt the device's description of /command by one bit, once."""
     describe, left = line.device.receive, [1]
 
     def receive(data):
@@ -163,7 +163,7 @@ def damaged(line):
 
 
 def test_topic_whose_description_was_damaged_is_asked_for_again_though_nothing_else_shows_it():  # N1
-    """Today 5,000 of 5,000 commands are dropped in 600 s."""
+    """Without a repeated request, all commands are dropped."""
     line = damaged(Cable(expected=OURS)).plug().run(0.4, line_message())
     assert line.opened() == ["/state"] and line.problem is LineProblem.NONE
     line.run(0.4, line_message())

@@ -1,4 +1,4 @@
-"""The status of the line is reported when it changes, and never better than it is."""
+"""The status of the line is reported at each change, and never better than it is."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -13,9 +13,9 @@ from mtr_serial_link.wire import ReservedId, TopicInfo
 PORT = "/dev/board"
 STATE = (ReservedId.PUBLISHER, TopicInfo(125, "/state", "mtr_msgs/State", "a" * 32, 280))
 MD5 = {"mtr_msgs/State": "a" * 32}
-# From a request to its answer.
+# Time from a request to its answer.
 ANSWER_S = 0.002
-# A turn without an answer: poll() never comes back early.
+# Duration of an iteration without an answer: poll() never returns early.
 TURN_S = TICK_S + 0.0001
 
 
@@ -26,7 +26,7 @@ def test_topic_that_is_missing_is_told_and_is_a_warning():  # N1
 
 
 class Course:
-    """The turns of a line with a device that says nothing unless it is asked, on a clock of their own.
+    """Iterations of a line with a device that answers requests only, on a simulated clock.
 
     Attributes:
         reported: (time in s, status) of each report.
@@ -41,7 +41,7 @@ class Course:
         self.session.start(0.0)
 
     def run(self, until_s, frozen=False):
-        """Turn after turn: a turn ends when the device has answered, or after TURN_S."""
+        """Run iterations; each ends when the device has answered, or after TURN_S."""
         while self._now_s < until_s:
             to_device, self.session.outbox[:] = b"".join(self.session.outbox), []
             answer = b"" if frozen or not to_device else self.device.receive(to_device)
@@ -55,7 +55,7 @@ class Course:
         return self
 
     def sentences(self, since_s=0.0):
-        """What was reported from then on."""
+        """Return the sentences reported from then on."""
         return [status.sentence for reported_s, status in self.reported if reported_s >= since_s]
 
 
