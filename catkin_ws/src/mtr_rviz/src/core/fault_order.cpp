@@ -1,5 +1,5 @@
 /// @file
-/// What is asked of the node that injects faults, and the sentences on what it does.
+/// Orders to the fault injection node, and sentences about active faults.
 // SPDX-License-Identifier: Apache-2.0
 #include "core/fault_order.hpp"
 

@@ -1,5 +1,5 @@
 /// @file
-/// What is asked of the node that injects faults, and the sentences on what it does.
+/// Orders to the fault injection node, and sentences about active faults.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace mtr_rviz {
 
-/// The node's catalogue: kinds of fault by part.
+/// Catalogue of the node: kinds of faults by part.
 using FaultCatalogue = std::map<std::string, std::vector<std::string>>;
 
-/// One order; amount 0 is the usual one.
+/// One order; amount 0 selects the default.
 struct FaultOrder {
   std::string part;
   std::string kind;
@@ -21,13 +21,13 @@ struct FaultOrder {
   double amount;
 };
 
-/// What ends a part's fault.
+/// Kind that ends a part's fault.
 inline constexpr char kNoFault[] = "none";
 
-/// The order, if the catalogue has it and its numbers can be; else nothing.
+/// Returns the order if the catalogue contains it and its numbers are valid, otherwise nothing.
 std::optional<FaultOrder> order_of(const FaultCatalogue& catalogue, const FaultOrder& wanted);
 
-/// Of a fault that is injected now, for so long.
+/// Returns the sentence about an active fault with its remaining time.
 std::string fault_sentence(const std::string& part, const std::string& kind, double left_s);
 
 }  // namespace mtr_rviz

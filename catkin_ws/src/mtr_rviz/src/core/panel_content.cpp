@@ -1,5 +1,5 @@
 /// @file
-/// What the panel shows.
+/// Contents of the panel.
 // SPDX-License-Identifier: Apache-2.0
 #include "core/panel_content.hpp"
 
@@ -36,7 +36,7 @@ Row state_row(const Heard<ModeSaid>& heard, double now_s) {
   }
 }
 
-/// Collects sentences, each once: the nodes hand on those of others.
+/// Collects sentences without duplicates, because nodes forward sentences of others.
 class Reasons {
  public:
   void add(const std::string& sentence) {

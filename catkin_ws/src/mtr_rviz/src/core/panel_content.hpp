@@ -1,5 +1,5 @@
 /// @file
-/// What the panel shows.
+/// Contents of the panel.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace mtr_rviz {
 
-/// A sign, a colour and a text each.
+/// Rows with a sign, a colour and a text each.
 struct PanelContent {
-  /// The state in words.
+  /// State of the robot.
   Row state;
-  /// Sentences on why it does what it does, or nothing; each once.
+  /// Sentences with the reasons of the state, each once; may be empty.
   std::vector<std::string> reasons;
-  /// What has to be right.
+  /// Checks of the robot's parts.
   std::vector<Row> checks;
-  /// Of the injected faults.
+  /// Sentences about active faults.
   std::vector<std::string> faults;
-  /// The robot was started so that faults can be injected.
+  /// True if the robot was started with fault injection.
   bool can_inject = false;
 };
 
-/// @param now_s on the clock of the arrivals
+/// Returns the contents. @param now_s on the clock of the arrivals
 PanelContent content_of(const Robot& robot, double now_s);
 
 }  // namespace mtr_rviz

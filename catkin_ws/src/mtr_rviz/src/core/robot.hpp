@@ -1,5 +1,5 @@
 /// @file
-/// What was heard of the robot, in plain types: what the panel shows is made of it.
+/// Received state of the robot in plain types, as the source of the panel.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,25 +11,25 @@
 
 namespace mtr_rviz {
 
-/// High-level state, by the state machine.
+/// High-level state from the state machine.
 enum class Mode { kUnknown, kStarting, kReadyToMapCar, kMappingCar, kFollowingWaypoint, kFault, kCheckingCar };
 
-/// The newest message of a topic; at_s is its arrival on a clock that nobody sets, NaN before the first.
+/// Newest message of a topic; at_s is its arrival on a steady clock, NaN before the first one.
 template <typename T>
 struct Heard {
   T said{};
   double at_s = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Of RobotMode.
+/// Contents of RobotMode.
 struct ModeSaid {
   Mode mode = Mode::kUnknown;
-  /// It stands until the Operator has it go on.
+  /// The robot is on hold until the Operator resumes it.
   bool is_held = false;
   std::string message;
 };
 
-/// Of LocalizedPose.
+/// Contents of LocalizedPose.
 struct PoseSaid {
   bool is_valid = false;
   /// 1 sigma in the worst direction.
@@ -37,7 +37,7 @@ struct PoseSaid {
   std::string message;
 };
 
-/// Of CarEstimate.
+/// Contents of CarEstimate.
 struct CarSaid {
   enum class State { kUnknown, kCollecting, kLocated, kFailed };
   State state = State::kUnknown;
@@ -46,7 +46,7 @@ struct CarSaid {
   std::string message;
 };
 
-/// Of CarCheck.
+/// Contents of CarCheck.
 struct SelfCheckSaid {
   enum class State { kNone, kRunning, kPassed, kFailed };
   State state = State::kNone;
@@ -55,7 +55,7 @@ struct SelfCheckSaid {
   std::string message;
 };
 
-/// Of MotionStatus.
+/// Contents of MotionStatus.
 struct MotionSaid {
   enum class Result { kIdle, kPending, kReached, kRefused, kBlocked };
   Result result = Result::kIdle;
@@ -63,24 +63,24 @@ struct MotionSaid {
   std::string message;
 };
 
-/// Of DriveStatus.
+/// Contents of DriveStatus.
 struct DriveSaid {
   enum class Zone { kClear, kSlowed, kBlocked, kBlind };
   std::string source;
   double linear_mps = 0.0;
   Zone zone = Zone::kClear;
-  /// From the footprint to what hinders the motion; NaN: nothing does.
+  /// Distance from the footprint to the obstacle that limits the motion; NaN without one.
   double obstacle_m = std::numeric_limits<double>::quiet_NaN();
   std::string message;
 };
 
-/// Of MotionLock.
+/// Contents of MotionLock.
 struct LockSaid {
   bool is_engaged = false;
   std::string reason;
 };
 
-/// Of PeripheralsState.
+/// Contents of PeripheralsState.
 struct PartsSaid {
   bool is_alive = false;
   double key_height_m = 0.0;
@@ -89,7 +89,7 @@ struct PartsSaid {
   std::string message;
 };
 
-/// What the ROS master keeps of the last preflight; age_s was right when the master was asked.
+/// Last preflight stored in the ROS master; age_s is the age at the time of the query.
 struct Preflight {
   int checks = 0;
   int bad = 0;
@@ -97,7 +97,7 @@ struct Preflight {
   std::string first_bad;
 };
 
-/// Everything that was heard.
+/// All received data.
 struct Robot {
   Heard<ModeSaid> mode;
   Heard<PoseSaid> pose;
@@ -106,11 +106,11 @@ struct Robot {
   Heard<MotionSaid> motion;
   Heard<DriveSaid> drive;
   Heard<PartsSaid> parts;
-  /// By owner.
+  /// Motion locks by owner.
   std::map<std::string, Heard<LockSaid>> locks;
-  /// None before one was made in this run of the ROS master.
+  /// Empty without a preflight in this run of the ROS master.
   std::optional<Preflight> preflight;
-  /// Sentences of the faults that are injected now; none: the robot was not started for it.
+  /// Sentences about active faults; empty optional if the robot was started without fault injection.
   std::optional<std::vector<std::string>> faults;
 };
 

@@ -7,17 +7,17 @@
 
 namespace mtr_rviz {
 
-/// kNote: hinders nothing, and should be known.
+/// kNote: information without effect on the test.
 enum class Level { kGood, kNote, kUnknown, kBad };
 
-/// What is looked at, and what was found.
+/// Result of one check.
 struct Row {
   std::string name;
   Level level = Level::kUnknown;
   std::string text;
 };
 
-/// Told apart without colours too; UTF-8.
+/// Returns a sign that is distinguishable without colours; UTF-8.
 std::string sign_of(Level level);
 
 }  // namespace mtr_rviz

@@ -10,10 +10,11 @@
 namespace mtr_rviz {
 namespace {
 
-/// Below the first a test is not started, below the second it is warned of, as in the Operator's application.
+/// Battery limits: below the first one, tests are not started; below the second one, there is a warning, as in the
+/// application.
 constexpr double kEmptyBattery = 0.10;
 constexpr double kLowBattery = 0.25;
-/// Longer than a working day: cables, mounts and clocks were touched since.
+/// Longer than a working day, in which cables, mounts and clocks may have been changed.
 constexpr double kOldPreflightS = 12.0 * 3600.0;
 
 std::string number(double value, int digits) {
@@ -28,7 +29,7 @@ std::string duration(double seconds) {
                             : number(seconds / 3600.0, 0) + " h";
 }
 
-/// The sentence, or others where there is none.
+/// Returns the sentence, or the alternative if it is empty.
 std::string or_else(const std::string& sentence, const std::string& otherwise) {
   return sentence.empty() ? otherwise : sentence;
 }

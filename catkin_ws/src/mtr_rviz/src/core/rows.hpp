@@ -8,11 +8,11 @@
 
 namespace mtr_rviz {
 
-/// A node that has said nothing for so long counts as silent; each speaks at least ten times a second.
+/// Time without a message after which a node counts as silent; each node publishes at least ten times per second.
 inline constexpr double kSilentAfterS = 1.0;
-/// Of an own arrival; false before the first.
+/// Returns true for a recent arrival; false before the first one.
 bool is_fresh(double at_s, double now_s);
-/// How long nobody spoke, or that nobody ever did.
+/// Returns a text about the duration of the silence, or about a node that has never published.
 std::string silence(double at_s, double now_s);
 
 Row pose_row(const Heard<PoseSaid>& heard, double now_s);

@@ -1,5 +1,5 @@
 /// @file
-/// The state, its reasons and the checks as labels.
+/// Labels for the state, its reasons and the checks.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/content_view.hpp"
 
@@ -19,7 +19,7 @@ QLabel* new_label() {
   return label;
 }
 
-/// Dark enough on white, 4.5 to 1 by WCAG 2.1.
+/// Colours with a contrast of at least 4.5 to 1 on white (WCAG 2.1).
 QString colour_of(Level level) {
   switch (level) {
     case Level::kGood:
@@ -39,7 +39,7 @@ void set_text(QLabel* label, const QString& text) {
   }
 }
 
-/// A style that is set anew lays everything out anew.
+/// Sets a style only if it changes, because setting it repeats the whole layout.
 void colour(QLabel* label, Level level) {
   const QString style = QString("color: %1; font-weight: bold").arg(colour_of(level));
   if (label->styleSheet() != style) {

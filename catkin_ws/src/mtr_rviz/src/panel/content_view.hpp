@@ -1,5 +1,5 @@
 /// @file
-/// The state, its reasons and the checks as labels.
+/// Labels for the state, its reasons and the checks.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace mtr_rviz {
 
-/// Labels are made once, and change with what they show.
+/// Creates labels on demand and updates their contents.
 class ContentView : public QWidget {
   Q_OBJECT
  public:

@@ -1,5 +1,5 @@
 /// @file
-/// ROS messages and parameters to the core's types.
+/// Conversions of ROS messages and parameters to core types.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/conversions.hpp"
 
@@ -13,7 +13,7 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// The larger half axis of the position's covariance (x, y of a row-major 3x3).
+/// Returns the larger half axis of the position covariance (x, y of a row-major 3x3).
 double worst_sigma_m(const boost::array<double, 9>& covariance) {
   const double mean = 0.5 * (covariance[0] + covariance[4]);
   const double half = 0.5 * (covariance[0] - covariance[4]);
@@ -86,7 +86,7 @@ MotionSaid from_message(const mtr_msgs::MotionStatus& message) {
 
 DriveSaid from_message(const mtr_msgs::DriveStatus& message) {
   using Message = mtr_msgs::DriveStatus;
-  // A zone of a drive control of later is not known to be clear.
+  // An unknown zone of a newer drive control must not count as clear.
   const DriveSaid::Zone zone = message.zone == Message::CLEAR     ? DriveSaid::Zone::kClear
                                : message.zone == Message::SLOWED  ? DriveSaid::Zone::kSlowed
                                : message.zone == Message::BLOCKED ? DriveSaid::Zone::kBlocked
@@ -104,7 +104,7 @@ std::optional<Preflight> preflight_in(XmlRpcValue& parameter, double steady_s) {
     found.checks = static_cast<int>(parameter["checks"]);
     found.bad = static_cast<int>(parameter["bad"]);
     found.age_s = std::max(steady_s - static_cast<double>(parameter["made_s"]), 0.0);
-    // What is wrong comes first.
+    // Failed checks are listed first.
     if (found.bad > 0 && parameter["items"].size() > 0) {
       XmlRpcValue& item = parameter["items"][0];
       found.first_bad = static_cast<std::string&>(item[0]) + ": " + static_cast<std::string&>(item[2]);

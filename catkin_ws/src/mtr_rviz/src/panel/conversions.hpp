@@ -1,5 +1,5 @@
 /// @file
-/// ROS messages and parameters to the core's types.
+/// Conversions of ROS messages and parameters to core types.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,11 +27,11 @@ MotionSaid from_message(const mtr_msgs::MotionStatus& message);
 DriveSaid from_message(const mtr_msgs::DriveStatus& message);
 PartsSaid from_message(const mtr_msgs::PeripheralsState& message);
 
-/// The parameter of mtr_dispatcher's preflight_report; nothing when it is none.
+/// Returns the content of mtr_dispatcher's parameter preflight_report, or nothing if it is invalid.
 /// @param steady_s the robot's steady clock
 std::optional<Preflight> preflight_in(XmlRpc::XmlRpcValue& parameter, double steady_s);
 
-/// The parameter of mtr_fault_injection; empty when it is none.
+/// Returns the content of mtr_fault_injection's parameter; empty if it is invalid.
 FaultCatalogue catalogue_in(XmlRpc::XmlRpcValue& parameter);
 
 }  // namespace mtr_rviz

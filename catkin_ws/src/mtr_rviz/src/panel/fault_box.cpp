@@ -1,5 +1,5 @@
 /// @file
-/// Which fault to inject, and those that are injected now.
+/// Selection of a fault to inject, and list of active faults.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/fault_box.hpp"
 
@@ -9,10 +9,10 @@
 namespace mtr_rviz {
 namespace {
 
-/// As `inject` has it without options: s, and the usual amount of a kind.
+/// Defaults of `inject`: duration in s, and default amount of a kind.
 constexpr double kUsualDurationS = 1.0;
 constexpr double kUsualAmount = 0.0;
-/// What the node accepts.
+/// Range accepted by the node.
 constexpr double kMinDurationS = 0.1;
 constexpr double kMaxDurationS = 3600.0;
 

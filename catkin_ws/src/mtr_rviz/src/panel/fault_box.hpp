@@ -1,5 +1,5 @@
 /// @file
-/// Which fault to inject, and those that are injected now.
+/// Selection of a fault to inject, and list of active faults.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace mtr_rviz {
 
-/// Hidden where the robot was not started for it.
+/// Hidden if the robot was started without fault injection.
 class FaultBox : public QGroupBox {
   Q_OBJECT
  public:

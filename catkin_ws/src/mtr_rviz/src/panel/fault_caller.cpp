@@ -1,5 +1,5 @@
 /// @file
-/// Asks the node that injects faults, beside the window.
+/// Calls the fault injection node without blocking the window.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/fault_caller.hpp"
 
@@ -31,7 +31,7 @@ void FaultCaller::call(const FaultOrder& order) {
     const bool is_accepted = has_answered && service.response.accepted;
     const QString sentence = has_answered ? QString::fromStdString(service.response.message)
                                           : QString("The node that injects faults does not answer.");
-    // In a queue: the thread's own, to be joined there.
+    // Queued, because the thread must be joined in the window's thread.
     QMetaObject::invokeMethod(
         this, [this, is_accepted, sentence] { take_answer(is_accepted, sentence); }, Qt::QueuedConnection);
   });

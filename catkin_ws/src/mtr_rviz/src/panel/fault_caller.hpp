@@ -1,5 +1,5 @@
 /// @file
-/// Asks the node that injects faults, beside the window.
+/// Calls the fault injection node without blocking the window.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace mtr_rviz {
 
-/// One order at a time: a service answers when it has done what it was asked for, and the window goes on meanwhile.
+/// Executes one order at a time: a service answers after its execution, while the window continues.
 class FaultCaller : public QObject {
   Q_OBJECT
  public:
   using QObject::QObject;
   ~FaultCaller() override;
 
-  /// The answer comes by answered; an order beside another one is refused.
+  /// Starts a call; the answer arrives by `answered`. A second order during a call is rejected.
   void call(const FaultOrder& order);
 
  Q_SIGNALS:
-  /// In the thread of the window.
+  /// Emitted in the window's thread.
   void answered(bool is_accepted, const QString& sentence);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// What the robot says, as ROS messages and parameters, in the core's types.
+/// Received ROS messages and parameters in core types.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/listener.hpp"
 
@@ -11,21 +11,22 @@ namespace mtr_rviz {
 namespace {
 
 namespace names = mtr_core::names;
-/// More than comes between two turns of a busy window.
+/// More than the messages between two iterations of a busy window.
 constexpr int kQueue = 20;
 
-/// The clock by which a preflight was made, on the robot.
+/// Clock of preflights on the robot.
 double steady_s() {
   return ros::Time::isSimTime() ? ros::Time::now().toSec() : static_cast<double>(mtr_core::boot_time_ns()) * 1e-9;
 }
 
-/// What the master has, none when it has none or does not answer. Asked each time: nothing here waits for it long.
+/// Returns a parameter of the master, or nothing if it is unset or the master is unavailable. It is not cached, and the
+/// call is fast.
 std::optional<XmlRpc::XmlRpcValue> parameter(const char* name) {
   XmlRpc::XmlRpcValue value;
   return ros::param::get(name, value) ? std::optional<XmlRpc::XmlRpcValue>(value) : std::nullopt;
 }
 
-/// The newest message of a topic, of now.
+/// Returns the message with its arrival time.
 template <typename Said>
 Heard<Said> heard(Said said) {
   return {std::move(said), Listener::now_s()};

@@ -1,5 +1,5 @@
 /// @file
-/// What the robot says, as ROS messages and parameters, in the core's types.
+/// Received ROS messages and parameters in core types.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,21 +21,21 @@
 
 namespace mtr_rviz {
 
-/// Subscribes at once. rviz calls back in the thread of the window, which is this one's too.
+/// Subscribes in the constructor. rviz calls back in the window's thread, which also uses this object.
 class Listener {
  public:
   Listener();
 
-  /// Everything that was heard; the master's parameters are those of the last look.
+  /// Returns all received data; parameters of the master are as of the last look().
   Robot robot() const;
 
-  /// Asks the master for what is no topic; takes some ms.
+  /// Reads the parameters of the master; takes some ms.
   void look();
 
-  /// Empty where the robot was not started for it.
+  /// Empty if the robot was started without fault injection.
   const FaultCatalogue& catalogue() const { return catalogue_; }
 
-  /// Seconds of the clock of the arrivals.
+  /// Returns the clock of the arrivals in s.
   static double now_s();
 
  private:

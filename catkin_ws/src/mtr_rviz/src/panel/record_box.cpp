@@ -1,5 +1,5 @@
 /// @file
-/// Begins and ends a recording of the running robot.
+/// Starts and stops a recording of the running robot.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/record_box.hpp"
 
@@ -15,10 +15,10 @@ namespace {
 
 /// Profiles of mtr_bringup's recording.
 const QStringList kProfiles{"small", "full"};
-/// The bag is closed within it.
+/// Time limit for closing the bag.
 constexpr int kEndLimitMs = 5000;
 
-/// One that is told to end when this program is killed, and cannot tell it any more.
+/// Process that receives a termination signal if this program is killed.
 class Recorder : public QProcess {
  public:
   using QProcess::QProcess;
@@ -45,7 +45,7 @@ RecordBox::RecordBox(QWidget* parent)
   grid->addWidget(button_, 0, 2);
   grid->addWidget(said_, 1, 0, 1, 3);
   process_->setProcessChannelMode(QProcess::MergedChannels);
-  // A rosrun that finds several programs asks which; nobody would answer.
+  // If several programs match, rosrun asks for a selection, which nothing would answer.
   process_->setStandardInputFile(QProcess::nullDevice());
   connect(button_, &QPushButton::clicked, this, &RecordBox::start_or_end);
   connect(folder_, &QLineEdit::textEdited, this, &RecordBox::folder_changed);

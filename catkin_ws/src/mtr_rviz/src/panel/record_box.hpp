@@ -1,5 +1,5 @@
 /// @file
-/// Begins and ends a recording of the running robot.
+/// Starts and stops a recording of the running robot.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace mtr_rviz {
 
-/// A recording is `rosrun mtr_bringup record`, which ends with this.
+/// Runs `rosrun mtr_bringup record`, which ends with this object.
 class RecordBox : public QGroupBox {
   Q_OBJECT
  public:
@@ -23,7 +23,7 @@ class RecordBox : public QGroupBox {
   void set_folder(const QString& folder) { folder_->setText(folder); }
 
  Q_SIGNALS:
-  /// By a person.
+  /// Emitted for a change by a person.
   void folder_changed();
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// The panel: what the robot does and why, its checks, faults to inject, and a recording.
+/// Panel: state of the robot with reasons, checks, fault injection, and recording.
 // SPDX-License-Identifier: Apache-2.0
 #include "panel/robot_panel.hpp"
 
@@ -10,7 +10,7 @@
 namespace mtr_rviz {
 namespace {
 
-/// As fast as a person reads, and as seldom as the master should be asked.
+/// Update rates: fast enough for reading, and low load on the master.
 constexpr int kShowEveryMs = 200;
 constexpr int kAskMasterEveryMs = 2000;
 const QString kFolder = "Recording Folder";

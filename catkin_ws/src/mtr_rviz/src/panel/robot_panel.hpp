@@ -1,5 +1,5 @@
 /// @file
-/// The panel: what the robot does and why, its checks, faults to inject, and a recording.
+/// Panel: state of the robot with reasons, checks, fault injection, and recording.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace mtr_rviz {
 
-/// Only arranges: what is shown is decided in core/panel_content.
+/// Only arranges widgets; the contents come from core/panel_content.
 class RobotPanel : public rviz::Panel {
   Q_OBJECT
  public:

@@ -1,5 +1,5 @@
 /// @file
-/// Orders to the node that injects faults.
+/// Orders to the fault injection node.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// What is shown for which message.
+/// Contents of the panel for each message.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
