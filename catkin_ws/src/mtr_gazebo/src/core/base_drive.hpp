@@ -1,11 +1,11 @@
 /// @file
-/// The base's own controller: limits of a velocity command, and how fast the wheels of each side turn for it.
+/// Controller of the base: limits of velocity commands, and the resulting wheel speeds of each side.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 namespace mtr_gazebo {
 
-/// Of a diff_drive_controller. What the base believes of its wheels need not be true.
+/// Parameters of a diff_drive_controller. The believed wheel geometry may differ from the true one.
 struct BaseFigures {
   double max_linear_mps{0.0};
   double max_angular_radps{0.0};
@@ -16,21 +16,21 @@ struct BaseFigures {
   double believed_half_track_m{1.0};
 };
 
-/// Speed of the wheels of each side, in rad/s.
+/// Wheel speeds of each side, in rad/s.
 struct WheelSpeeds {
   double left_radps{0.0};
   double right_radps{0.0};
 };
 
-/// Follows the last velocity command within its limits, and stops when none comes any more.
+/// Follows the last velocity command within its limits, and stops after a command time-out.
 class BaseDrive {
  public:
   explicit BaseDrive(const BaseFigures& figures);
 
-  /// A new command in m/s and rad/s; one that is not finite is ignored.
+  /// Sets a new command in m/s and rad/s; a command that is not finite is ignored.
   void command(double linear_mps, double angular_radps);
 
-  /// Wheel speeds for the next step.
+  /// Returns the wheel speeds for the next step.
   WheelSpeeds step(double step_s);
 
  private:

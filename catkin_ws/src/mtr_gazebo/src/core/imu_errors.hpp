@@ -1,5 +1,5 @@
 /// @file
-/// What an inertial measurement unit adds to the truth: scale, bias that wanders, and white noise.
+/// Errors of an inertial measurement unit: scale, bias random walk, and white noise.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@ namespace mtr_gazebo {
 
 using Triple = std::array<double, 3>;
 
-/// Densities are per square root of Hz, walks per square root of s.
+/// Error parameters: densities per square root of Hz, random walks per square root of s.
 struct ImuFigures {
   double gyro_density{0.0};
   double gyro_bias_radps{0.0};
@@ -28,12 +28,12 @@ struct ImuReading {
   Triple force{};
 };
 
-/// Adds the errors to true means over one period.
+/// Adds errors to the true means over one period.
 class ImuErrors {
  public:
   ImuErrors(const ImuFigures& figures, double period_s, std::uint64_t seed);
 
-  /// What the sensor says of the true values.
+  /// Returns the reading of the sensor for true values.
   ImuReading read(const ImuReading& truth);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// A LiDAR that turns: which beam is due when, and what it says of a true distance.
+/// Rotating LiDAR: times of the beams, and readings of true distances.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace mtr_gazebo {
 
-/// Of one LiDAR; the field of view is centred on its x axis.
+/// Parameters of one LiDAR; the field of view is centred on its x axis.
 struct SweepFigures {
   int beams{2};
   double field_of_view_rad{1.0};
@@ -24,22 +24,22 @@ struct Beam {
   std::int64_t time_ns{0};
 };
 
-/// Goes from beam to beam as time passes; each has an instant of its own.
+/// Advances from beam to beam with time; each beam has its own time.
 class Sweep {
  public:
   using Cast = std::function<void(const Beam&)>;
   using Finish = std::function<void(std::int64_t start_ns)>;
 
-  /// The first turn begins at start_ns.
+  /// Starts the first turn at start_ns.
   Sweep(const SweepFigures& figures, std::int64_t start_ns);
 
-  /// Casts all beams that are due by now, and finishes each turn that is over with the time of its first beam.
+  /// Casts all due beams, and calls finish with the time of the first beam for each completed turn.
   void advance(std::int64_t now_ns, const Cast& cast, const Finish& finish);
 
-  /// Angle between two beams.
+  /// Returns the angle between two beams.
   [[nodiscard]] double angle_increment_rad() const;
 
-  /// Time between two beams.
+  /// Returns the time between two beams.
   [[nodiscard]] double time_increment_s() const;
 
  private:
@@ -50,8 +50,8 @@ class Sweep {
   int next_{0};
 };
 
-/// What a LiDAR says: infinity beyond its range, minus infinity nearer than it sees (REP-117). A distance of infinity
-/// is nothing that a beam meets.
+/// Returns the reading of a LiDAR: infinity beyond its range, minus infinity below it (REP-117). An infinite distance
+/// means that the beam does not hit anything.
 float range_reading(double distance_m, double error_m, const SweepFigures& figures);
 
 }  // namespace mtr_gazebo

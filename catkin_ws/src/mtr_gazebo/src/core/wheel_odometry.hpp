@@ -1,5 +1,5 @@
 /// @file
-/// What the base works out from its wheels' encoders.
+/// Odometry from the wheel encoders.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,20 +14,20 @@ struct OdometryReading {
   double angular_radps{0.0};
 };
 
-/// Radius and half track as the base believes them, and how finely its encoders count.
+/// Radius and half track as assumed by the base, and resolution of its encoders.
 struct OdometryFigures {
   double believed_radius_m{1.0};
   double believed_half_track_m{1.0};
   double ticks_per_m{1.0};
 };
 
-/// Counts whole encoder ticks; what is left of a tick counts in a later period.
+/// Counts whole encoder ticks; the remainder carries over to later periods.
 class WheelOdometry {
  public:
   explicit WheelOdometry(const OdometryFigures& figures);
 
-  /// Reading for the angles that the wheels of each side have turned by since the start (mean of a side, in rad), and
-  /// the time since the last reading.
+  /// Returns the reading for the wheel angles of each side since the start (mean of a side, in rad), and the time since
+  /// the last reading.
   OdometryReading read(double left_rad, double right_rad, double period_s);
 
  private:

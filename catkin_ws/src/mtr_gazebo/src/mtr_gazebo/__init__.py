@@ -1,2 +1,2 @@
-"""The robot's site, body and sensors in Gazebo, made from what the other simulation is made of."""
+"""Site, body and sensors of the robot in Gazebo, from the same sources as the other simulator."""
 # SPDX-License-Identifier: Apache-2.0

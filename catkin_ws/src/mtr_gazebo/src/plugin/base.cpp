@@ -27,7 +27,7 @@ OdometryFigures odometry_figures_of(const sdf::ElementPtr& element) {
   return {figures.believed_radius_m, figures.believed_half_track_m, value_of<double>(element, "encoder_ticks_per_m")};
 }
 
-/// The joints of a side, each with a motor that turns it at the wanted speed as far as its torque allows.
+/// Returns the joints of a side, each with a speed-controlled motor of limited torque.
 Side side_of(const sdf::ElementPtr& element, const std::string& name, const gazebo::physics::ModelPtr& model) {
   Side side;
   const double torque_nm = value_of<double>(element, "max_wheel_torque_nm");

@@ -1,5 +1,5 @@
 /// @file
-/// The base: velocity commands to the wheels, which ODE's friction holds on the ground, and odometry from their angles.
+/// The base: velocity commands to the wheels, ODE friction on the ground, and odometry from the wheel angles.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,10 +23,10 @@ class Base {
  public:
   Base(const sdf::ElementPtr& element, const gazebo::physics::ModelPtr& model, ros::NodeHandle& ros);
 
-  /// Set the wheels' motors for the step that begins.
+  /// Sets the wheel motors for the next step.
   void drive(double step_s);
 
-  /// Publish odometry when it is time.
+  /// Publishes odometry when due.
   void update(const Step& step);
 
  private:

@@ -14,12 +14,12 @@
 
 namespace mtr_gazebo {
 
-/// Publishes at the ticks of its own slot. It gives no orientation.
+/// Publishes at the ticks of its own slot, without an orientation.
 class Imu {
  public:
   Imu(const sdf::ElementPtr& element, const gazebo::physics::LinkPtr& base, std::uint64_t seed, ros::NodeHandle& ros);
 
-  /// Take the state at the end of a step, and speak when it is time.
+  /// Adds the state at the end of a step, and publishes when due.
   void update(const Step& step);
 
  private:

@@ -14,9 +14,9 @@ using ignition::math::Quaterniond;
 using ignition::math::Vector3d;
 
 constexpr int kQueue = 10;
-// ODE takes a ray that is parallel to a box's top but for rounding for one that meets it, as the beams are to the
-// chassis below them: the robot saw itself whenever it sped up. Rising by so much for each metre they are not; a wall
-// is met 1 mm higher at 10 m.
+// Slope of the beams. With rounding errors, ODE reports hits of parallel rays on the top of a box, as for the chassis
+// below the beams: the robot saw itself whenever it accelerated. Rising by this much per metre prevents that; a wall at
+// 10 m is hit 1 mm higher.
 constexpr double kRise = 1e-4;
 constexpr double kSPerNs = 1e-9;
 
@@ -47,7 +47,7 @@ Lidar::Lidar(const sdf::ElementPtr& element, const gazebo::physics::LinkPtr& bas
       sweep_(figures_, mtr_core::kSimulationStartNs + ns_of(element, "phase_ms")),
       base_from_lidar_(pose_of(element)),
       base_(base),
-      // A shape without a collision of its own: its ends are places in the world.
+      // A shape without a collision object: its ends are in world coordinates.
       ray_(boost::dynamic_pointer_cast<gazebo::physics::RayShape>(
           base->GetWorld()->Physics()->CreateShape("ray", gazebo::physics::CollisionPtr()))),
       noise_m_(value_of<double>(element, "noise_m")),
@@ -67,7 +67,7 @@ void Lidar::cast(const Beam& beam, std::int64_t now_ns) {
     range = std::numeric_limits<float>::infinity();
     return;
   }
-  // From the end of the step back to the beam's instant, at the present velocities.
+  // Extrapolate from the end of the step back to the time of the beam, with the present velocities.
   const double back_s = static_cast<double>(now_ns - beam.time_ns) * kSPerNs;
   ignition::math::Pose3d world_from_base = base_->WorldPose();
   world_from_base.Pos() -= base_->WorldLinearVel() * back_s;
@@ -75,7 +75,7 @@ void Lidar::cast(const Beam& beam, std::int64_t now_ns) {
   const ignition::math::Pose3d world_from_lidar = world_from_base * base_from_lidar_;
   const Vector3d along =
       world_from_lidar.Rot().RotateVector(Vector3d(std::cos(beam.angle_rad), std::sin(beam.angle_rad), kRise));
-  // Not from the middle: there the LiDAR itself is in the way.
+  // Start at the minimum range, because the LiDAR itself is in the way of a ray from its centre.
   ray_->SetPoints(world_from_lidar.Pos() + along * figures_.range_min_m,
                   world_from_lidar.Pos() + along * figures_.range_max_m);
   double distance_m = 0.0;

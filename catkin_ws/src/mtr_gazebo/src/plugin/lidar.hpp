@@ -1,5 +1,5 @@
 /// @file
-/// A LiDAR whose beams are cast by Gazebo's physics, each from where the robot is at the beam's own instant.
+/// LiDAR with beams cast by Gazebo's physics, each from the robot's pose at the time of the beam.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,12 +15,12 @@
 
 namespace mtr_gazebo {
 
-/// Publishes a scan when its turn is over, stamped with its first beam.
+/// Publishes a scan at the end of its turn, stamped with its first beam.
 class Lidar {
  public:
   Lidar(const sdf::ElementPtr& element, const gazebo::physics::LinkPtr& base, std::uint64_t seed, ros::NodeHandle& ros);
 
-  /// Cast what was due in the step that has just ended.
+  /// Casts the beams that were due in the last step.
   void update(const Step& step);
 
  private:

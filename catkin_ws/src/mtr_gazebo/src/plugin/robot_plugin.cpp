@@ -1,5 +1,5 @@
 /// @file
-/// The robot in Gazebo: its sensors, wheels and lift speak ROS as the real ones do, and the simulated clock does.
+/// The robot in Gazebo: ROS interfaces of sensors, wheels and lift as on the real robot, and the simulated clock.
 // SPDX-License-Identifier: Apache-2.0
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -33,7 +33,7 @@ std::int64_t ns_of(const gazebo::common::Time& time) {
 
 }  // namespace
 
-/// Before each step the wheels and the lift are driven; after it the sensors look.
+/// Drives wheels and lift before each step, and updates the sensors after it.
 class RobotPlugin : public gazebo::ModelPlugin {
  public:
   RobotPlugin() = default;
@@ -62,7 +62,7 @@ class RobotPlugin : public gazebo::ModelPlugin {
     world_ = model->GetWorld();
     clock_slot_ = {mtr_gazebo::ns_of(element, "clock_period_ms"), 0};
     const auto seed = static_cast<std::uint64_t>(value_of<int>(element, "seed"));
-    // A stream of random numbers of its own for each sensor.
+    // Separate random streams per sensor.
     std::uint64_t stream = seed << 8U;
     const gazebo::physics::LinkPtr base_link = model->GetLink(mtr_core::names::kBase);
     base_ = std::make_unique<Base>(element->GetElement("base"), model, *ros_);
@@ -81,7 +81,7 @@ class RobotPlugin : public gazebo::ModelPlugin {
   void start_ros() {
     if (!ros::isInitialized()) {
       int count = 0;
-      // The server ends by the signals that it handles itself.
+      // The server handles its signals itself.
       ros::init(count, nullptr, kNode, ros::init_options::NoSigintHandler);
     }
     ros_ = std::make_unique<ros::NodeHandle>();

@@ -15,10 +15,10 @@ namespace {
 using ignition::math::Pose3d;
 using ignition::math::Vector3d;
 
-// No key pose may be lost: the Car's clock goes on with each of them.
+// Queue size: key poses must not be lost, because each advances the Car's clock.
 constexpr int kQueue = 500;
 constexpr double kSPerNs = 1e-9;
-// The motor follows the firmware's lift within some ms: its speed is the way that is left by this time.
+// The motor follows the firmware's lift within some ms: its speed is the remaining distance times this gain.
 constexpr double kLiftFollowsPerS = 50.0;
 constexpr double kLiftSpeedMps = 0.5;
 constexpr char kGround[] = "ground";
@@ -49,7 +49,7 @@ Truth::Truth(const sdf::ElementPtr& plugin, const gazebo::physics::ModelPtr& mod
   lift_subscriber_ = ros.subscribe(value_of<std::string>(lift, "height_topic"), kQueue, &Truth::lift, this,
                                    ros::TransportHints().tcpNoDelay());
   kidnap_subscriber_ = ros.subscribe(mtr_core::names::kSimKidnap, kQueue, &Truth::kidnap, this);
-  // Contacts are kept although nobody subscribes to them in Gazebo.
+  // Keep contacts without subscribers in Gazebo.
   model->GetWorld()->Physics()->GetContactManager()->SetNeverDropContacts(true);
 }
 

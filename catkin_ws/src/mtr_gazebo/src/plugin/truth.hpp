@@ -1,5 +1,5 @@
 /// @file
-/// Where everything really is: the robot and its key in the true Car's frame, and the lift that carries the key.
+/// Ground truth: robot and key in the true Car's frame, and the lift that carries the key.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace mtr_gazebo {
 
-/// Publishes pose and key, moves the lift to where the firmware has it, carries the robot away when somebody does, and
-/// logs what the robot touches.
+/// Publishes pose and key, moves the lift to the firmware's position, teleports the robot on request, and logs contacts
+/// of the robot.
 class Truth {
  public:
   Truth(const sdf::ElementPtr& plugin, const gazebo::physics::ModelPtr& model, ros::NodeHandle& ros);
 
-  /// Set the lift's motor for the step that begins.
+  /// Sets the lift's motor for the next step.
   void drive();
 
-  /// Publish when it is time.
+  /// Publishes when due.
   void update(const Step& step);
 
  private:

@@ -15,8 +15,8 @@
 
 namespace mtr_gazebo {
 
-/// The value of a child.
-/// @throws std::runtime_error there is none.
+/// Returns the value of a child.
+/// @throws std::runtime_error if the child is missing
 template <typename Value>
 Value value_of(const sdf::ElementPtr& element, const std::string& name) {
   if (!element->HasElement(name)) {
@@ -26,27 +26,27 @@ Value value_of(const sdf::ElementPtr& element, const std::string& name) {
   return element->Get<Value>(name);
 }
 
-/// Time in ns of a child in ms.
+/// Returns the time in ns of a child in ms.
 inline std::int64_t ns_of(const sdf::ElementPtr& element, const std::string& name) {
   return std::llround(value_of<double>(element, name) * static_cast<double>(mtr_core::kMillisecondNs));
 }
 
-/// Period and phase of a sensor.
+/// Returns period and phase of a sensor.
 inline mtr_core::Slot slot_of(const sdf::ElementPtr& element) {
   return {ns_of(element, "period_ms"), ns_of(element, "phase_ms")};
 }
 
-/// base_from_sensor.
+/// Returns base_from_sensor.
 inline ignition::math::Pose3d pose_of(const sdf::ElementPtr& element) {
   return value_of<ignition::math::Pose3d>(element, "pose");
 }
 
-/// A step of the physics: its end, and the end of the one before, in ns of the ROS clock.
+/// A physics step: its end, and the end of the previous step, in ns of the ROS clock.
 struct Step {
   std::int64_t before_ns;
   std::int64_t now_ns;
 
-  /// True when a tick of the slot lies in it.
+  /// Returns true if the step contains a tick of the slot.
   [[nodiscard]] bool has_tick(const mtr_core::Slot& slot) const { return slot.last_at(now_ns) > before_ns; }
 };
 

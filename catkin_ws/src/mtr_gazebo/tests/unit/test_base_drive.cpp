@@ -1,5 +1,5 @@
 /// @file
-/// The base's controller: limits, and that it stops when nobody commands it.
+/// Controller of the base: limits, and stop without commands.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

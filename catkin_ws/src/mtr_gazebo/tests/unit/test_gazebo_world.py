@@ -1,4 +1,4 @@
-"""The world file: each solid of the site and of the robot once, where and as large as the other simulation has it."""
+"""World file: each solid of site and robot occurs once, with pose and size as in the other simulator."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -48,7 +48,7 @@ def turned(x, y, heading):
 
 
 def solids_of_gazebo(world):
-    """(kind, sizes, x, y, z in world) of every box and cylinder that stands on the site."""
+    """Return (kind, sizes, x, y, z in world) of every box and cylinder of the site."""
     found = []
     for model in world.findall("model"):
         if model.get("name") in ("robot", "ground"):
@@ -67,7 +67,7 @@ def solids_of_gazebo(world):
 
 
 def solids_of_mujoco(name):
-    """The same of MuJoCo's model."""
+    """Return the same solids of MuJoCo's model."""
     model, data = mujoco_model(name)
     kinds = {int(mujoco.mjtGeom.mjGEOM_BOX): "box", int(mujoco.mjtGeom.mjGEOM_CYLINDER): "cylinder"}
     return sorted((kinds[int(kind)], *model.geom_size[index], *data.geom_xpos[index])
@@ -102,7 +102,7 @@ def test_triangles_enclose_the_hull_and_look_outwards():
     hull = next(part.form for body in bodies_of(SCENARIOS["cones"]) for part in body.parts
                 if isinstance(part.form, Hull) and part.form.name == "cone_0")
     triangles = triangles_of(hull)
-    # By the theorem of Gauss; inside out it is negative.
+    # Divergence theorem; the volume of an inverted hull is negative.
     volume = sum(np.dot(a, np.cross(b, c)) for a, b, c in triangles) / 6.0
     foot, top, height, corners = 0.18, 0.03, 0.75, 16
     share = corners / 2.0 * math.sin(2.0 * math.pi / corners)
@@ -142,7 +142,7 @@ def test_fixed_links_weigh_and_resist_turning_as_mujoco_says():
     centre = sum(link.inertia.mass_kg * (link.place.position + link.inertia.centre) for link in links) / total
     base = model.body("base_link").id
     expected = data.xmat[base].reshape(3, 3).T @ (data.subtree_com[base] - data.xpos[base])
-    # A box with the mass of the arm has its middle where the URDF says; MuJoCo takes it from the arm's box.
+    # A box with the mass of the arm has its centre as in the URDF; MuJoCo computes it from the arm's box.
     assert np.allclose(centre, expected, atol=2e-3)
     for link in links:
         moments = np.linalg.eigvalsh(link.inertia.tensor)

@@ -1,5 +1,5 @@
 /// @file
-/// Errors of the IMU have the size that is asked for, and the same seed gives the same ones.
+/// Errors of the IMU have the specified size, and are reproducible for a seed.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -55,7 +55,7 @@ TEST(ImuErrors, ABiasStaysAndOneThatWandersGrowsWithTheRootOfTime) {
     }
     square += std::pow(last.rate[0], 2);
   }
-  // 1 s: once the walk.
+  // 1 s: one standard deviation of the walk.
   EXPECT_NEAR(std::sqrt(square / kSeeds), 1e-3, 1.5e-4);
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// A LiDAR's turn: each beam once, at its own instant, whatever the physics' step.
+/// Turn of a LiDAR: each beam once, at its own time, for any physics step.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ TEST(Sweep, CastsEachBeamOnceAtItsOwnInstant) {
     const Beam& beam = seen.beams[static_cast<std::size_t>(index)];
     EXPECT_EQ(beam.index, index);
     EXPECT_NEAR(beam.angle_rad, -0.75 * M_PI + index * 1.5 * M_PI / 720.0, 1e-9);
-    // A turn of 40.1 ms: three quarters of it are seen.
+    // Three quarters of a turn of 40.1 ms are within the field of view.
     EXPECT_NEAR(static_cast<double>(beam.time_ns - kStartNs), index / 720.0 * 0.75 * 40.1e6, 1.0);
   }
 }
@@ -61,7 +61,7 @@ TEST(Sweep, TurnsOnAtItsOwnPeriod) {
 
 TEST(Sweep, CatchesUpWithAStepLongerThanATurn) {
   const Seen seen = seen_until(kStartNs + 500 * kStepNs, 100 * kStepNs);
-  // 474 ms: eleven turns, and of the twelfth all that is seen.
+  // 474 ms: eleven turns, and the whole visible part of the twelfth.
   EXPECT_EQ(seen.turns.size(), 11U);
   EXPECT_EQ(seen.beams.size(), 12U * 721U);
 }

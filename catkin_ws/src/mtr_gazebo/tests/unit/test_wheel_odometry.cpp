@@ -1,5 +1,5 @@
 /// @file
-/// Odometry counts whole ticks and loses none.
+/// Odometry counts whole ticks without losses.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -42,7 +42,7 @@ TEST(WheelOdometry, FollowsAnArc) {
 }
 
 TEST(WheelOdometry, CountsWholeTicksAndLosesNone) {
-  // A tick is 10 mm; 4 mm a reading.
+  // A tick is 10 mm; 4 mm per reading.
   WheelOdometry odometry({0.1, 0.3, 100.0});
   EXPECT_EQ(odometry.read(0.04, 0.04, 0.02).linear_mps, 0.0);
   EXPECT_EQ(odometry.read(0.08, 0.08, 0.02).linear_mps, 0.0);

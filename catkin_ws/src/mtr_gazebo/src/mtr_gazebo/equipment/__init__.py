@@ -1,2 +1,2 @@
-"""Firmware and Car of the other simulation, which see the key where Gazebo has it."""
+"""Simulated firmware and Car, which use the key pose of Gazebo."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Firmware and Car as a ROS node beside another simulator's physics: they see the key where that has it."""
+"""ROS node with simulated firmware and Car for an external physics simulator, which provides the key pose."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 from typing import Any
@@ -25,14 +25,14 @@ BATTERY = slot(1000)
 
 
 class EquipmentNode:
-    """Each pose of the key is a tick of the firmware's and the Car's 20 ms; none is lost."""
+    """Each key pose is a 20 ms tick of firmware and Car; missing poses are filled in."""
 
     def __init__(self, parameters: EquipmentParameters):
         self._equipment = Equipment(parameters)
         self._topics = SimulatedTopics(self._equipment.firmware)
         self._lift = direct_publisher(names.SIM_LIFT, Float64)
         self._battery = direct_publisher(names.BATTERY, BatteryState)
-        # Each topic has a thread of its own, and the firmware is one.
+        # Each topic has its own thread, so access to the firmware is locked.
         self._lock = threading.Lock()
         for topic, message_type, handle in self._topics.subscriptions:
             self._listen(topic, message_type, handle)
@@ -70,5 +70,5 @@ class EquipmentNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("equipment", EquipmentParameters, EquipmentNode)

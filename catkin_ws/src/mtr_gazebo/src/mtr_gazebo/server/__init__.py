@@ -1,2 +1,2 @@
-"""Writes the world file of the robot that the parameters describe and becomes Gazebo's server."""
+"""Writes the world file of the robot and starts Gazebo's server."""
 # SPDX-License-Identifier: Apache-2.0

@@ -11,7 +11,7 @@ from mtr_gazebo.world.plugin_element import PLUGIN
 
 
 def server_command(command: str, world: pathlib.Path) -> List[str]:
-    """Words that start the server; ConfigurationError when there is no such program."""
+    """Return the command line of the server; ConfigurationError if the program does not exist."""
     words = shlex.split(command)
     if not words or shutil.which(words[0]) is None:
         raise ConfigurationError(f"Parameter command is '{command}', which is not installed; allowed is the command of "
@@ -20,7 +20,7 @@ def server_command(command: str, world: pathlib.Path) -> List[str]:
 
 
 def server_environment(given: Mapping[str, str]) -> Dict[str, str]:
-    """Variables with which the server finds the plugin, and looks for models nowhere.
+    """Return the environment with the path of the plugin, and without a search for models.
 
     Raises:
         ConfigurationError: the plugin was not built.
@@ -32,5 +32,5 @@ def server_environment(given: Mapping[str, str]) -> Dict[str, str]:
     if not found and not any((pathlib.Path(folder) / PLUGIN).exists() for folder in known):
         raise ConfigurationError(f"The plugin {PLUGIN} is not there; build the workspace where Gazebo 11 is installed "
                                  "with its headers (Debian 11: libgazebo-dev), and source it.")
-    # Without an address it does not ask the internet for models.
+    # With an empty address, the server does not download models.
     return {**given, "GAZEBO_PLUGIN_PATH": os.pathsep.join([*found, *known]), "GAZEBO_MODEL_DATABASE_URI": ""}

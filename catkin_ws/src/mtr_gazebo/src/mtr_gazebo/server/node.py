@@ -17,13 +17,13 @@ from mtr_gazebo.world.world_file import WorldOptions, write_world
 from mtr_simulation.physics.wheels import parameters_of
 from mtr_simulation.site.scenario_file import chosen_scenario
 
-# As the plugin names itself.
+# Node name of the plugin.
 NODE = "/gazebo"
 CANNOT_START = 2
 
 
 def main() -> int:
-    """Become the server; the exit status when that fails."""
+    """Become the server; return the exit status if that fails."""
     try:
         parameters = parameters_from(rospy.get_param(NODE, {}), ServerParameters)
         print(f"Parameters: {described(parameters)}", flush=True)
@@ -35,7 +35,7 @@ def main() -> int:
 
 
 def prepared(parameters: ServerParameters) -> Tuple[List[str], Dict[str, str]]:
-    """Write the world; command and environment of the server."""
+    """Write the world; return command and environment of the server."""
     controller = f"/{CONTROLLER}"
     base = parameters_of(base_controller_of(rospy.get_param(controller, {}), controller))
     options = WorldOptions(parameters.seed, parameters.rear_lidar, parameters.real_time_factor, base)

@@ -12,9 +12,9 @@ class ServerParameters(ParameterSet):
         seed: of every random number.
         scenario: name of a test site, or path of a site's YAML file.
         rear_lidar: the rear LiDAR exists.
-        real_time_factor: simulated seconds per second at most; 0: as fast as the machine can.
-        world_folder: of the world file; what was written there before is written anew.
-        command: words that start Gazebo's server, to which the world file is added.
+        real_time_factor: largest number of simulated seconds per second; 0: no limit.
+        world_folder: of the world file; existing files are overwritten.
+        command: command of Gazebo's server, to which the world file is appended.
     """
 
     seed: int = number(1, 0, 2**31 - 1)

@@ -1,2 +1,2 @@
-"""From a scenario and a URDF to a world file; no ROS."""
+"""Conversion of a scenario and a URDF to a world file; no ROS."""
 # SPDX-License-Identifier: Apache-2.0

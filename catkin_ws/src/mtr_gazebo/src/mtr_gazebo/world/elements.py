@@ -1,4 +1,4 @@
-"""Elements of an SDF text, and its numbers."""
+"""Elements and numbers of SDF texts."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Iterable, Union
 from xml.etree.ElementTree import Element, SubElement
@@ -7,14 +7,14 @@ Value = Union[str, float, Iterable[float]]
 
 
 def add(parent: Element, tag: str, value: Value = "", **attributes: str) -> Element:
-    """A child with a text, a number or a list of numbers."""
+    """Add a child with a text, a number or a list of numbers."""
     child = SubElement(parent, tag, attributes)
     child.text = text_of(value) or None
     return child
 
 
 def text_of(value: Value) -> str:
-    """Numbers with all digits that tell them apart; true and false as words."""
+    """Format numbers without loss, and truth values as words."""
     if isinstance(value, bool):
         return str(value).lower()
     if isinstance(value, str):

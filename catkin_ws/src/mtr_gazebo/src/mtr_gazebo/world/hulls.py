@@ -1,4 +1,4 @@
-"""Convex hulls as files of triangles, which Gazebo loads; other simulators make the hull themselves."""
+"""Convex hulls as triangle files, which Gazebo loads; other simulators compute the hull themselves."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import TYPE_CHECKING, List
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def stl_of(hull: Hull) -> str:
-    """STL text of the hull's surface in m, each triangle counterclockwise seen from outside."""
+    """Return the STL text of the hull's surface in m, with triangles counterclockwise as seen from outside."""
     lines = [f"solid {hull.name}"]
     for corners in triangles_of(hull):
         normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
@@ -23,7 +23,7 @@ def stl_of(hull: Hull) -> str:
 
 
 def triangles_of(hull: Hull) -> "List[NDArray[np.float64]]":
-    """Corners (3, 3) of the triangles."""
+    """Return the corners (3, 3) of the triangles."""
     points = np.array(hull.points)
     found = ConvexHull(points)
     triangles = []

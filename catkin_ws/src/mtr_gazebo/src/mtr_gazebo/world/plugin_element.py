@@ -1,5 +1,4 @@
-"""What the plugin has to know of the robot: places and sizes from the URDF, errors from where the other simulation has
-them."""
+"""Plugin element: poses and sizes from the URDF, sensor errors from the parameters of the other simulator."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict
 from xml.etree.ElementTree import Element
@@ -21,7 +20,7 @@ PLUGIN = "libmtr_gazebo_plugin_ros.so"
 
 
 def add_plugin(model: Element, seed: int, world_from_car: Pose2, timing: SensorTiming) -> Element:
-    """The plugin on the robot's model; sensors and wheels are added to it."""
+    """Add the plugin to the robot's model; sensors and wheels are added to it later."""
     plugin = add(model, "plugin", name="robot", filename=PLUGIN)
     car = world_from_car
     _add_all(plugin, {"seed": seed, "world_from_car": (car.x, car.y, car.heading),
@@ -31,7 +30,7 @@ def add_plugin(model: Element, seed: int, world_from_car: Pose2, timing: SensorT
 
 def add_lidars(plugin: Element, geometry: RobotGeometry, has_rear: bool, lidar: LidarParameters,
                timing: SensorTiming) -> None:
-    """Front and, if there is one, rear LiDAR."""
+    """Add the front LiDAR and the optional rear LiDAR."""
     _add_lidar(plugin, geometry.mount(names.FRONT_LIDAR), names.FRONT_SCAN, lidar,
                {"period_ms": timing.front_lidar_period_ms, "phase_ms": timing.front_lidar_phase_ms})
     if has_rear:
@@ -40,7 +39,7 @@ def add_lidars(plugin: Element, geometry: RobotGeometry, has_rear: bool, lidar: 
 
 
 def add_imu(plugin: Element, geometry: RobotGeometry, imu: ImuParameters, timing: SensorTiming) -> None:
-    """The IMU."""
+    """Add the IMU."""
     mount = geometry.mount(names.IMU)
     _add_all(add(plugin, "imu"), {
         "frame": mount.frame, "topic": names.IMU_DATA, "pose": _pose(mount), "period_ms": timing.imu_period_ms,
@@ -51,7 +50,7 @@ def add_imu(plugin: Element, geometry: RobotGeometry, imu: ImuParameters, timing
 
 
 def add_base(plugin: Element, geometry: RobotGeometry, base: BaseParameters, timing: SensorTiming) -> None:
-    """Wheels, and how the base drives them and reads them."""
+    """Add the wheels, their control, and their odometry."""
     wheels = geometry.wheels()
     element = add(plugin, "base")
     for joint in (each for each in geometry.tree.joints if each.type == "continuous"):
@@ -60,7 +59,7 @@ def add_base(plugin: Element, geometry: RobotGeometry, base: BaseParameters, tim
     _add_all(element, {
         "command_topic": names.WHEEL_COMMAND, "odometry_topic": names.WHEEL_ODOMETRY,
         "period_ms": timing.odometry_period_ms, "phase_ms": timing.odometry_phase_ms,
-        # What the base believes: its wheels are a little smaller or larger than that.
+        # Wheel geometry as assumed by the base, with its errors.
         "believed_radius_m": wheels.radius_m * (1.0 + base.radius_error),
         "believed_half_track_m": 0.5 * wheels.track_m * base.separation_multiplier,
         "encoder_ticks_per_m": base.encoder_ticks_per_m, "max_linear_mps": base.max_linear_mps,
@@ -70,7 +69,7 @@ def add_base(plugin: Element, geometry: RobotGeometry, base: BaseParameters, tim
 
 
 def add_lift(plugin: Element, geometry: RobotGeometry) -> None:
-    """The lift's joint, and where the key is on what it lifts."""
+    """Add the lift's joint, and the pose of the key on the lifted link."""
     tree = geometry.tree
     lift = next(joint for joint in tree.chain(names.KEY) if joint.type == "prismatic")
     key = seen_from(tree.place(lift.child), tree.place(names.KEY))

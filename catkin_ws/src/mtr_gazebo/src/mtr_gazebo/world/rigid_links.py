@@ -1,4 +1,4 @@
-"""Links of a URDF that fixed joints hold together, as one rigid link each: what a physics engine moves."""
+"""Rigid links: URDF links connected by fixed joints are one body of the physics engine."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import TYPE_CHECKING, Any, Dict, List, NamedTuple, Tuple
 
@@ -22,7 +22,7 @@ class Inertia(NamedTuple):
 
 
 class Solid(NamedTuple):
-    """Name of the URDF's link that it is of, its place in the rigid link, and the URDF's geometry."""
+    """Name of the original URDF link, pose in the rigid link, and URDF geometry."""
 
     name: str
     place: Place
@@ -31,9 +31,9 @@ class Solid(NamedTuple):
 
 class RigidLink(NamedTuple):
     """Attributes:
-        name: of the URDF's link that its frame is.
+        name: of the URDF link that defines its frame.
         place: of its frame in the root link, all joints at zero.
-        joint: the URDF's joint that moves it; None for the root.
+        joint: URDF joint that moves it; None for the root.
         parent: name of the rigid link on which it moves; empty for the root.
     """
 
@@ -46,20 +46,20 @@ class RigidLink(NamedTuple):
 
 
 def rigid_links(tree: UrdfTree) -> List[RigidLink]:
-    """The rigid links, root first; ConfigurationError when one that moves has no mass."""
+    """Return the rigid links, root first; ConfigurationError for a moving one without mass."""
     heads = {link.name: _head(tree, link.name) for link in tree.links}
     joints = {joint.child: joint for joint in tree.joints}
     return [_rigid(tree, name, joints.get(name), heads) for name in dict.fromkeys(heads.values())]
 
 
 def seen_from(frame: Place, place: Place) -> Place:
-    """The place, given in the same frame as `frame` is, as it is in `frame`."""
+    """Return a place relative to `frame`; both are given in the same frame."""
     back = frame.rotation.T
     return Place(back @ place.rotation, back @ (place.position - frame.position))
 
 
 def _head(tree: UrdfTree, link: str) -> str:
-    """The link whose frame the rigid link has that this one is part of."""
+    """Return the name of the rigid link that contains this link."""
     moving = [joint.child for joint in tree.chain(link) if joint.type != "fixed"]
     return moving[-1] if moving else tree.root
 
@@ -78,7 +78,7 @@ def _rigid(tree: UrdfTree, name: str, joint: Any, heads: Dict[str, str]) -> Rigi
 
 
 def _inertia(link: Any, place: Place) -> Inertia:
-    """Inertia of a link that is fixed at a place."""
+    """Return the inertia of a link that is fixed at a place."""
     origin, values = place @ place_of(link.inertial.origin), link.inertial.inertia
     tensor = np.array([[values.ixx, values.ixy, values.ixz], [values.ixy, values.iyy, values.iyz],
                        [values.ixz, values.iyz, values.izz]], dtype=float)
@@ -91,6 +91,6 @@ def _together(parts: List[Inertia]) -> Inertia:
     tensor = np.zeros((3, 3))
     for part in parts:
         away = part.centre - centre
-        # Steiner: a mass beside the axis.
+        # Parallel axis theorem (Steiner).
         tensor = tensor + part.tensor + part.mass_kg * (away @ away * np.eye(3) - np.outer(away, away))
     return Inertia(mass, centre, tensor)

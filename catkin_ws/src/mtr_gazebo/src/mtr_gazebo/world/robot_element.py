@@ -1,4 +1,4 @@
-"""The robot of a URDF as a model of SDF: rigid links, joints, and tyres with the ground's friction."""
+"""SDF model of the robot from its URDF: rigid links, joints, and tyres with friction."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Optional
 from xml.etree.ElementTree import Element
@@ -15,12 +15,12 @@ from .rigid_links import RigidLink, Solid, rigid_links
 
 ROBOT = "robot"
 JOINT_TYPES = {"continuous": "revolute", "prismatic": "prismatic"}
-# Tyre on the ground, for each point of contact: a robot of 24 kg sinks 0.3 mm, and does not jump.
+# Contact parameters of a tyre, per contact point: a robot of 24 kg sinks by 0.3 mm without bouncing.
 CONTACT_STIFFNESS_NPM, CONTACT_DAMPING_NSPM = 1e5, 1e3
 
 
 def add_robot(world: Element, geometry: RobotGeometry, world_from_base: Pose2, friction: float) -> Element:
-    """The model, where the scenario has it start; its wheels slide by ODE's friction."""
+    """Add the model at the start pose of the scenario; the wheels slide by ODE's friction."""
     model = add(world, "model", name=ROBOT)
     pose = world_from_base
     add(model, "pose", (pose.x, pose.y, geometry.base_height_m(), 0.0, 0.0, pose.heading))
@@ -84,7 +84,7 @@ def _add_joint(model: Element, link: RigidLink) -> None:
     add(element, "parent", link.parent)
     add(element, "child", link.name)
     axis = add(element, "axis")
-    # Of both URDF and SDF the axis is in the child's frame.
+    # In both URDF and SDF, the axis is in the child's frame.
     add(axis, "xyz", [float(value) for value in joint.axis or (1.0, 0.0, 0.0)])
     if joint.type == "prismatic":
         limit = add(axis, "limit")

@@ -1,4 +1,4 @@
-"""What stands on a site as static models of SDF."""
+"""Objects of a site as static SDF models."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -11,12 +11,12 @@ from mtr_simulation.site.shapes import Body, Box, Cylinder, Hull, Part, Surface
 from .elements import add
 
 COLOURS = {Surface.PAINT: "0.25 0.3 0.6 1", Surface.UPPER: "0.25 0.3 0.6 1", Surface.RUBBER: "0.1 0.1 0.1 1"}
-# Tyre and ground together have the friction of the smaller one, the tyre's.
+# The contact has the smaller friction coefficient of both, which is the tyre's.
 GROUND_FRICTION = 100.0
 
 
 def add_ground(world: Element) -> None:
-    """Level ground."""
+    """Add level ground."""
     model = add(world, "model", name="ground")
     add(model, "static", True)
     link = add(model, "link", name="ground")
@@ -31,9 +31,9 @@ def add_ground(world: Element) -> None:
 
 
 def add_body(world: Element, body: Body, meshes: pathlib.Path) -> None:
-    """One body as a model; the parts of the surroundings, which have places of their own, as a model each.
+    """Add a body as a model; separate parts of the surroundings become a model each.
 
-    A beam is compared with what surrounds a model before it is with the model's solids.
+    Beams are tested against the bounding box of a model before its solids.
     """
     for single in _models(body):
         model = add(world, "model", name=single.name)
@@ -45,12 +45,12 @@ def add_body(world: Element, body: Body, meshes: pathlib.Path) -> None:
 
 
 def hulls_of(bodies: Sequence[Body]) -> List[Hull]:
-    """All convex hulls of a site."""
+    """Return all convex hulls of a site."""
     return [part.form for body in bodies for part in body.parts if isinstance(part.form, Hull)]
 
 
 def mesh_file(meshes: pathlib.Path, hull: Hull) -> pathlib.Path:
-    """Where the hull's triangles are."""
+    """Return the path of the hull's triangle file."""
     return meshes / f"{hull.name}.stl"
 
 

@@ -1,4 +1,4 @@
-"""When which sensor speaks: each on its own clock, as on a robot, so that no two are in step for long."""
+"""Timing of the sensors: each has its own clock, as on a robot, so that no two are synchronous for long."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 
@@ -9,12 +9,12 @@ from mtr_core.parameters import ParameterSet, number
 class SensorTiming(ParameterSet):
     """Periods and phases in ms of the simulated clock.
 
-    The two LiDARs' motors are as unlike as two of one make: they pass each other every 16 s. The phases of IMU and
-    odometry have nothing to do with the ticks of the robot's nodes, which are multiples of 20 ms.
+    The periods of the two LiDARs differ like those of two motors of one type: they coincide every 16 s. The phases of
+    IMU and odometry are independent of the ticks of the robot's nodes, which are multiples of 20 ms.
 
     Attributes:
         front_lidar_period_ms, rear_lidar_period_ms: of one turn.
-        truth_period_ms: of pose, key and lift, for what is no sensor; its phase is 0.
+        truth_period_ms: of pose, key and lift, which are not sensors; its phase is 0.
     """
 
     front_lidar_period_ms: float = number(40.0, 20.0, 200.0, "ms")

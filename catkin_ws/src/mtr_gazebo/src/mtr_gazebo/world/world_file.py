@@ -1,4 +1,4 @@
-"""The world file of a scenario and a robot, with the files of triangles that it names."""
+"""World file of a scenario and a robot, with its triangle files."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from dataclasses import dataclass, field
@@ -24,17 +24,19 @@ from .timing import SensorTiming
 
 SDF_VERSION = "1.6"
 STEP_S = 0.001
-# Of ODE's solver: as many turns as Gazebo has by default.
+# Iterations of ODE's solver, as by default in Gazebo.
 ITERATIONS = 50
 FILE_NAME = "site.world"
 
 
 @dataclass(frozen=True)
 class WorldOptions:
-    """Attributes:
-        seed: of every random number, the start among them.
+    """Options of a world file.
+
+    Attributes:
+        seed: of every random number, including the start pose.
         has_rear_lidar: the rear LiDAR exists.
-        real_time_factor: simulated seconds per second; 0: as fast as the machine can.
+        real_time_factor: simulated seconds per second; 0: no limit.
         base: limits of the platform.
     """
 
@@ -49,7 +51,7 @@ class WorldOptions:
 
 def write_world(folder: pathlib.Path, scenario: Scenario, geometry: RobotGeometry,
                 options: WorldOptions) -> pathlib.Path:
-    """Write world file and triangles into a folder, which is made; the world file's path."""
+    """Write world file and triangle files into a folder, which is created; return the world file's path."""
     folder = folder.resolve()
     for name, text in world_files(folder, scenario, geometry, options).items():
         path = folder / name
@@ -60,10 +62,10 @@ def write_world(folder: pathlib.Path, scenario: Scenario, geometry: RobotGeometr
 
 def world_files(folder: pathlib.Path, scenario: Scenario, geometry: RobotGeometry,
                 options: WorldOptions) -> Dict[str, str]:
-    """Name in the folder and text of each file.
+    """Return the text of each file by its name in the folder.
 
     Raises:
-        ConfigurationError: the scenario has what Gazebo's world does not, or the robot lacks what is needed.
+        ConfigurationError: Gazebo's world does not support the scenario, or the robot is incomplete.
     """
     _check(scenario)
     meshes = folder / "meshes"
@@ -102,7 +104,7 @@ def _add_physics(world: Element, real_time_factor: float) -> None:
     solver = add(add(physics, "ode"), "solver")
     add(solver, "type", "quick")
     add(solver, "iters", ITERATIONS)
-    # The circle of Coulomb's friction; ODE's pyramid turns a skid-steered robot by a third faster than it shall.
+    # Circular friction cone; with ODE's pyramid, a skid-steered robot turns by a third too fast.
     add(solver, "friction_model", "cone_model")
 
 
