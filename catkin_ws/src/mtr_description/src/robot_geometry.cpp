@@ -1,5 +1,5 @@
 /// @file
-/// Questions to the robot's URDF.
+/// Queries of the robot's URDF.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_description/robot_geometry.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 namespace names = mtr_core::names;
 using mtr_core::ConfigurationError;
 
-// Numbers of a URDF that shall be equal are so within this.
+// Tolerance of URDF numbers that must be equal.
 constexpr double kToleranceM = 1e-6;
 
 /// Extent in x and y about a shape's centre.
@@ -27,7 +27,7 @@ struct Extent {
   double y_m;
 };
 
-/// Half of a box, a cylinder or a sphere along the root's x and y.
+/// Returns half the extent of a box, a cylinder or a sphere along the root's x and y.
 Extent half_extent(const std::string& link, const urdf::Geometry& geometry, const urdf::Rotation& rotation) {
   const urdf::Vector3 x = rotation * urdf::Vector3(1.0, 0.0, 0.0);
   const urdf::Vector3 y = rotation * urdf::Vector3(0.0, 1.0, 0.0);

@@ -1,5 +1,5 @@
 /// @file
-/// Walking through a URDF.
+/// Traversal of a URDF.
 // SPDX-License-Identifier: Apache-2.0
 #include "urdf_tree.hpp"
 
@@ -19,7 +19,7 @@ namespace names = mtr_core::names;
 using mtr_core::ConfigurationError;
 
 constexpr std::size_t kWheelCount = 4;
-// A direction counts as vertical within this.
+// Tolerance of a vertical direction.
 constexpr double kDirectionTolerance = 1e-6;
 
 std::string list_of(const Joints& joints) {

@@ -1,5 +1,5 @@
 /// @file
-/// The robot's geometry as the parameter robot_description of the ROS master has it.
+/// Geometry of the robot from the ROS parameter robot_description.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace mtr_description {
 
-/// Geometry from the parameter; throws mtr_core::ConfigurationError when it is not set or is no URDF.
+/// Returns the geometry; throws mtr_core::ConfigurationError if the parameter is unset or not a URDF.
 inline RobotGeometry described_robot() {
   std::string text;
   if (!ros::param::get(mtr_core::names::kRobotDescription, text) || text.empty()) {
@@ -25,13 +25,12 @@ inline RobotGeometry described_robot() {
   return RobotGeometry(text);
 }
 
-/// Frame in which the driver of a sensor speaks, where robot.launch says that it is not named as the sensor's link.
+/// Returns the frame of a sensor's messages, if robot.launch overrides the name of the sensor's link.
 inline std::string message_frame(const std::string& link) {
   return ros::param::param<std::string>(std::string(mtr_core::names::kRobotFrames) + "/" + link, link);
 }
 
-/// Links of the LiDARs that the robot has, by the frames in which they speak; throws mtr_core::ConfigurationError when
-/// these are the same.
+/// Returns the links of the LiDARs by their message frames; throws mtr_core::ConfigurationError for equal frames.
 inline std::map<std::string, std::string> lidars_by_frame(bool has_rear_lidar) {
   const std::string front = message_frame(mtr_core::names::kFrontLidar);
   const std::string rear = message_frame(mtr_core::names::kRearLidar);

@@ -1,1 +1,1 @@
-"""The robot's geometry: everything that a node has to know of its shape, read from its URDF."""
+"""Geometry of the robot, read from its URDF for all nodes."""

@@ -1,4 +1,4 @@
-"""Configuration of the base's own controller: what it does with a velocity command, and without one."""
+"""Configuration of the base's own controller: limits of velocity commands, and the command time-out."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ class BaseController:
     """Limits of a diff_drive_controller.
 
     Attributes:
-        command_timeout_s: it stops so long after the last command.
+        command_timeout_s: time from the last command to the stop.
         max_linear_mps, max_angular_radps: of the commanded velocity.
-        linear_acceleration_mps2, angular_acceleration_radps2: of starts and stops, that by time-out included.
+        linear_acceleration_mps2, angular_acceleration_radps2: of starts and stops, including the time-out.
     """
 
     command_timeout_s: float
@@ -29,7 +29,7 @@ class BaseController:
 
 
 def base_parameters_in(path: pathlib.Path) -> Dict[str, Any]:
-    """The controller's parameters of a file, for the parameter server; ConfigurationError when there are none."""
+    """Return the controller's parameters of a file, for the parameter server; ConfigurationError without any."""
     try:
         values: Dict[str, Any] = yaml.safe_load(path.read_text(encoding="utf-8"))[CONTROLLER]
     except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError) as error:
@@ -38,12 +38,12 @@ def base_parameters_in(path: pathlib.Path) -> Dict[str, Any]:
 
 
 def base_controller_in(path: pathlib.Path) -> BaseController:
-    """The controller that a file of parameters configures; ConfigurationError when it does not."""
+    """Return the controller configured in a parameter file; ConfigurationError for an invalid file."""
     return base_controller_of(base_parameters_in(path), str(path))
 
 
 def base_controller_of(values: Dict[str, Any], where: str) -> BaseController:
-    """The same of parameters that were loaded from a place."""
+    """Return the controller of loaded parameters. where: their source, for the sentence of an error."""
     try:
         linear, angular = values["linear"]["x"], values["angular"]["z"]
         return BaseController(

@@ -1,4 +1,4 @@
-"""The convex outline, from above, of what collides."""
+"""Convex outline of the collision shapes from above."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import TYPE_CHECKING, Any, Iterable, List, Tuple
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
     from .urdf_tree import Array
 
 Point = Tuple[float, float]
-# A round shape is taken as the polygon around it with so many corners.
+# Number of corners of the polygon that circumscribes a round shape.
 ROUND_CORNERS = 16
 
 
 def corners_from_above(link: str, place: Place, geometry: Any) -> List[Point]:
-    """Points whose convex hull, from above, is the shape; ConfigurationError for a shape without a size of its own."""
+    """Return points whose convex hull is the shape from above; ConfigurationError for a shape without a size."""
     kind = type(geometry).__name__
     if kind == "Box":
         points = _box(*geometry.size)
@@ -36,7 +36,7 @@ def corners_from_above(link: str, place: Place, geometry: Any) -> List[Point]:
 
 
 def convex_hull(points: Iterable[Point]) -> Tuple[Point, ...]:
-    """Corners counterclockwise from the rearmost; ConfigurationError for a shape without an area."""
+    """Return the corners counterclockwise from the rearmost one; ConfigurationError for a shape without an area."""
     hull = MultiPoint(list(points)).convex_hull
     if not hull.area > 0.0:
         raise ConfigurationError("The collision geometry in robot_description has no area from above; allowed are "
@@ -52,7 +52,7 @@ def _box(length: float, width: float, height: float) -> "Array":
 
 
 def _cylinder(radius: float, length: float) -> "Array":
-    # The polygon's sides touch the circle where it crosses the axes, so that its extent there is the radius.
+    # The polygon touches the circle at the axes, so that its extent there equals the radius.
     around = radius / math.cos(math.pi / ROUND_CORNERS)
     angles = 2.0 * math.pi * (np.arange(ROUND_CORNERS) + 0.5) / ROUND_CORNERS
     ring = np.column_stack((around * np.cos(angles), around * np.sin(angles)))

@@ -1,4 +1,4 @@
-"""The robot's geometry as the parameter robot_description of the ROS master has it."""
+"""Geometry of the robot from the ROS parameter robot_description."""
 # SPDX-License-Identifier: Apache-2.0
 import rospy
 
@@ -9,7 +9,7 @@ from .robot_geometry import RobotGeometry
 
 
 def described_robot() -> RobotGeometry:
-    """Geometry from the parameter; ConfigurationError when it is not set or is no URDF."""
+    """Return the geometry; ConfigurationError if the parameter is unset or not a URDF."""
     text = rospy.get_param(names.ROBOT_DESCRIPTION, "")
     if not isinstance(text, str) or not text:
         raise ConfigurationError("Parameter robot_description is not set; allowed is the robot's URDF, which "

@@ -1,4 +1,4 @@
-"""The robot's geometry, read from its URDF: mounts, footprint, key and wheels."""
+"""Geometry of the robot from its URDF: mounts, footprint, key and wheels."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, List
 
@@ -11,16 +11,16 @@ from .mounts import Footprint, KeyMount, LidarMounts, Mount, Wheels, check_value
 from .outline import convex_hull, corners_from_above
 from .urdf_tree import DIGITS, UrdfTree
 
-# Numbers of a URDF that shall be equal, or zero, are so within this, in m or as a direction's component.
+# Tolerance of URDF numbers that must be equal or zero, in m or as a component of a direction.
 TOLERANCE = 1e-6
 WHEEL_COUNT = 4
 
 
 class RobotGeometry:
-    """What a node needs to know of the robot's shape; C++ has the same in mtr_description/robot_geometry.hpp.
+    """Geometry queries for nodes; the C++ equivalent is mtr_description/robot_geometry.hpp.
 
-    Each question raises ConfigurationError with one sentence when the URDF does not answer it: which value, where, and
-    what is allowed. What a node does not ask for may be missing.
+    Each query raises ConfigurationError if the URDF does not contain the answer. The sentence has the value, its place
+    and the allowed range. Parts without a query may be missing.
     """
 
     def __init__(self, urdf_text: str):
@@ -30,7 +30,7 @@ class RobotGeometry:
                                      f"allowed is {names.BASE}.")
 
     def mount(self, frame: str) -> Mount:
-        """Mount of a frame that hangs on base_link by fixed joints only."""
+        """Return the mount of a frame that is connected to base_link by fixed joints only."""
         for joint in self.tree.chain(frame):
             if joint.type != "fixed":
                 raise ConfigurationError(f"The joint {joint.name} between {names.BASE} and {frame} "
@@ -40,12 +40,12 @@ class RobotGeometry:
         return Mount(frame, x, y, z, *place.rpy())
 
     def lidars(self, has_rear: bool = True) -> LidarMounts:
-        """Mounts of the LiDARs; ConfigurationError unless they are there, upright and level."""
+        """Return the mounts of the LiDARs; ConfigurationError unless they exist and are upright and level."""
         return LidarMounts(self.mount(names.FRONT_LIDAR).level(),
                            self.mount(names.REAR_LIDAR).level() if has_rear else None)
 
     def footprint(self) -> Footprint:
-        """Outline of everything that collides; neither a wheel's turn nor the lift changes it."""
+        """Return the outline of all collision shapes; wheel rotation and lift do not change it."""
         moving = {*(joint.name for joint in self._wheel_joints()), self._lift_of_key().name}
         for joint in self.tree.joints:
             if joint.type != "fixed" and joint.name not in moving:
@@ -58,13 +58,13 @@ class RobotGeometry:
         return Footprint(convex_hull(points))
 
     def key(self) -> KeyMount:
-        """The remote key, which hangs on a vertical lift."""
+        """Return the remote key, which is on a vertical lift."""
         limit = self._lift_of_key().limit
         x, y, z = (float(value) for value in self.tree.place(names.KEY).position)
         return KeyMount(x, y, round(z + self.base_height_m(), DIGITS), float(limit.upper))
 
     def wheels(self) -> Wheels:
-        """The four wheels, which turn on base_link by continuous joints."""
+        """Return the four wheels, which rotate on base_link by continuous joints."""
         wheels = self._wheel_joints()
         places = np.array([self.tree.place(joint.child).position for joint in wheels])
         radii = [self._wheel_radius(joint.child) for joint in wheels]
@@ -73,7 +73,7 @@ class RobotGeometry:
         return Wheels(float(np.ptp(places[:, 0])), float(np.ptp(places[:, 1])), radii[0], float(places[0, 2]))
 
     def base_height_m(self) -> float:
-        """Height of base_link above level ground."""
+        """Return the height of base_link above level ground."""
         wheels = self.wheels()
         return round(wheels.radius_m - wheels.axle_z_m, DIGITS)
 
@@ -93,7 +93,7 @@ class RobotGeometry:
         return float(radii[0])
 
     def _lift_of_key(self) -> Any:
-        """The one joint that moves the key; it is prismatic, vertical, and starts at zero."""
+        """Return the only joint that moves the key; it is prismatic, vertical, and starts at zero."""
         moving = [joint for joint in self.tree.chain(names.KEY) if joint.type != "fixed"]
         if [joint.type for joint in moving] != ["prismatic"]:
             found = ", ".join(f"{joint.name} ({joint.type})" for joint in moving) or "none"

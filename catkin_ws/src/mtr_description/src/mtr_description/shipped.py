@@ -1,4 +1,4 @@
-"""Robots from files, above all the one that this package describes, and its base: for what runs without ROS."""
+"""Robots from files without ROS, in particular the robot of this package and its base."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
@@ -16,12 +16,12 @@ from .robot_geometry import RobotGeometry
 
 
 def urdf_in(path: pathlib.Path) -> str:
-    """URDF text of a file, through xacro as launch files do it; ConfigurationError when it cannot be read."""
-    # The xacro of PyPI is that of ROS 2, whose $(find PACKAGE) knows none of the packages here.
+    """Return the URDF text of a file, through xacro as in launch files; ConfigurationError if it is unreadable."""
+    # The xacro of PyPI is the ROS 2 version, whose $(find PACKAGE) does not find packages of this workspace.
     substitution_args._eval_find = _package_folder
     try:
         text: str = xacro.process_file(str(path)).toxml()
-    except Exception as error:  # Beside its own errors xacro lets through those of XML, of Python and of files.
+    except Exception as error:  # In addition to its own errors, xacro passes errors of XML, Python and files.
         reason = str(error).partition("\n")[0]
         raise ConfigurationError(f"{path} cannot be read; allowed is a URDF or a xacro file ({reason}).") from error
     return text
@@ -36,7 +36,7 @@ def _package_folder(name: str) -> str:
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """rosrun mtr_description urdf FILE: print the file's URDF; exit status 1 after one sentence if it has none."""
+    """Entry point of rosrun mtr_description urdf FILE: print the URDF; exit status 1 after one sentence on failure."""
     given = sys.argv[1:] if arguments is None else arguments
     if len(given) != 1:
         print("Usage: rosrun mtr_description urdf FILE", file=sys.stderr)
@@ -55,22 +55,22 @@ def _folder() -> pathlib.Path:
 
 @functools.lru_cache(maxsize=None)
 def shipped_urdf() -> str:
-    """Text of urdf/robot.urdf.xacro."""
+    """Return the text of urdf/robot.urdf.xacro."""
     return urdf_in(_folder() / "urdf" / "robot.urdf.xacro")
 
 
 @functools.lru_cache(maxsize=None)
 def shipped_base() -> BaseController:
-    """The base of config/jackal_base.yaml."""
+    """Return the base of config/jackal_base.yaml."""
     return base_controller_in(shipped_base_file())
 
 
 def shipped_base_file() -> pathlib.Path:
-    """The base's configuration of this package."""
+    """Return the path of this package's base configuration."""
     return _folder() / "config" / "jackal_base.yaml"
 
 
 @functools.lru_cache(maxsize=None)
 def shipped_geometry() -> RobotGeometry:
-    """Geometry of that robot."""
+    """Return the geometry of the robot of this package."""
     return RobotGeometry(shipped_urdf())

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     Array = NDArray[np.float64]
 
-# Sums of a chain's numbers are rounded to a nanometre, so that they are the numbers that a person would write.
+# Sums along a chain are rounded to a nanometre, to remove rounding errors.
 DIGITS = 9
 
 
@@ -29,20 +29,20 @@ class Place:
         return Place(self.rotation @ other.rotation, self.position + self.rotation @ other.position)
 
     def rpy(self) -> Tuple[float, float, float]:
-        """Roll, pitch and yaw in rad: turns about the fixed axes x, y, z in this order."""
+        """Roll, pitch and yaw in rad: rotations about the fixed axes x, y, z in this order."""
         r = self.rotation
         return (math.atan2(r[2, 1], r[2, 2]) + 0.0, math.atan2(-r[2, 0], math.hypot(r[0, 0], r[1, 0])) + 0.0,
                 math.atan2(r[1, 0], r[0, 0]) + 0.0)
 
 
 class UrdfTree:
-    """A URDF as it was parsed; joints stand at zero. ConfigurationError unless the text is one."""
+    """A parsed URDF with all joints at zero; ConfigurationError for an invalid text."""
 
     def __init__(self, text: str):
         try:
             self._robot = urdf.URDF.from_xml_string(text.encode("utf-8"))
             self.root: str = self._robot.get_root()
-        except Exception as error:  # The parser lets through whatever its XML library and its assertions raise.
+        except Exception as error:  # The parser passes errors of its XML library and its assertions.
             raise ConfigurationError("Parameter robot_description cannot be read; allowed is a URDF "
                                      f"({' '.join(str(error).split())[:200]}).") from error
 
@@ -57,7 +57,7 @@ class UrdfTree:
         return list(self._robot.joints)
 
     def chain(self, link: str) -> List[Any]:
-        """Joints from the root to the link; ConfigurationError when there is no such link."""
+        """Return the joints from the root to the link; ConfigurationError for an unknown link."""
         if link not in self._robot.link_map:
             raise ConfigurationError(f"The robot_description has no link {link}; allowed are descriptions in which it "
                                      f"hangs on {self.root}.")
@@ -68,28 +68,28 @@ class UrdfTree:
         return found
 
     def place(self, link: str) -> Place:
-        """root_from_link with all joints at zero."""
+        """Return root_from_link with all joints at zero."""
         place = place_of(None)
         for joint in self.chain(link):
             place = place @ place_of(joint.origin)
         return Place(place.rotation, np.round(place.position, DIGITS) + 0.0)
 
     def shapes(self) -> Iterator[Tuple[str, Place, Any]]:
-        """Link, root_from_shape and geometry of everything that collides."""
+        """Yield link, root_from_shape and geometry of all collision shapes."""
         for link in self.links:
             for collision in link.collisions:
                 yield link.name, self.place(link.name) @ place_of(collision.origin), collision.geometry
 
 
 def place_of(origin: Any) -> Place:
-    """Place that an origin element says; none means the identity."""
+    """Return the place of an origin element; a missing one means the identity."""
     xyz = (origin.xyz if origin is not None else None) or (0.0, 0.0, 0.0)
     roll, pitch, yaw = (origin.rpy if origin is not None else None) or (0.0, 0.0, 0.0)
     return Place(_turn(2, yaw) @ _turn(1, pitch) @ _turn(0, roll), np.array(xyz, dtype=float))
 
 
 def _turn(axis: int, angle_rad: float) -> "Array":
-    """Rotation matrix about a coordinate axis."""
+    """Return the rotation matrix about a coordinate axis."""
     cos, sin = math.cos(angle_rad), math.sin(angle_rad)
     matrix = np.eye(3)
     i, j = (axis + 1) % 3, (axis + 2) % 3

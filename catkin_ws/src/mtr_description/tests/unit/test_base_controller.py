@@ -1,4 +1,4 @@
-"""The base's shipped configuration, and files that are none."""
+"""Shipped configuration of the base, and invalid files."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

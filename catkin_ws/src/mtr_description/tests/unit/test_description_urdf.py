@@ -1,4 +1,4 @@
-"""The URDF loads in what reads it, and has the frames that the nodes need; rviz shows what they publish."""
+"""The URDF loads in all its readers and has the frames of the nodes; rviz displays their topics."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from xml.etree import ElementTree

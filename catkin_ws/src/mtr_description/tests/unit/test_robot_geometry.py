@@ -1,4 +1,4 @@
-"""What the robot's URDF says, and sentences about URDFs that do not."""
+"""Values from the robot's URDF, and sentences about invalid URDFs."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import math
