@@ -82,10 +82,7 @@ class Scene:
 
 
 class Mapper:
-    """Simulated mapping of localization.
-
-    It records key-frames from exact poses, and some time after the order to freeze it gives a map without range biases.
-    """
+    """Simulated mapping: key-frames from exact poses, and after the order to freeze a map without range biases."""
 
     def __init__(self, scene: Scene, centre: Pose2):
         self._scene, self._centre = scene, centre

@@ -203,7 +203,7 @@ def asked_of(options: argparse.Namespace) -> Asked:
 
 
 def arguments_of(options: argparse.Namespace, bag: str, parameters: List[str], start_s: float) -> List[str]:
-    """Return the arguments of the replay program. parameters: NAME=VALUE, before those of the user."""
+    """Return the arguments of the replay program. parameters: NAME=VALUE, before the user's own."""
     arguments = [bag, "--out", str(options.out)]
     arguments += ["--front-only"] if options.front_only else []
     end = options.loop_end if options.loop_end_after is None else f"{start_s + options.loop_end_after:.9f}"

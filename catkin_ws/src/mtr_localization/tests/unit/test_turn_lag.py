@@ -1,4 +1,4 @@
-"""Stamp offsets are found from the robot's turns; without turns there is no result."""
+"""Stamp offsets are found from the robot's turns; without turns the result is empty."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import math

@@ -1,6 +1,6 @@
 """Frames of the rosserial protocol, revision 2: parser and encoder.
 
-Little-endian: FF, FE, length u16, its check, topic id u16, payload, check. There is no escaping, so FF FE may occur in
+Little-endian: FF, FE, length u16, its check, topic id u16, payload, check. Bytes are not escaped, so FF FE may occur in
 a payload; a frame is valid only if both checks match. Source: rosserial 0.9, serial_node.py.
 """
 # SPDX-License-Identifier: Apache-2.0

@@ -40,7 +40,7 @@ class BridgeParameters(SerialParameters):
     Attributes:
         port: path of the board, preferably in /dev/serial/by-id, which is permanent for a board.
         topics: allowed topics of the board, each "from NAME TYPE", "to NAME TYPE" or "service NAME TYPE"; by default
-            those of the project's own firmware.
+            the topics of the project's firmware.
         host: program that serves the line, as selected in robot.launch; only this one is available.
     """
 

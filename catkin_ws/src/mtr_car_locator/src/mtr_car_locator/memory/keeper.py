@@ -22,7 +22,7 @@ class CarKeeper:
         self._kept: Optional[Tuple[int, int, int]] = None
 
     def read(self) -> Optional[RememberedCar]:
-        """Return the previous Car; None if there is no usable one."""
+        """Return the previous Car; None without a usable file."""
         try:
             data = self._file.read() if self._file else None
             car = remembered_from(data) if data else None

@@ -107,7 +107,7 @@ class Survey:
             self._go_on(self._ring, now_s, robot, result)
 
     def conclude(self, now_s: float, robot: RobotPose, surfaces: Optional[SurfaceMap]) -> None:
-        """Use the adjusted map after the drive once the robot's pose is in it; NotLocated if there is no valid one."""
+        """Use the adjusted map after the drive once the robot's pose is in it; NotLocated without a valid map."""
         if self._ring is None or not self._ring.is_finished:
             return
         if self._frozen_since_s is None:
