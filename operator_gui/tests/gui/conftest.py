@@ -231,8 +231,9 @@ class Operator:
         return self
 
     def click(self, button):
-        """Click a button that can be clicked, or hold it where that is wanted."""
-        assert button.isEnabled(), button.text()
+        """Click a button once it is enabled, or hold it where the button requires that."""
+        # On a busy machine the robot may count as silent for a moment, which disables buttons.
+        self.wait(button.isEnabled)
         if isinstance(button, HoldButton):
             self.hold(button)
         else:

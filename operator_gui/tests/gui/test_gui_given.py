@@ -91,7 +91,9 @@ def test_bad_limits_are_refused_with_their_sentence_until_they_are_taken_away(op
     choose(screen.given.limits, file("limits.yaml", text))
     assert words in screen.given.limits.field.fault and not screen.start.isEnabled()
     operator.click(screen.given.limits.remove)
-    assert not screen.given.limits.field.fault and screen.start.isEnabled()
+    assert not screen.given.limits.field.fault
+    # A busy machine may find the robot silent for a moment.
+    operator.wait(screen.start.isEnabled)
 
 
 def test_limits_are_judged_anew_with_other_parameters(operator, choose, file):
@@ -110,7 +112,8 @@ def test_bad_calibration_record_is_refused_and_an_old_one_is_warned_of(operator,
     old = "\n".join("date: 2001-02-03" if line.startswith("date:") else
                     "valid_days: 30" if line.startswith("valid_days:") else line for line in design.splitlines())
     choose(screen.given.calibration, file("robot.yaml", old))
-    assert not screen.given.calibration.field.fault and screen.start.isEnabled()
+    assert not screen.given.calibration.field.fault
+    operator.wait(screen.start.isEnabled)
     assert "The robot's calibration record of 2001-02-03 is" in screen.caution.text()
 
 
