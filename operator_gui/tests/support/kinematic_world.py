@@ -80,7 +80,8 @@ class World:
     def _drive(self, dt_s):
         self.speed_mps = 0.0
         waypoint = self.waypoint
-        if waypoint is None or self.result is not WaypointResult.PENDING or self.desired.stop:
+        if waypoint is None or self.result is not WaypointResult.PENDING or self.desired.stop or \
+                self.desired.waypoint is None:
             return
         goal = waypoint.pose
         if waypoint.direction is Direction.ANY:  # on the way around the Car; only where it ends matters here

@@ -6,7 +6,7 @@ import pytest
 
 from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import MAX_BLIND_S, POLL_PERIOD_S, RESEND_POLLS, ControlLoop
-from mtr_operator.domain.actions.preparation import prepare
+from mtr_operator.domain.actions.preparation import CHARGE_LIMIT_S, prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
@@ -154,8 +154,22 @@ def test_no_test_begins_on_a_robot_whose_battery_is_nearly_empty(session, spoil,
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
 
 
-@pytest.mark.parametrize("percent", [None, 10, 100])
-def test_test_begins_with_a_charge_that_suffices_or_is_unknown(session, spoil, percent):
+def test_no_test_begins_on_a_robot_whose_charge_is_unknown(session, spoil, robot_link):
+    spoil(lambda status: True, battery_percent=None)
+    with pytest.raises(RobotFailed, match="^The robot does not report the charge of its battery; check the topic"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert session.waited_s - 1.0 < 2.0 * CHARGE_LIMIT_S
+    assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
+
+
+def test_charge_that_comes_late_is_waited_for(session, spoil):
+    spoil(lambda status: status.stamp_s < 1.0 + 0.8 * CHARGE_LIMIT_S, battery_percent=None)
+    prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert session.desired.key_height_m == 1.0
+
+
+@pytest.mark.parametrize("percent", [10, 100])
+def test_test_begins_with_a_charge_that_suffices(session, spoil, percent):
     spoil(lambda status: True, battery_percent=percent)
     prepare(session, Robot(session), Car(session), 1.0, 1.0)
     assert session.desired.key_height_m == 1.0

@@ -117,7 +117,7 @@ def test_way_of_the_lines_is_told_and_hinders_no_test(ways, state, finding, said
      Finding.PART_TROUBLED),
     (snapshot(notifications=(Notification("peripherals_silent", 3, "Silent."),)), Check.BOARD, State.BAD,
      Finding.PART_TROUBLED),
-    (snapshot(battery_percent=None), Check.BATTERY, State.UNKNOWN, Finding.BATTERY_UNKNOWN),
+    (snapshot(battery_percent=None), Check.BATTERY, State.BAD, Finding.BATTERY_UNKNOWN),
     (snapshot(battery_percent=20), Check.BATTERY, State.NOTE, Finding.BATTERY_LOW),
     (snapshot(battery_percent=9), Check.BATTERY, State.BAD, Finding.BATTERY_EMPTY),
     (snapshot(LockState.UNKNOWN, NO_ADAPTER, None), Check.BUS, State.BAD, Finding.NO_ADAPTER),
@@ -138,7 +138,8 @@ def test_each_item_says_what_was_found(robot, check, state, finding):
 @pytest.mark.parametrize("robot", [
     snapshot(), snapshot(mode=Mode.STARTING), snapshot(mode=Mode.FAULT), snapshot(controlled_by_other=True),
     snapshot(pose_valid=False), snapshot(pose_valid=False, mode=Mode.READY_TO_MAP_CAR), snapshot(battery_percent=9),
-    snapshot(battery_percent=20), snapshot(LockState.UNKNOWN), snapshot(LockState.UNKNOWN, NO_ADAPTER),
+    snapshot(battery_percent=None), snapshot(battery_percent=20), snapshot(LockState.UNKNOWN),
+    snapshot(LockState.UNKNOWN, NO_ADAPTER),
     snapshot(LockState.UNKNOWN, "No CAN frame."), snapshot(notifications=(Notification("x", 3, "Broken."),)),
     snapshot(notifications=(Notification("held", 3, "Held."),)),
     snapshot(notifications=(Notification("no_emergency_stop", 3, "None."),)),

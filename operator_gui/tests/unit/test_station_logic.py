@@ -59,7 +59,7 @@ def test_nothing_heard_is_communication_lost():
     (snapshot(mode=Mode.READY_TO_MAP_CAR, pose_valid=False), ReadinessWord.READY, None),
     (snapshot(battery_percent=20), ReadinessWord.WARNINGS, Cause.BATTERY_LOW),
     (snapshot(battery_percent=9), ReadinessWord.NOT_READY, Cause.BATTERY_EMPTY),
-    (snapshot(battery_percent=None), ReadinessWord.READY, None),
+    (snapshot(battery_percent=None), ReadinessWord.NOT_READY, Cause.BATTERY_UNKNOWN),
     (snapshot(mode=Mode.STARTING), ReadinessWord.NOT_READY, Cause.ROBOT_STARTING),
     (snapshot(mode=Mode.FAULT), ReadinessWord.NOT_READY, Cause.ROBOT_FAULT),
     (snapshot(controlled_by_other=True), ReadinessWord.NOT_READY, Cause.OTHER_OPERATOR),
@@ -81,6 +81,13 @@ def test_each_cause_has_its_word(robot, word, cause):
 def test_blocking_reasons_come_first():
     reasons = readiness_of(snapshot(LockState.UNKNOWN, battery_percent=20), 0.0, Phase.IDLE).reasons
     assert [reason.is_blocking for reason in reasons] == [True, False]
+
+
+@pytest.mark.parametrize(("phase", "is_blocking"), [
+    (Phase.IDLE, True), (Phase.PAUSED, True), (Phase.MEASURING, False)])
+def test_unknown_charge_hinders_a_start_and_warns_in_a_test(phase, is_blocking):
+    reason, = readiness_of(snapshot(battery_percent=None), 0.0, phase).reasons
+    assert (reason.cause, reason.is_blocking) == (Cause.BATTERY_UNKNOWN, is_blocking)
 
 
 def test_paused_test_goes_on_only_when_nothing_stands_against_it():

@@ -10,6 +10,7 @@ OperatorError
 ├── LinkLost             robot or Car fell silent during a test
 ├── StoodStill           the laptop slept, or the application was stopped, during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
+│   └── BatteryCritical  its charge no longer suffices to measure
 ├── ProgressFileError    a progress file cannot be read or belongs to something else
 ├── UnsafeName           a document names a file that would lie outside its folder
 ├── InUse                another application measures this test, or has gone on with it
@@ -64,6 +65,10 @@ class StoodStill(OperatorError):
 
 class RobotFailed(OperatorError):
     """The robot is there, and cannot do what the test needs."""
+
+
+class BatteryCritical(RobotFailed):
+    """The robot's charge no longer suffices to measure."""
 
 
 class ProgressFileError(OperatorError):

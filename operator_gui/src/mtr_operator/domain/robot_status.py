@@ -167,8 +167,6 @@ class CarCheck:
 
 # Code of the notification with which no test begins; the measurement itself is on the laptop, so one that runs goes on.
 DISK_FULL_CODE = "disk_full"
-# Charge in percent below which no test begins and the robot itself goes on hold.
-EMPTY_BATTERY_PERCENT = 10
 # The application in control has fallen silent.
 LINK_LOST_CODE = "link_lost"
 

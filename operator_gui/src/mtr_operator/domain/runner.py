@@ -10,8 +10,9 @@ from .actions.car_size import nearness_of, size_cautions
 from .actions.control_loop import ControlLoop
 from .actions.preparation import check_car, prepare
 from .actions.robot import Robot
+from .battery.retreat import Retreat
 from .clocks.clock_offset import offset_sentence
-from .errors import OperatorError, OutputError, ProgressFileError, RobotFailed
+from .errors import BatteryCritical, OperatorError, OutputError, ProgressFileError, RobotFailed
 from .results.course import CourseJournal
 from .results.frame_record import check_entry
 from .results.journal import (
@@ -69,6 +70,7 @@ class Runner:
         self._notebook = loop.journal = Notebook(progress, scenario.result_type, kept)
         loop.refusals = Refusals(progress.session, self._notebook)
         self._robot = Robot(loop, progress.results)
+        self._retreat = Retreat(self._robot)
         self._car = Car(loop)
         self._looking = Looking(scenario, parameters, progress, self._revise, loop.step)
         self._total = 0
@@ -79,6 +81,9 @@ class Runner:
         try:
             try:
                 self._measure_all()
+            except BatteryCritical:
+                self._retreat.run()
+                raise
             finally:
                 # Before anything else, for the disk may be slow.
                 self._halt()
@@ -96,6 +101,7 @@ class Runner:
         self._scenario.check_means(self._car)
         self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
         prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
+        self._retreat.begin()
         # What bus and clocks have told meanwhile.
         self._warn(*(sentence for sentence in self._car.notices if sentence not in notices))
         ahead_s = self._loop.clock_offset.ahead_s

@@ -6,10 +6,10 @@ import enum
 from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
+from mtr_operator.domain.battery.levels import is_critical, is_low
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import (
     DISK_FULL_CODE,
-    EMPTY_BATTERY_PERCENT,
     LINK_LOST_CODE,
     Mode,
     RobotStatus,
@@ -21,8 +21,6 @@ from .motion import Motion, is_driving
 
 # Wall time without a Status after which the link counts as lost.
 SILENCE_LIMIT_S = 1.5
-# Charge below which the Operator is warned.
-LOW_BATTERY_PERCENT = 25
 WARNING, ERROR = 2, 3
 
 
@@ -65,6 +63,7 @@ class Cause(enum.Enum):
     NOTIFICATION = "notification"
     BATTERY_EMPTY = "battery empty"
     BATTERY_LOW = "battery low"
+    BATTERY_UNKNOWN = "battery unknown"
     NO_CAN = "no CAN adapter"
     CAN_PROBLEM = "CAN problem"
     LOCKS_UNKNOWN = "locks unknown"
@@ -165,15 +164,21 @@ def _robot_reasons(status: RobotStatus, phase: Phase) -> list[Reason]:
     if status.mode is Mode.FOLLOWING_WAYPOINT and not status.pose_valid:
         lost = notified.get("not_localized")
         reasons.append(Reason(Cause.POSITION_LOST, True, lost.text if lost else ""))
-    if status.battery_percent is not None and status.battery_percent < LOW_BATTERY_PERCENT:
-        is_empty = status.battery_percent < EMPTY_BATTERY_PERCENT
-        reasons.append(Reason(Cause.BATTERY_EMPTY if is_empty else Cause.BATTERY_LOW, is_empty,
-                              str(status.battery_percent)))
+    reasons += _battery_reasons(status.battery_percent, phase)
     harmless = (*NOT_BLOCKING, *(NOT_BLOCKING_A_RUN if phase in RUNNING else ()))
     reasons += [Reason(Cause.NOTIFICATION, notification.severity >= ERROR and code not in harmless, notification.text)
                 for code, notification in notified.items()
                 if notification.severity >= WARNING and code not in (*MODE_CODES, "low_battery")]
     return reasons
+
+
+def _battery_reasons(percent: int | None, phase: Phase) -> list[Reason]:
+    """An unknown charge hinders a start; a test that runs continues with a warning, because a person attends it."""
+    if percent is None:
+        return [Reason(Cause.BATTERY_UNKNOWN, phase not in RUNNING)]
+    if is_critical(percent):
+        return [Reason(Cause.BATTERY_EMPTY, True, str(percent))]
+    return [Reason(Cause.BATTERY_LOW, False, str(percent))] if is_low(percent) else []
 
 
 def _preflight_reasons(robot: RobotSnapshot, phase: Phase) -> list[Reason]:

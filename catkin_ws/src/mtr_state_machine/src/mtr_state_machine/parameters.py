@@ -16,13 +16,13 @@ class Parameters(ParameterSet):
             may.
         resume_by_operator: after a fault, an emergency stop, an obstacle or manual driving the robot stands until the
             Operator has it go on.
-        empty_battery: charge below which the robot is held once: near it a computer ends without warning, and its mast
-            stays up.
+        empty_battery: charge below which the robot stops and is held once: near it a computer ends without warning.
+            The application has lowered the key and ended its test at 10 %.
     """
 
     silent_after_s: float = number(0.5, 0.4, 5.0, "s")
     resume_by_operator: bool = True
-    empty_battery: float = number(0.1, 0.0, 0.5)
+    empty_battery: float = number(0.05, 0.0, 0.5)
 
     @property
     def noticed_after_s(self) -> float:

@@ -12,6 +12,7 @@ from dataclasses import replace
 from typing import Any, Callable, Iterator
 
 from ..assistance import ExtenderPort, HandlePort
+from ..battery.watch import BatteryWatch
 from ..clocks.clock_offset import ClockOffset
 from ..clocks.clock_step import counts_clock_step
 from ..clocks.waiting_time import WaitingTime
@@ -107,6 +108,7 @@ class ControlLoop:
         self._was_in_control = False
         self._preflight = KeptPreflight()
         self._orders = KeptOrders()
+        self._battery = BatteryWatch()
 
     @property
     def preflight(self) -> PreflightReport | None:
@@ -156,13 +158,15 @@ class ControlLoop:
         """Answer the newest Status and take the next one; Cancelled when the Operator wants to end, LineSkipped when
         the line at hand is to be left.
 
-        While the robot is held it stands, and so does the test, until the Operator has both go on.
+        While the robot is held it stands, and so does the test, until the Operator has both go on. BatteryCritical
+        once, when the charge does not suffice to measure.
         """
         status = self._step()
         if status.hold_id:
             self.observer.on_action(HELD)
         while status.hold_id:
             status = self._step()
+        self._battery.check(status, self.waited_s)
         return status
 
     def _step(self) -> RobotStatus:

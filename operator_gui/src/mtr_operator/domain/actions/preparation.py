@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Callable
 
+from ..battery.levels import is_critical
 from ..errors import RobotFailed
 from ..geometry.ray import Ray
-from ..robot_status import DISK_FULL_CODE, EMPTY_BATTERY_PERCENT, CarCheck, Mode, RobotStatus
+from ..robot_status import DISK_FULL_CODE, CarCheck, Mode, RobotStatus
 from .car import Car
 from .control_loop import ControlLoop
 from .robot import Robot
@@ -16,6 +17,8 @@ START_LIMIT_S = 60.0
 MAPPING_LIMIT_S = 600.0
 # A robot gives a silent application up after 3 s, and lets the next one take over.
 CONTROL_LIMIT_S = 10.0
+# A battery reports once a second.
+CHARGE_LIMIT_S = 5.0
 # A robot tells of its preflight once a second; one of before never does.
 PREFLIGHT_LIMIT_S = 3.0
 # The first waypoint makes the robot map the Car; before that nobody knows how long the Car is, so it lies well ahead.
@@ -31,7 +34,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _wait_for_control(loop)
     _refuse_after_bad_preflight(loop)
     _refuse_with_full_disk(loop.status)
-    _refuse_with_empty_battery(loop.status)
+    _refuse_with_bad_charge(loop)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)
@@ -93,9 +96,16 @@ def _refuse_with_full_disk(status: RobotStatus) -> None:
             raise RobotFailed(notification.text)
 
 
-def _refuse_with_empty_battery(status: RobotStatus) -> None:
-    if status.battery_percent is not None and status.battery_percent < EMPTY_BATTERY_PERCENT:
-        raise RobotFailed(f"The robot's battery is nearly empty ({status.battery_percent} %); charge it, then begin "
+def _refuse_with_bad_charge(loop: ControlLoop) -> None:
+    until_s = loop.waited_s + CHARGE_LIMIT_S
+    while loop.status.battery_percent is None and loop.waited_s < until_s:
+        loop.step()
+    percent = loop.status.battery_percent
+    if percent is None:
+        raise RobotFailed("The robot does not report the charge of its battery; check the topic of its battery, then "
+                          "begin the test.")
+    if is_critical(percent):
+        raise RobotFailed(f"The robot's battery is nearly empty ({percent} %); charge it, then begin "
                           "the test.")
 
 

@@ -121,6 +121,12 @@ class Robot:
                 raise RobotFailed(f"The Remote key did not reach the height of {100.0 * height_m:g} cm within "
                                   f"{HEIGHT_LIMIT_S:g} s; it is at {100.0 * self._loop.status.key_height_m:.0f} cm.")
 
+    def stand_and_lower_key(self, height_m: float) -> None:
+        """Stop the wheels, then lower the key to a height if it is above it; RobotFailed when it stays up."""
+        self._loop.change(waypoint=None, check_car_id=0, stop=False)
+        if not self._loop.status.key_height_m <= height_m:
+            self.move_key_to(height_m)
+
     def press(self, button: int, strength: float, duration_s: float) -> PressReport:
         """Press a button once; returns when the press is over, LineInvalid when it could not be pressed."""
         self._press_id += 1

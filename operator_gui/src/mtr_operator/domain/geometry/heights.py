@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from ..errors import InvalidParameter
 
+# Lowest height at which a scenario measures; the mast is stowed there.
+LOWEST_KEY_M = 0.35
+
 
 def heights_between(lowest_m: float, highest_m: float, count: int) -> list[float]:
     """Evenly from low to high; one alone is the lowest."""

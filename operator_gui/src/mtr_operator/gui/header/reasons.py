@@ -35,6 +35,7 @@ def reason_text(reason: Reason) -> str:
         Cause.NOTIFICATION: detail,
         Cause.BATTERY_EMPTY: translate("Status", "The robot's battery is nearly empty: {detail} %."),
         Cause.BATTERY_LOW: translate("Status", "The robot's battery is low: {detail} %."),
+        Cause.BATTERY_UNKNOWN: translate("Status", "The robot does not report its charge."),
         Cause.NO_CAN: translate("Status", "No CAN adapter is chosen."),
         Cause.CAN_PROBLEM: detail,
         Cause.LOCKS_UNKNOWN: translate("Status", "The Car does not say whether it is locked."),

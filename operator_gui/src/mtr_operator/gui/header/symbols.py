@@ -8,9 +8,8 @@ from PyQt5.QtCore import QPointF, QRectF, QSize, Qt
 from PyQt5.QtGui import QColor, QPainter, QPainterPath, QPaintEvent, QPen
 from PyQt5.QtWidgets import QSizePolicy, QToolButton, QWidget
 
+from mtr_operator.domain.battery.levels import is_critical, is_low
 from mtr_operator.domain.ports import LockState
-from mtr_operator.domain.robot_status import EMPTY_BATTERY_PERCENT
-from mtr_operator.station.readiness import LOW_BATTERY_PERCENT
 
 from ..theme.appearance import Appearance
 
@@ -66,8 +65,8 @@ class BatterySymbol(QWidget):
         painter.drawRoundedRect(body, 3, 3)
         painter.fillRect(QRectF(37, 13, 3, 8), ink)
         if percent is not None:
-            colour = palette.line if self._is_stale else palette.danger if percent < EMPTY_BATTERY_PERCENT else \
-                palette.warning if percent < LOW_BATTERY_PERCENT else palette.ok
+            colour = palette.line if self._is_stale else palette.danger if is_critical(percent) else \
+                palette.warning if is_low(percent) else palette.ok
             painter.fillRect(QRectF(5, 11, 28 * min(percent, 100) / 100.0, 12), QColor(colour))
         text = "\N{EN DASH}" if percent is None else f"{percent} %"
         room = QRectF(_TEXT_LEFT, 0, self.width() - _TEXT_LEFT, _SIZE)

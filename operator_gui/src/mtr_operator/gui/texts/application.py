@@ -54,6 +54,13 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "No test begins, because the robot's preflight found: {} Mend it, then run "
                                   "`rosrun mtr_bringup preflight` on the robot again."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's battery is nearly empty ({} %); charge it, then begin the test."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot does not report the charge of its battery; check the topic of its battery,"
+                                  " then begin the test."),
+    QT_TRANSLATE_NOOP("Sentence", "The robot's battery is critical; charge the robot, then continue."),
+    QT_TRANSLATE_NOOP("Sentence", "the battery is critical: lower the key"),
+    QT_TRANSLATE_NOOP("Sentence", "return to the start place"),
+    QT_TRANSLATE_NOOP("Sentence", "the robot stays here: its start place is not known"),
+    QT_TRANSLATE_NOOP("Sentence", "the robot stays here: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The Remote key did not reach the height of {} cm within {} s; it is at {} cm."),
     QT_TRANSLATE_NOOP("Sentence", "The robot refused the waypoint: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot did not reach the waypoint within {} s. {}"),

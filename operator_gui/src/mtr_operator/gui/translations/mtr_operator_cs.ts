@@ -128,17 +128,17 @@
 <context>
     <name>BatterySymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="47"/>
+        <location filename="../header/symbols.py" line="46"/>
         <source>Battery of the robot: unknown</source>
         <translation>Baterie robotu: neznámá</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="48"/>
+        <location filename="../header/symbols.py" line="47"/>
         <source>Battery of the robot: {percent} %</source>
         <translation>Baterie robotu: {percent} %</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="50"/>
+        <location filename="../header/symbols.py" line="49"/>
         <source>({age} s ago)</source>
         <translation>(před {age} s)</translation>
     </message>
@@ -680,11 +680,6 @@
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="161"/>
-        <source>The robot does not say its charge.</source>
-        <translation>Robot neříká, jak je nabitá.</translation>
-    </message>
-    <message>
         <location filename="../../station/checks/check_texts.py" line="168"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
@@ -825,47 +820,47 @@
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="235"/>
+        <location filename="../../station/checks/check_texts.py" line="237"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="236"/>
+        <location filename="../../station/checks/check_texts.py" line="238"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="237"/>
+        <location filename="../../station/checks/check_texts.py" line="239"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="238"/>
+        <location filename="../../station/checks/check_texts.py" line="240"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="239"/>
+        <location filename="../../station/checks/check_texts.py" line="241"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="240"/>
+        <location filename="../../station/checks/check_texts.py" line="242"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="243"/>
+        <location filename="../../station/checks/check_texts.py" line="245"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="244"/>
+        <location filename="../../station/checks/check_texts.py" line="246"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="245"/>
+        <location filename="../../station/checks/check_texts.py" line="247"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -1099,11 +1094,21 @@
         <source>The robot does not see what stands out above or below the LiDARs, such as a tow bar. It keeps 10 to 25 cm from the Car&apos;s ends.</source>
         <translation>Robot nevidí, co vyčnívá nad rovinou lidarů nebo pod ní, například tažné zařízení. Od konců auta udržuje 10 až 25 cm.</translation>
     </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="161"/>
+        <source>The robot does not report its charge.</source>
+        <translation>Robot nehlásí stav nabití.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="235"/>
+        <source>Check that the base publishes it on the robot&apos;s topic of the battery (docs/other-bases.md).</source>
+        <translation>Ověřte, že jej podvozek publikuje na tématu baterie robotu (docs/other-bases.md).</translation>
+    </message>
 </context>
 <context>
     <name>CogwheelButton</name>
     <message>
-        <location filename="../header/symbols.py" line="171"/>
+        <location filename="../header/symbols.py" line="170"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
@@ -2200,17 +2205,17 @@
 <context>
     <name>LinkSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="142"/>
+        <location filename="../header/symbols.py" line="141"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="144"/>
+        <location filename="../header/symbols.py" line="143"/>
         <source>The link to the robot is not encrypted.</source>
         <translation>Spojení s robotem není šifrované.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="143"/>
+        <location filename="../header/symbols.py" line="142"/>
         <source>The link is not encrypted: whoever is in its network can move the robot.</source>
         <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
     </message>
@@ -2236,22 +2241,22 @@
 <context>
     <name>LocksSymbol</name>
     <message>
-        <location filename="../header/symbols.py" line="94"/>
+        <location filename="../header/symbols.py" line="93"/>
         <source>The Car is locked.</source>
         <translation>Auto je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="94"/>
+        <location filename="../header/symbols.py" line="93"/>
         <source>The Car is unlocked.</source>
         <translation>Auto je odemčené.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="95"/>
+        <location filename="../header/symbols.py" line="94"/>
         <source>Whether the Car is locked is not known.</source>
         <translation>Zda je auto zamčené, není známo.</translation>
     </message>
     <message>
-        <location filename="../header/symbols.py" line="97"/>
+        <location filename="../header/symbols.py" line="96"/>
         <source>A click opens the live bus view.</source>
         <translation>Kliknutím se otevře živý pohled na sběrnici.</translation>
     </message>
@@ -7550,6 +7555,36 @@
         <source>several messages refer to the same signals too often</source>
         <translation>několik zpráv odkazuje příliš často na tytéž signály</translation>
     </message>
+    <message>
+        <location filename="../texts/application.py" line="10"/>
+        <source>The robot does not report the charge of its battery; check the topic of its battery, then begin the test.</source>
+        <translation>Robot nehlásí stav nabití baterie; zkontrolujte téma jeho baterie, pak zahajte test.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="10"/>
+        <source>The robot&apos;s battery is critical; charge the robot, then continue.</source>
+        <translation>Baterie robotu je kriticky vybitá; nabijte robot, pak pokračujte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="10"/>
+        <source>the battery is critical: lower the key</source>
+        <translation>baterie je kriticky vybitá: spouští se klíč</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="10"/>
+        <source>return to the start place</source>
+        <translation>návrat na výchozí místo</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="10"/>
+        <source>the robot stays here: its start place is not known</source>
+        <translation>robot zůstává zde: jeho výchozí místo není známo</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="10"/>
+        <source>the robot stays here: {}</source>
+        <translation>robot zůstává zde: {}</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -7854,17 +7889,17 @@
         <translation>Baterie robotu je slabá: {detail} %.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="38"/>
+        <location filename="../header/reasons.py" line="39"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není vybrán adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="40"/>
+        <location filename="../header/reasons.py" line="41"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="44"/>
+        <location filename="../header/reasons.py" line="45"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
@@ -7889,22 +7924,22 @@
         <translation>Zablokován</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="41"/>
+        <location filename="../header/reasons.py" line="42"/>
         <source>The robot stands until you have it go on.</source>
         <translation>Robot stojí, dokud mu nedáte pokyn pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="42"/>
+        <location filename="../header/reasons.py" line="43"/>
         <source>Something blocks the robot&apos;s way.</source>
         <translation>Robotu něco stojí v cestě.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="58"/>
+        <location filename="../header/reasons.py" line="59"/>
         <source>Look at the cause; then have the robot go on.</source>
         <translation>Prohlédněte příčinu a pak dejte robotu pokyn pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="59"/>
+        <location filename="../header/reasons.py" line="60"/>
         <source>Clear its way; it goes on by itself, or stands until you have it go on.</source>
         <translation>Uvolněte mu cestu; pokračuje sám, nebo stojí, dokud mu nedáte pokyn.</translation>
     </message>
@@ -7919,9 +7954,14 @@
         <translation>Robot se pohybuje.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="43"/>
+        <location filename="../header/reasons.py" line="44"/>
         <source>The robot&apos;s preflight found: {detail}</source>
         <translation>Kontrola robotu zjistila: {detail}</translation>
+    </message>
+    <message>
+        <location filename="../header/reasons.py" line="38"/>
+        <source>The robot does not report its charge.</source>
+        <translation>Robot nehlásí stav nabití.</translation>
     </message>
 </context>
 <context>

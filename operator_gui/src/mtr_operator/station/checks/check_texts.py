@@ -158,7 +158,7 @@ def _of_battery(translate: Translate) -> dict[Finding, str]:
         Finding.BATTERY_SHORT: translate("Check", "At {first} % it may not suffice: the test takes about {second} %."),
         Finding.BATTERY_LOW: translate("Check", "Low: {first} %."),
         Finding.BATTERY_EMPTY: translate("Check", "Nearly empty: {first} %."),
-        Finding.BATTERY_UNKNOWN: translate("Check", "The robot does not say its charge."),
+        Finding.BATTERY_UNKNOWN: translate("Check", "The robot does not report its charge."),
     }
 
 
@@ -232,6 +232,8 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
                                                   "on with."),
         Finding.BATTERY_LOW: translate("Check", "Charge it soon."),
         Finding.BATTERY_EMPTY: translate("Check", "Charge it before the test."),
+        Finding.BATTERY_UNKNOWN: translate("Check", "Check that the base publishes it on the robot's topic of the "
+                                                    "battery (docs/other-bases.md)."),
         Finding.BUS_FULL: translate("Check", "Check bit rate and other testers on the bus."),
         Finding.BUS_SLOW: translate("Check", "Check whether the profile is that of this Car."),
         Finding.NO_ADAPTER: translate("Check", "Choose one under Settings, CAN adapter."),

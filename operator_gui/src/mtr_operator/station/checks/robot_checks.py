@@ -6,9 +6,9 @@ import math
 from typing import Iterator
 
 from mtr_operator.domain.actions.car_size import missing_measures, size_excess
+from mtr_operator.domain.battery.levels import is_critical, is_low
 from mtr_operator.domain.clocks.clock_offset import MAX_OFFSET_S, offset_sentence
 from mtr_operator.domain.robot_status import (
-    EMPTY_BATTERY_PERCENT,
     CarDimensions,
     EmergencyStop,
     Mode,
@@ -17,7 +17,7 @@ from mtr_operator.domain.robot_status import (
 )
 
 from ..estimate import Plan
-from ..readiness import ERROR, LOW_BATTERY_PERCENT, MODE_CODES, NOT_BLOCKING, WARNING
+from ..readiness import ERROR, MODE_CODES, NOT_BLOCKING, WARNING
 from .finding import Check, Finding, Item, State
 
 _BOARD_CODES = ("peripherals", "peripherals_silent")
@@ -115,12 +115,12 @@ def clock(ahead_s: float) -> Item:
 def battery(percent: int | None, plan: Plan | None) -> Item:
     """Whether it lasts for the plan, or at all."""
     if percent is None:
-        return Item(Check.BATTERY, State.UNKNOWN, Finding.BATTERY_UNKNOWN)
-    if percent < EMPTY_BATTERY_PERCENT:
+        return Item(Check.BATTERY, State.BAD, Finding.BATTERY_UNKNOWN)
+    if is_critical(percent):
         return Item(Check.BATTERY, State.BAD, Finding.BATTERY_EMPTY, numbers=(percent,))
     if plan is not None and not plan.suffices(percent):
         return Item(Check.BATTERY, State.NOTE, Finding.BATTERY_SHORT, numbers=(percent, plan.battery_percent))
-    if percent < LOW_BATTERY_PERCENT:
+    if is_low(percent):
         return Item(Check.BATTERY, State.NOTE, Finding.BATTERY_LOW, numbers=(percent,))
     if plan is None:
         return Item(Check.BATTERY, State.GOOD, Finding.BATTERY_FINE, numbers=(percent,))
