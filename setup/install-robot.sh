@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs, upgrades or takes back the software of a robot (Ubuntu 20.04, ROS Noetic) and has systemd start it.
 #
-# Usage: sudo setup/install-robot.sh [--ros FOLDER] [--staging FOLDER]
-#        sudo setup/install-robot.sh rollback [--staging FOLDER]
+# Usage: sudo setup/install-robot.sh [--force] [--ros FOLDER] [--staging FOLDER]
+#        sudo setup/install-robot.sh rollback [--force] [--staging FOLDER]
 #        sudo setup/install-robot.sh jackal [--staging FOLDER]      a Jackal's base by mtr-base.service, not by its own ros.service
 #        sudo setup/install-robot.sh hotspot NAME [--country CC] [PASSWORD]
 #                                          without PASSWORD it is asked for, or read from the first line of the standard input
@@ -11,6 +11,8 @@
 # `former` in that one the one before it: one rename changes both, so that what fails or is cut off leaves both as they were.
 # `rollback` goes back to the former release, and once more forth again; others are removed. --staging installs below a folder and
 # touches neither packages nor services: for a try, and for images. docs/robot-setup.md leads from the box to the first test.
+#
+# While the robot's software runs, it is replaced only at standstill with a stop engaged. --force replaces software that does not answer.
 # SPDX-License-Identifier: Apache-2.0
 set -euo pipefail
 top=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -34,6 +36,7 @@ fi
 ros=/opt/ros/noetic
 staging=
 country=
+force=
 words=()
 while (($#)); do
   case $1 in
@@ -47,7 +50,8 @@ while (($#)); do
       if [[ $1 == --ros ]]; then ros=$2; else staging=$(mkdir -p "$2" && cd "$2" && pwd); fi
       shift 2
       ;;
-    -*) fail "Option $1 is not known; allowed are --country, --ros and --staging." ;;
+    --force) force=yes && shift ;;
+    -*) fail "Option $1 is not known; allowed are --country, --force, --ros and --staging." ;;
     *) words+=("$1") && shift ;;
   esac
 done
@@ -77,9 +81,38 @@ adopt_letters() {
   fi
 }
 
+# The release in use judges its own robot: another one may not know its messages. One that has no `standstill` does not answer.
+standstill() (
+  set +eu
+  [[ -x $prefix/current/lib/mtr_bringup/standstill ]] || exit 3
+  set -a
+  # shellcheck source=/dev/null
+  [[ ! -f $staging/etc/mtr/robot.env ]] || source "$staging/etc/mtr/robot.env"
+  # shellcheck source=/dev/null
+  source "$prefix/current/setup.bash"
+  export ROS_HOME=/run/mtr-standstill ROS_LOG_DIR=/run/mtr-standstill
+  exec timeout 30 "$prefix/current/lib/mtr_bringup/standstill" 2>/dev/null
+)
+
+# A restart ends every node; a robot that moves, or that a person has not stopped, is not restarted.
+require_standstill() {
+  local sentence status=0
+  [[ ! $staging ]] && systemctl is-active --quiet mtr-robot || return 0
+  sentence=$(standstill) || status=$?
+  case $status in
+    0) ;;
+    4) fail "$sentence The release in use stays." ;;
+    *)
+      [[ $force ]] || fail "The robot's software does not answer, so the release in use stays; see that the robot stands, then" \
+        "repeat this with --force."
+      ;;
+  esac
+}
+
 # What runs stays until the link points elsewhere; `mv -T` changes it in one step, and not before all is on the disk.
 use() {
   local used
+  require_standstill
   used=$(in_use)
   if [[ $used && $used != "$1" ]]; then ln -sfnT "../$used" "$prefix/$1/former"; fi
   ln -sfnT "$1" "$prefix/next"
@@ -289,6 +322,8 @@ hotspot() {
 case $action in
   install)
     alone
+    # Before the build, which lasts minutes, and again before the release is used.
+    require_standstill
     adopt_letters
     remove_unused
     release=$(new_release)
@@ -311,6 +346,7 @@ case $action in
     ;;
   jackal)
     [[ -f $prefix/jackal_base.launch ]] || fail "Install the software first: sudo setup/install-robot.sh"
+    require_standstill
     base_by_us
     echo "install-robot: mtr-base.service brings the base, jackal.launch the robot; back: systemctl disable --now mtr-base," \
       "systemctl enable --now ros."

@@ -9,6 +9,8 @@ import subprocess
 
 import pytest
 
+from mtr_bringup.standstill.judge import Verdict
+
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "setup" / "install-robot.sh"
 # What stands in for catkin "builds" in two steps, as catkin does package by package; a build `broken` fails between.
 CATKIN = """#!/bin/sh
@@ -258,6 +260,93 @@ def test_jackal_is_started_with_its_base_and_keeps_the_persons_other_settings(ro
     assert (robot.disk / "etc/systemd/system/mtr.slice").is_file()
     again = settings.read_text(encoding="utf-8")
     assert robot.run("jackal").returncode == 0 and settings.read_text(encoding="utf-8") == again
+
+
+STANDSTILL_FUNCTIONS = ("fail", "in_use", "standstill", "require_standstill", "use")
+
+
+class RunningRobot:
+    """Two releases and a service that runs; the release in use answers as it is told to."""
+
+    def __init__(self, folder):
+        self._folder = folder
+        self._programs = folder / "programs"
+        self._programs.mkdir()
+        for number in (1, 2):
+            release = folder / f"release-{number}"
+            (release / "lib" / "mtr_bringup").mkdir(parents=True)
+            (release / "release").write_text(f"{number}\n", encoding="ascii")
+            (release / "setup.bash").touch()
+        self._current = folder / "current"
+        self._current.symlink_to("release-1")
+        self.service("true")
+
+    def service(self, is_active):
+        self._write(self._programs / "systemctl", f'[ "$*" = "is-active --quiet mtr-robot" ] && {is_active}')
+
+    def answers(self, status, sentence="Says so."):
+        program = self._folder / "release-1" / "lib" / "mtr_bringup" / "standstill"
+        self._write(program, f'echo "A warning." >&2\necho "{sentence}"\nexit {status}')
+
+    def use(self, force=""):
+        """Error output of the function `use` for the second release, and the release that is in use afterwards."""
+        text = SCRIPT.read_text(encoding="utf-8")
+        functions = [re.search(rf"^{name}\(\) [{{(]$.*?^[}})]$", text, re.DOTALL | re.MULTILINE)[0]
+                     for name in STANDSTILL_FUNCTIONS]
+        program = "\n".join([f"set -euo pipefail; staging= force={force} prefix={self._folder}", *functions,
+                             "use release-2"])
+        done = subprocess.run(["bash", "-c", program], check=False, capture_output=True, text=True,
+                              env={"PATH": f"{self._programs}:/usr/bin:/bin"})
+        assert (done.returncode == 0) is (os.readlink(self._current) == "release-2")
+        return done.stderr, os.readlink(self._current)
+
+    @staticmethod
+    def _write(program, text):
+        program.write_text(f"#!/bin/sh\n{text}\n", encoding="ascii")
+        program.chmod(0o755)
+
+
+@pytest.fixture
+def running(tmp_path):
+    return RunningRobot(tmp_path)
+
+
+@pytest.mark.parametrize("force", ["", "yes"])
+def test_release_of_a_robot_that_moves_or_is_not_stopped_is_replaced_not_even_by_force(running, force):
+    running.answers(Verdict.REFUSED.value, "No stop is engaged.")
+    said, in_use = running.use(force)
+    assert in_use == "release-1" and said.strip() == "install-robot: No stop is engaged. The release in use stays."
+
+
+def test_release_of_a_robot_that_stands_with_a_stop_engaged_is_replaced(running):
+    running.answers(Verdict.MAY_STOP.value)
+    assert running.use() == ("", "release-2")
+
+
+@pytest.mark.parametrize("status", [Verdict.SILENT.value, 1, 2, 124, None], ids=[
+    "says so", "defect", "wrong options", "timeout", "release without the check"])
+def test_release_that_does_not_answer_is_replaced_by_force_only(running, status):
+    if status is not None:
+        running.answers(status)
+    said, in_use = running.use()
+    assert in_use == "release-1" and len(said.splitlines()) == 1 and said.strip().endswith("repeat this with --force.")
+    assert running.use("yes") == ("", "release-2")
+
+
+def test_release_of_a_robot_whose_service_does_not_run_is_replaced(running):
+    running.service("false")
+    running.answers(Verdict.REFUSED.value)
+    assert running.use() == ("", "release-2")
+
+
+@pytest.mark.parametrize("action", ["install", "rollback", "jackal"])
+def test_each_action_that_restarts_the_robot_requires_standstill_before_anything_changes(action):
+    text = SCRIPT.read_text(encoding="utf-8")
+    body = re.search(rf"^  {action}\)$(.*?)^    ;;$", text, re.DOTALL | re.MULTILINE)[1]
+    required = body.index("require_standstill") if "require_standstill" in body else body.index("    use ")
+    changes = [body.index(word) for word in ("remove_unused", "build ", "base_by_us", "install_files", "restart")
+               if word in body]
+    assert changes and required < min(changes)
 
 
 def called_by(function, folder):
