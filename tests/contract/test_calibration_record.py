@@ -13,7 +13,8 @@ from mtr_operator.storage.given_files import load_calibration
 
 TODAY = datetime.date(2026, 11, 23)
 ORIGIN = Origin("MTR-1", "J. Nov\u00e1k", 0.25)
-NAMES = ("key_lever_m", "mast_lean_deg", "lidar_yaw_deg", "wheel_scale", "gyro_scale", "lift_height_m", "press_force_n")
+NAMES = ("key_lever_m", "mast_lean_deg", "lidar_yaw_deg", "wheel_scale", "gyro_scale", "lift_height_m", "press_force_n",
+         "mass_kg", "centre_of_mass_m")
 
 
 def test_every_measurement_is_read_and_counts_where_it_has_a_term(tmp_path):

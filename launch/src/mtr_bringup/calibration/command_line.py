@@ -1,4 +1,4 @@
-"""rosrun mtr_bringup calibrate lever|mast|wheels|lift|press|lidars|status: guided calibration, with a record.
+"""rosrun mtr_bringup calibrate lever|mast|wheels|lift|press|balance|lidars|status: guided calibration, with a record.
 
 The person moves the robot, by the manual controller or by hand; this program only asks, listens and writes the record,
 which the Operator's application takes (--calibration FILE). `status` tells what was measured when, and what is overdue.

@@ -9,6 +9,7 @@ from typing import Any, Callable, Dict, List
 
 from mtr_core.sensor_figures import ASSUMED_GYRO_SCALE, ASSUMED_WHEEL_SCALE
 
+from .balance.guide import balance
 from .console import Console
 from .lever import MIN_PLACES, lever_of
 from .lift import MIN_HEIGHTS, height_error
@@ -145,4 +146,4 @@ def _less(estimate: Estimate, known: float) -> Estimate:
 
 
 GUIDES: Dict[str, Callable[[Console, Any], List[Check]]] = {
-    "lever": lever, "mast": mast, "wheels": wheels, "lift": lift, "press": press}
+    "lever": lever, "mast": mast, "wheels": wheels, "lift": lift, "press": press, "balance": balance}

@@ -40,8 +40,8 @@ class Check:
     """One thing that was measured.
 
     Attributes:
-        name: key_lever_m, mast_lean_deg, lidar_yaw_deg, wheel_scale, gyro_scale, lift_height_m or press_force_n: a
-            promise.
+        name: key_lever_m, mast_lean_deg, lidar_yaw_deg, wheel_scale, gyro_scale, lift_height_m, press_force_n,
+            mass_kg or a parameter of drive control: a promise.
         estimate: in the unit that its name ends with, scales without.
         how: what was done, in some words.
     """

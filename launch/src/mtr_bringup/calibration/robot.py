@@ -13,6 +13,7 @@ from mtr_core import names
 from mtr_core.se2 import Pose2
 from mtr_description.mounts import KeyMount
 from mtr_description.robot_description import described_robot
+from mtr_description.robot_geometry import RobotGeometry
 from mtr_msgs.msg import LocalizedPose, PeripheralsState
 
 from .odometer import GyroTurn, mean_pose, way_between
@@ -43,6 +44,10 @@ class Robot:
     def key(self) -> KeyMount:
         """The key as the robot's URDF has it."""
         return described_robot().key()
+
+    def geometry(self) -> RobotGeometry:
+        """The robot as its URDF has it."""
+        return described_robot()
 
     def pose(self) -> Pose2:
         """Mean pose in map over a second; ReadingsUnusable when the robot moves or does not know where it is."""
