@@ -154,6 +154,9 @@ void Localizer::take_up(const Memory& memory) {
   const auto led = memory.pose ? led_by_wheels(*memory.pose, odometry().wheel_odom()) : std::nullopt;
   const RememberedPose here = led.value_or(memory.pose.value_or(RememberedPose{}));
   history().change_newest([&here](PoseFilter& filter) { filter.set_pose(here.pose, here.covariance); });
+  if (memory.pose && memory.pose->origin_id != 0) {
+    set_origin(memory.pose->origin_id);
+  }
   const int sources = tracker_.enter(memory.map, history().newest());
   history().change_newest([sources](PoseFilter& filter) { filter.consider_sources(sources); });
   history().forget_past();
@@ -166,6 +169,7 @@ void Localizer::begin_map() {
   if (tracker_.lost()) {
     // The origin of a map defines its frame, so the uncertainty of the previous pose does not carry over.
     history().change_newest([](PoseFilter& filter) { filter.set_pose(filter.pose(), Eigen::Matrix3d::Zero()); });
+    set_origin(static_cast<std::uint64_t>(history().newest().stamp_ns));
   }
   tracker_.begin_map(history().newest());
   last_scan_ns_ = std::max(last_scan_ns_, history().newest().stamp_ns);

@@ -17,6 +17,8 @@ struct RememberedPose {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
   /// Pose of base_link in the wheel odometry, which continues during the restart: x, y (m), heading (rad).
   std::array<double, 3> wheel_odom{};
+  /// Origin of the map that the pose is in, 0: unknown.
+  std::uint64_t origin_id = 0;
 };
 
 /// Previous map, and the pose of the robot on it.

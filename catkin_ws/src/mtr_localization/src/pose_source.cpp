@@ -48,6 +48,8 @@ std::vector<Estimate> PoseSource::process() {
   std::vector<Estimate> estimates;
   while (const std::optional<GatedSample> sample = gate_.next()) {
     if (!sample->problem) {
+      // Its time tells one start of localization from another.
+      origin_id_ = origin_id_ == 0 ? static_cast<std::uint64_t>(sample->wheels.stamp_ns) : origin_id_;
       estimates.push_back(step(*sample));
       gate_.release(*sample);
     } else {
@@ -82,6 +84,7 @@ Estimate PoseSource::estimate_of(std::int64_t stamp_ns, const PoseVector& pose,
   Estimate estimate;
   estimate.stamp_ns = stamp_ns;
   estimate.map_revision = mapper_.revision();
+  estimate.origin_id = origin_id_;
   estimate.x_m = pose.x();
   estimate.y_m = pose.y();
   estimate.heading_rad = pose.z();

@@ -77,6 +77,9 @@ class PoseSource {
   Mapper& mapper() { return mapper_; }
   const Mapper& mapper() const { return mapper_; }
 
+  /// Sets the origin of map; poses of different origins are not comparable.
+  void set_origin(std::uint64_t origin_id) { origin_id_ = origin_id; }
+
   /// Returns an estimate with the fields common to all estimates.
   Estimate estimate_of(std::int64_t stamp_ns, const PoseVector& pose, const Eigen::Matrix3d& covariance) const;
   /// Returns the estimate of a step; valid unless there is a problem or the pose is not finite.
@@ -87,6 +90,7 @@ class PoseSource {
   Estimate invalid(std::int64_t stamp_ns, const mtr_core::Problem& problem) const;
 
   Parameters parameters_;
+  std::uint64_t origin_id_ = 0;
   InputGate gate_;
   Odometry odometry_;
   ScanQueue scans_;

@@ -126,6 +126,7 @@ void bind_estimate(py::module& module) {
       .def_property_readonly("mode", [](const Estimate& estimate) { return static_cast<int>(estimate.mode); })
       .def_readonly("degenerate", &Estimate::degenerate)
       .def_readonly("map_revision", &Estimate::map_revision)
+      .def_readonly("origin_id", &Estimate::origin_id)
       .def_readonly("x_m", &Estimate::x_m)
       .def_readonly("y_m", &Estimate::y_m)
       .def_readonly("heading_rad", &Estimate::heading_rad)

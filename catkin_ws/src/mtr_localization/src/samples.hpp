@@ -65,6 +65,8 @@ struct Estimate {
   bool degenerate = false;
   /// Revision of the map that the pose is in, 0 for none.
   std::uint32_t map_revision = 0;
+  /// Origin of map; poses of another one do not compare.
+  std::uint64_t origin_id = 0;
   double x_m = 0.0;
   double y_m = 0.0;
   double heading_rad = 0.0;

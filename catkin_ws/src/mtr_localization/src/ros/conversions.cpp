@@ -131,6 +131,7 @@ mtr_msgs::LocalizedPose message_of(const Estimate& estimate) {
   message.mode = mode_of(estimate.mode);
   message.degenerate = estimate.degenerate;
   message.map_revision = estimate.map_revision;
+  message.origin_id = estimate.origin_id;
   return message;
 }
 

@@ -130,6 +130,7 @@ RememberedPose remembered_pose_of(const mtr_msgs::SavedPose& saved) {
   pose.pose << saved.pose.x, saved.pose.y, saved.pose.heading;
   pose.covariance = Eigen::Map<const Eigen::Matrix3d>(saved.pose.covariance.data());
   std::copy(saved.wheel_odometry.begin(), saved.wheel_odometry.end(), pose.wheel_odom.begin());
+  pose.origin_id = saved.pose.origin_id;
   return pose;
 }
 
