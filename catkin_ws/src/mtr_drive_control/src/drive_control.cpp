@@ -23,12 +23,13 @@ constexpr char kOrderedStop[] = "dispatcher.stopped_by_operator";
 }  // namespace
 
 DriveControl::DriveControl(const Parameters& parameters, const CollisionParameters& collision, const RobotShape& shape,
-                           double period_s)
+                           double period_s, const AreaParameters& area)
     : parameters_(parameters),
       period_s_(period_s),
       odometry_timeout_s_(collision.odometry_timeout_s),
       limits_(parameters),
       collision_stop_(collision, shape),
+      area_guard_(area, shape.footprint),
       limiter_(limits_, period_s),
       step_s_(period_s),
       expected_step_s_(period_s) {
@@ -38,6 +39,7 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
 Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   time_step(tick_ns);
   collision_stop_.take(tick_ns, inputs.sensors, expected_step_s_ - period_s_);
+  area_guard_.take(tick_ns, inputs.area, inputs.sensors.motion ? inputs.sensors.motion->velocity : Velocity{});
   adapt_limits(tick_ns, inputs.key);
   follow_wheels(tick_ns, inputs.sensors.motion);
   const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
@@ -100,12 +102,28 @@ Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const 
   if (!selection.velocity || assessment.zone == Zone::kBlind || limiter_.leads(inputs.sensors.motion->velocity)) {
     return limiter_.braked();
   }
-  const DesiredMotion next{limiter_.toward(assessment.velocity), wanted.by_hand};
+  const Velocity inside = keep_in_area({assessment.velocity, wanted.by_hand}, decision);
+  const DesiredMotion next{limiter_.toward(inside), wanted.by_hand};
   const Deceleration emergency{limits_.emergency_deceleration_mps2(next.velocity),
                                limits_.emergency_angular_deceleration_radps2};
   const bool is_safe = is_in_time(next.velocity, oldest_word_s(tick_ns, inputs, selection.source)) &&
-                       collision_stop_.permits(next, emergency);
+                       collision_stop_.permits(next, emergency) && area_guard_.permits(next, stop_path(emergency));
   return is_safe ? next.velocity : limiter_.braked();
+}
+
+Velocity DriveControl::keep_in_area(const DesiredMotion& desired, Decision& decision) const {
+  const AreaAssessment assessment = area_guard_.assess(desired, stop_path(normal_deceleration()));
+  decision.zone = std::max(decision.zone, assessment.zone);
+  if (!decision.message) {
+    decision.message = assessment.message;
+  }
+  return assessment.velocity;
+}
+
+StopPath DriveControl::stop_path(const Deceleration& deceleration) const {
+  return [this, deceleration](const Velocity& velocity) {
+    return collision_stop_.stopping_path_of(velocity, deceleration);
+  };
 }
 
 double DriveControl::oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const {

@@ -84,6 +84,21 @@ constexpr Sentence kUnseenGround{
     "drive_control.unseen_ground",
     "Blocked: ground behind was not seen free lately; drive the robot ahead for half a metre with the manual "
     "controller, then turn it once on the spot."};
+// Test area
+constexpr Sentence kOutsideArea{"drive_control.outside_area",
+                                "The robot is {distance_m:.2f} m outside the test area; drive it back by hand."};
+constexpr Sentence kAreaBorder{"drive_control.area_border",
+                               "Stopped at the border of the test area, {distance_m:.2f} m away; drive back by hand, or "
+                               "draw the area again."};
+constexpr Sentence kAreaPoseUnknown{
+    "drive_control.area_position_unknown",
+    "The robot's position in the test area is unknown; it can only be driven by hand, at a crawl."};
+constexpr Sentence kAreaOfOtherOrigin{
+    "drive_control.area_of_other_origin",
+    "The robot started a new map elsewhere, so the test area no longer applies; draw it again."};
+constexpr Sentence kAreaMissing{"drive_control.area_missing",
+                                "No test area is set; a real robot drives by itself only inside one."};
+
 constexpr Sentence kPausing{"drive_control.pausing", "Waits a moment before it goes on."};
 
 }  // namespace mtr_drive_control::problems

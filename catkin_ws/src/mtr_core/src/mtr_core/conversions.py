@@ -6,7 +6,7 @@ from genpy import Time
 
 from mtr_msgs import msg
 
-from .problems import problem_of
+from .problems import messages_of, problem_of
 from .requests import DesiredState, Goal, GoalId, GoalReport, Press, Waypoint
 from .se2 import Pose2
 from .states import Result
@@ -51,7 +51,8 @@ def desired_state_from(message: msg.DesiredState) -> DesiredState:
         stop=message.stop, waypoint=waypoint_from(message.waypoint), max_speed_mps=message.max_speed_mps,
         key_height_m=message.key_height_m,
         press=Press(press.id, message.session_id, tuple(press.buttons), press.strength, press.duration_s),
-        map_car_id=message.map_car_id, check_car_id=message.check_car_id, resume_hold_id=message.resume_hold_id)
+        map_car_id=message.map_car_id, check_car_id=message.check_car_id, resume_hold_id=message.resume_hold_id,
+        area_problem=problem_of(message.area_problems, ""))
 
 
 def desired_state_message(desired: DesiredState) -> msg.DesiredState:
@@ -62,4 +63,5 @@ def desired_state_message(desired: DesiredState) -> msg.DesiredState:
         stop=desired.stop, waypoint=waypoint_message(desired.waypoint), max_speed_mps=desired.max_speed_mps,
         key_height_m=desired.key_height_m,
         press=msg.ButtonPress(press.id, list(press.buttons), press.strength, press.duration_s),
-        map_car_id=desired.map_car_id, check_car_id=desired.check_car_id, resume_hold_id=desired.resume_hold_id)
+        map_car_id=desired.map_car_id, check_car_id=desired.check_car_id, resume_hold_id=desired.resume_hold_id,
+        area_problems=messages_of(desired.area_problem, msg.Problem))

@@ -32,6 +32,9 @@ PREFLIGHT_REPORT = "/preflight_report"
 # What the last preflight with --drive found in motion, for those without.
 PREFLIGHT_MOTION = "/preflight_motion"
 
+# Of this run of the robot: the test area in force, for a dispatcher that is started again.
+TEST_AREA_IN_FORCE = "/test_area_in_force"
+
 # Sensors and wheels, as on a Jackal
 FRONT_SCAN = "/front/scan"
 REAR_SCAN = "/rear/scan"
@@ -46,6 +49,7 @@ BATTERY = "/battery"
 
 # Between the robot's nodes
 DESIRED_STATE = "/dispatcher/desired"
+TEST_AREA = "/dispatcher/test_area"
 ROBOT_MODE = "/state_machine/mode"
 CAR_ESTIMATE = "/car_locator/car"
 CAR_MARKERS = "/car_locator/markers"
@@ -81,7 +85,7 @@ FIRMWARE_HEALTH = "/firmware/health"
 MOTION_INPUTS = (JOY, DESIRED_STATE, ROBOT_MODE, PLANNER_VELOCITY, MANUAL_VELOCITY, MANUAL_LIFT, FIRMWARE_COMMAND,
                  FIRMWARE_PRESS, FIRMWARE_CALIBRATE)
 # Messages on which these orders rest.
-MOTION_STATES = (LOCALIZED_POSE, CAR_ESTIMATE, CAR_CHECK, MAPPING_ORDER, SURFACE_MAP, MOTION_STATUS, DRIVE_STATUS,
+MOTION_STATES = (TEST_AREA, LOCALIZED_POSE, CAR_ESTIMATE, CAR_CHECK, MAPPING_ORDER, SURFACE_MAP, MOTION_STATUS, DRIVE_STATUS,
                  PERIPHERALS_STATE, FIRMWARE_STATE)
 
 # Of the node that injects faults, and in front of the topics that it passes on

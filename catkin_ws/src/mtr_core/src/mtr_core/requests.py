@@ -133,6 +133,7 @@ class DesiredState:
         press: the newest press.
         map_car_id, check_car_id: requests to map the Car again and to check its frame, 0: none.
         resume_hold_id: hold that the Operator has released, 0: none.
+        area_problem: why the robot neither maps nor tests for want of a test area.
     """
 
     session_id: int = 0
@@ -146,3 +147,4 @@ class DesiredState:
     map_car_id: int = 0
     check_car_id: int = 0
     resume_hold_id: int = 0
+    area_problem: Problem = NO_PROBLEM

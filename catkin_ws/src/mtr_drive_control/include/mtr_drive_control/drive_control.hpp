@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mtr_core/problem.hpp"
+#include "mtr_drive_control/area/area_guard.hpp"
 #include "mtr_drive_control/collision/collision_stop.hpp"
 #include "mtr_drive_control/decision.hpp"
 #include "mtr_drive_control/motion_locks.hpp"
@@ -46,6 +47,7 @@ struct Inputs {
   std::optional<KeyHeight> key;
   /// Nothing where there is no IMU; one that was heard has to go on.
   std::optional<ImuReading> imu = std::nullopt;
+  AreaInputs area = {};
 };
 
 /// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
@@ -65,7 +67,7 @@ struct Inputs {
 class DriveControl {
  public:
   DriveControl(const Parameters& parameters, const CollisionParameters& collision, const RobotShape& shape,
-               double period_s);
+               double period_s, const AreaParameters& area = {});
 
   /// Decision of this tick, ns of a clock that nobody sets; to be called once per period.
   Decision step(std::int64_t tick_ns, const Inputs& inputs);
@@ -98,6 +100,9 @@ class DriveControl {
   /// True for a word of odometry or IMU that tells of the present.
   bool is_heard(std::int64_t stamp_ns, std::int64_t tick_ns) const;
   bool is_in_time(const Velocity& velocity, double oldest_word_s) const;
+  /// Reduces a motion that the collision stop allows to one that stays in the test area.
+  Velocity keep_in_area(const DesiredMotion& desired, Decision& decision) const;
+  StopPath stop_path(const Deceleration& deceleration) const;
   Velocity pursue(std::int64_t tick_ns, const Inputs& inputs, const Selection& selection, Decision& decision);
 
   Parameters parameters_;
@@ -105,6 +110,7 @@ class DriveControl {
   double odometry_timeout_s_;
   Limits limits_;
   CollisionStop collision_stop_;
+  AreaGuard area_guard_;
   VelocityLimiter limiter_;
   std::optional<std::int64_t> stepped_ns_;
   double step_s_;

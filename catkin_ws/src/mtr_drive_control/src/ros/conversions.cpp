@@ -107,6 +107,34 @@ mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& to
   return message;
 }
 
+std::shared_ptr<const TestArea> test_area_of(const mtr_msgs::TestArea& message) {
+  auto area = std::make_shared<TestArea>();
+  area->required = static_cast<bool>(message.required);
+  area->origin_id = message.origin_id;
+  if (message.x.empty() && message.y.empty()) {
+    return area;
+  }
+  std::vector<Point> corners;
+  const std::size_t count = message.x.size() == message.y.size() ? message.x.size() : 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    corners.push_back({message.x[i], message.y[i]});
+  }
+  const auto is_finite = [](const Point& corner) { return std::isfinite(corner.x_m) && std::isfinite(corner.y_m); };
+  const bool is_area = corners.size() >= 3 && std::all_of(corners.begin(), corners.end(), is_finite);
+  area->polygon = Polygon(is_area ? std::move(corners) : std::vector<Point>(3));
+  return area;
+}
+
+std::optional<AreaPose> area_pose_of(const mtr_msgs::LocalizedPose& message, std::int64_t time_ns) {
+  if (!message.valid || !std::isfinite(message.x + message.y + message.heading)) {
+    return std::nullopt;
+  }
+  const auto& p = message.covariance;
+  const double largest_m2 = 0.5 * (p[0] + p[4]) + std::hypot(0.5 * (p[0] - p[4]), p[1]);
+  return AreaPose{time_ns, Pose(message.x, message.y, message.heading), std::sqrt(largest_m2), std::sqrt(p[8]),
+                  message.origin_id};
+}
+
 std::shared_ptr<const SiteMap> site_map_of(const nav_msgs::OccupancyGrid& message) {
   const auto& info = message.info;
   const std::size_t cells = static_cast<std::size_t>(info.width) * info.height;

@@ -66,6 +66,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   NodeParameters parameters;
   reader.read_numbers(kRows, parameters.limits);
   reader.read_numbers(kCollisionRows, parameters.collision);
+  reader.read_numbers(kAreaRows, parameters.area);
   reader.read("lock_owners", parameters.lock_owners);
   reader.read("e_stop_topics", parameters.e_stop_topics);
   reader.read("rear_lidar", parameters.rear_lidar);
@@ -77,7 +78,8 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     : drive_control_(parameters.limits, parameters.collision,
-                     shape_of(mtr_description::described_robot(), parameters.rear_lidar), kPeriodS),
+                     shape_of(mtr_description::described_robot(), parameters.rear_lidar), kPeriodS,
+                     parameters.area),
       locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_core::lockstep_waiting()),
       e_stop_topics_(parameters.e_stop_topics),
       ticker_(node, mtr_core::kDriveControl),
@@ -89,6 +91,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
       front_(node, names::kFrontScan, mtr_description::message_frame(names::kFrontLidar)),
       map_(node),
+      area_(node),
       markers_(node),
       wheels_(node.advertise<geometry_msgs::Twist>(
           parameters.base_guard ? names::kGuardedWheelCommand : names::kWheelCommand, 10)),
@@ -167,6 +170,7 @@ void Node::tick(const mtr_core::Instant& tick) {
   inputs.sensors.motion = motion_of(odometry_.at(tick_ns));
   inputs.sensors.map = map_.at(inputs.sensors.motion);
   inputs.imu = imu_reading_of(imu_.at(tick_ns));
+  inputs.area = area_.at();
   inputs.key = key_height_of(peripherals_.at(tick_ns));
   inputs.locks = locks_.engaged_at(tick_ns);
   inputs.locks_age_s = locks_.age_s();

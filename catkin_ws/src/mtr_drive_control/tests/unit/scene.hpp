@@ -141,6 +141,7 @@ class TestRobot {
     inputs.sensors = {front_, rear_,
                       Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, odom_from_base, wheels}, map};
     inputs.key = KeyHeight{now_ns, 0.35};
+    inputs.area = area ? area() : AreaInputs{};
     const Decision decision = control.step(now_ns, inputs);
     velocity = decision.velocity;
     wheels = obeys ? velocity : Velocity{};
@@ -178,6 +179,8 @@ class TestRobot {
   /// Of the ticks; drive control expects kTestPeriodNs.
   std::int64_t period_ns = kTestPeriodNs;
   std::vector<EngagedLock> locks;
+  /// The test area, and the pose in it.
+  std::function<AreaInputs()> area;
   /// Changes what a LiDAR says, front or rear.
   std::function<void(Sweep&, bool is_rear)> spoil;
 

@@ -7,6 +7,7 @@
 #include <mtr_msgs/LocalizedPose.h>
 #include <mtr_msgs/MotionLock.h>
 #include <mtr_msgs/PeripheralsState.h>
+#include <mtr_msgs/TestArea.h>
 #include <mtr_msgs/VelocityCommand.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <nav_msgs/Odometry.h>
@@ -36,6 +37,11 @@ mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& deci
 /// What is known of the emergency stop on a topic of its own, as the lock of an owner with the topic's name.
 mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& topic,
                                     const std::vector<EngagedLock>& engaged);
+
+/// Area as it is to be enforced. Corners that bound no area count as one without any room, in which nothing drives.
+std::shared_ptr<const TestArea> test_area_of(const mtr_msgs::TestArea& message);
+/// Pose in the area; nothing unless it is valid and finite.
+std::optional<AreaPose> area_pose_of(const mtr_msgs::LocalizedPose& message, std::int64_t time_ns);
 
 /// Occupied cells of a map; null for one whose numbers do not fit together.
 std::shared_ptr<const SiteMap> site_map_of(const nav_msgs::OccupancyGrid& message);

@@ -16,6 +16,7 @@
 #include "mtr_core/tick_input.hpp"
 #include "mtr_core/ticker.hpp"
 #include "mtr_drive_control/drive_control.hpp"
+#include "mtr_drive_control/ros/area_input.hpp"
 #include "mtr_drive_control/ros/base_parameters.hpp"
 #include "mtr_drive_control/ros/conversions.hpp"
 #include "mtr_drive_control/ros/map_input.hpp"
@@ -28,6 +29,7 @@ namespace mtr_drive_control {
 struct NodeParameters {
   Parameters limits;
   CollisionParameters collision;
+  AreaParameters area;
   /// Owners whose silence forbids motion.
   std::vector<std::string> lock_owners{"dispatcher", "state_machine"};
   /// std_msgs/Bool topics of emergency stops, true: stand still; their silence forbids motion too. The others hear of
@@ -87,6 +89,7 @@ class Node {
   LidarInput front_;
   std::optional<LidarInput> rear_;
   MapInput map_;
+  AreaInput area_;
   ZoneMarkers markers_;
   InterventionCounter interventions_;
   std::int64_t lock_age_ns_ = 0;

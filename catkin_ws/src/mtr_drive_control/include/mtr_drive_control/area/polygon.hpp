@@ -1,0 +1,31 @@
+/// @file
+/// Simple polygon, and how far the robot's outline is inside it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "mtr_drive_control/geometry.hpp"
+
+namespace mtr_drive_control {
+
+/// Corners in either direction of rotation, at least 3; edges do not cross each other.
+class Polygon {
+ public:
+  explicit Polygon(std::vector<Point> corners);
+
+  const std::vector<Point>& corners() const { return corners_; }
+  bool contains(const Point& point) const;
+  double distance_to_border_m(const Point& point) const;
+
+  /// Distance of the footprint at this pose from the border while all of it is inside. Negative outside: minus the
+  /// distance to the farthest point outside, or minus the depth of a corner of the polygon in the footprint.
+  double clearance_m(const Footprint& footprint, const Pose& pose) const;
+
+ private:
+  double protrusion_m(const Footprint& footprint, const Pose& pose) const;
+
+  std::vector<Point> corners_;
+};
+
+}  // namespace mtr_drive_control
