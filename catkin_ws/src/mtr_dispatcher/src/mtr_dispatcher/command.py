@@ -10,6 +10,7 @@ from mtr_core.requests import Press, Waypoint
 from mtr_core.states import Direction
 
 from . import problems
+from .area.order import AreaOrder, order_problem
 
 # A test area is some ten metres across; a waypoint farther away is a mistake of units or sign.
 MAX_COORDINATE_M = 100.0
@@ -43,6 +44,7 @@ class Command:
     check_car_id: int = 0
     resume_hold_id: int = 0
     watches: bool = False
+    area: Optional[AreaOrder] = None
 
 
 def problem_of(command: Command, platform_speed_mps: float) -> Problem:
@@ -50,7 +52,8 @@ def problem_of(command: Command, platform_speed_mps: float) -> Problem:
     return (_waypoint_problem(command.waypoint)
             or _choice_problem(problems.MAXIMUM_SPEED, command.max_speed_mps, 0.01, platform_speed_mps)
             or _choice_problem(problems.KEY_HEIGHT, command.key_height_m, 0.0, MAX_KEY_HEIGHT_M)
-            or _press_problem(command.press))
+            or _press_problem(command.press)
+            or order_problem(command.area))
 
 
 def _waypoint_problem(waypoint: Optional[Waypoint]) -> Problem:

@@ -13,6 +13,7 @@ from mtr_proto import robot_link_pb2 as link
 from mtr_proto.parsing import parse_whole
 
 from . import problems
+from .area.order import AreaOrder
 from .command import Command
 
 # A Command takes some 200 bytes.
@@ -40,7 +41,8 @@ def decode(data: bytes) -> Command:
         waypoint=_waypoint(message), max_speed_mps=_choice(message, "max_speed_mps"),
         key_height_m=_choice(message, "device_height_m"), press=_press(message), map_car_id=message.map_car_id,
         end_session=message.end_session, check_car_id=message.check_car_id,
-        resume_hold_id=message.resume_hold_id, watches=message.watches)
+        resume_hold_id=message.resume_hold_id, watches=message.watches,
+        area=_area(message))
 
 
 def _float(message: Any, name: str, absent: float) -> float:
@@ -64,3 +66,10 @@ def _press(message: link.Command) -> Optional[Press]:
         return None
     sent = message.press
     return Press(sent.id, message.session_id, tuple(sent.buttons), _float(sent, "strength", 1.0), sent.duration_s)
+
+
+def _area(message: link.Command) -> Optional[AreaOrder]:
+    if not message.HasField("test_area"):
+        return None
+    sent = message.test_area
+    return AreaOrder(sent.id, sent.origin_id, tuple(sent.x), tuple(sent.y))

@@ -2,18 +2,22 @@
 # SPDX-License-Identifier: Apache-2.0
 from genpy import Time
 
+from mtr_core import names
 from mtr_core.conversions import desired_state_message
-from mtr_core.problems import messages_of
-from mtr_msgs.msg import DesiredState, MotionLock, Problem
+from mtr_core.problems import NO_PROBLEM, Problem, messages_of
+from mtr_msgs.msg import DesiredState, MotionLock, TestArea
+from mtr_msgs.msg import Problem as ProblemMessage
 
+from .area.keeper import AreaKeeper
 from .session import SessionState, desired_state
 
 OWNER = "dispatcher"
 
 
-def desired_message(desired: SessionState, stamp: Time, default_speed_mps: float) -> DesiredState:
+def desired_message(desired: SessionState, stamp: Time, default_speed_mps: float,
+                    area_problem: Problem = NO_PROBLEM) -> DesiredState:
     """What the Operator wants, for the other nodes."""
-    message = desired_state_message(desired_state(desired, default_speed_mps))
+    message = desired_state_message(desired_state(desired, default_speed_mps, area_problem))
     message.header.stamp = stamp
     return message
 
@@ -21,6 +25,14 @@ def desired_message(desired: SessionState, stamp: Time, default_speed_mps: float
 def lock_message(desired: SessionState, stamp: Time) -> MotionLock:
     """Reason to stand still, for drive control."""
     message = MotionLock(owner=OWNER, engaged=bool(desired.stop_reason), reason=desired.stop_reason.text,
-                         problems=messages_of(desired.stop_reason, Problem))
+                         problems=messages_of(desired.stop_reason, ProblemMessage))
     message.header.stamp = stamp
+    return message
+
+
+def area_message(areas: AreaKeeper, stamp: Time) -> TestArea:
+    """The area in force, for drive control and planner."""
+    message = TestArea(required=areas.required, origin_id=areas.area.origin_id if areas.area is not None else 0,
+                       x=[x for x, _ in areas.corners], y=[y for _, y in areas.corners])
+    message.header.stamp, message.header.frame_id = stamp, names.MAP
     return message

@@ -3,16 +3,21 @@
 import itertools
 from typing import List, Optional, Tuple
 
+from mtr_core.problems import Problem
+
 from . import problems
 from .access.gate import ANYBODY, Sender
+from .area.keeper import AreaKeeper
+from .area.order import corners_from
 from .command import Command
 from .command_codec import UndecodableError, decode
 from .parameters import Parameters
 from .sent_statuses import SentStatuses
 from .session import REJECTIONS, CommandResult, ControlSession, SessionState
+from .status.area import AreaReport
 from .status.builder import Confirmations, Identity, Report, status_bytes
 from .status.car_map import CarMap
-from .status.inputs import Inputs
+from .status.inputs import Inputs, PoseFields
 from .status.interventions import Interventions
 from .status.log_buffer import LogBuffer
 from .status.notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
@@ -26,10 +31,13 @@ class Dispatcher:
         log: the robot's warnings.
         status_id: newest Status that was written, 0 before the first.
         rejected_messages: undecodable, oversized, expired, refused, foreign or forbidden messages since the start.
+        areas: the test area in force.
         controller: name of the owner of the key whose Commands count, for texts; empty on a link without keys.
     """
 
-    def __init__(self, parameters: Parameters, identity: Identity):
+    def __init__(self, parameters: Parameters, identity: Identity, areas: Optional[AreaKeeper] = None):
+        """areas: that of a node, which remembers; by default one that begins without an area."""
+        self.areas = areas or AreaKeeper(not parameters.simulated, corners_from(parameters.test_area_xy))
         self._parameters, self._identity = parameters, identity
         self.session = ControlSession(parameters)
         self.log = LogBuffer()
@@ -61,6 +69,8 @@ class Dispatcher:
         if self.session.session_id in (0, command.session_id):
             # A key may have a new name since its session began.
             self.controller = sender.name if self.session.session_id else ""
+        if result in (CommandResult.TAKEN, CommandResult.REPEATED):
+            self.areas.take(command.session_id, command.area)
         if result is CommandResult.FOREIGN:
             self.rejected_messages += 1
             return result, self._foreign.received(self.session.session_id, command.session_id, now_s).text
@@ -84,9 +94,15 @@ class Dispatcher:
         """What the robot shall do at now_s of the steady clock."""
         return self.session.desired(now_s)
 
+    def area_problem(self, pose: Optional[PoseFields]) -> Problem:
+        """Why the robot neither maps nor tests for want of a test area, by the newest pose."""
+        self.areas.observe(pose)
+        return self.areas.problem(pose)
+
     def status(self, inputs: Inputs) -> bytes:
         """The next Status."""
         self.status_id += 1
+        is_one_map = self._car_map.is_map_of(inputs.pose, inputs.car)
         self._sent.add(self.status_id, inputs.now_s, inputs.steady_s)
         desired = self.session.desired(inputs.steady_s)
         standing = standing_notices(desired, inputs, self._parameters)
@@ -95,14 +111,15 @@ class Dispatcher:
             self.rejected_messages, self.controller, self.log.due(),
             itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.steady_s),
                             self._recent.at(inputs.steady_s)),
-            self._parameters.lockstep_operator, self._car_map.is_map_of(inputs.pose, inputs.car)))
+            self._parameters.lockstep_operator, is_one_map, self._parameters.simulated,
+            AreaReport(self.areas, self.area_problem(inputs.pose), desired.session_id, is_one_map)))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
         """What a Status would confirm now; when it changes a Status is due at once."""
         mode, peripherals, check = inputs.mode, inputs.peripherals, inputs.check
         return [self.session.session_id, self.session.command.id,
                 mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id, mode.hold_id),
-                inputs.emergency_stop,
+                inputs.emergency_stop, self.areas.area,
                 check and (check.id, check.state),
                 peripherals and [(press.session_id, press.id) for press in peripherals.presses]]
 

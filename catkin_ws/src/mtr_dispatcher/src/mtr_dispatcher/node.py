@@ -25,6 +25,7 @@ from mtr_msgs.msg import (
     MotionStatus,
     PeripheralsState,
     RobotMode,
+    TestArea,
 )
 
 from .access.admission import admission
@@ -32,7 +33,9 @@ from .access.connection_watch import HANDSHAKE_FAILURES
 from .access.curve import is_possible
 from .access.gate import ANYBODY, Gate
 from .access.rates import Rates
-from .conversions import desired_message, lock_message
+from .area.keeper import AreaKeeper
+from .area.order import corners_from
+from .conversions import area_message, desired_message, lock_message
 from .core import Dispatcher
 from .disks.watch import DiskWatch
 from .link_server import LinkError, LinkServer, Ports, Received
@@ -90,6 +93,7 @@ class DispatcherNode:
             TickInput(names.MOTION_STATUS, MotionStatus, schedule.MOTION_PLANNER))
         self._desired = publisher(names.DESIRED_STATE, DesiredState)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
+        self._area = rospy.Publisher(names.TEST_AREA, TestArea, queue_size=1, latch=True)
         self._locks = rospy.Subscriber(names.MOTION_LOCK, MotionLock, self._take_lock, queue_size=50)
         self._rosout = rospy.Subscriber("/rosout_agg", Log, self._take_log, queue_size=50)
         self._ticker = Ticker(schedule.DISPATCHER)
@@ -238,7 +242,9 @@ class DispatcherNode:
             rospy.loginfo("Motion %s", f"locked: {desired.stop_reason}" if desired.stop_reason else "allowed.")
         stamp = clock.stamp_of(now_ns)
         self._lock.publish(lock_message(desired, stamp))
-        self._desired.publish(desired_message(desired, stamp, self._parameters.default_speed_mps))
+        area_problem = self._core.area_problem(self._topics[0].fresh_at(now_ns, STALE_AFTER_S))
+        self._area.publish(area_message(self._core.areas, stamp))
+        self._desired.publish(desired_message(desired, stamp, self._parameters.default_speed_mps, area_problem))
         self._published = desired
 
     def _take_lock(self, message: MotionLock) -> None:
@@ -261,6 +267,15 @@ def _written_folders(parameters: Parameters) -> List[pathlib.Path]:
     return [pathlib.Path(folder) for folder in folders if folder]
 
 
+def _areas(parameters: Parameters) -> AreaKeeper:
+    """The test area, which outlives this process within one start of the robot."""
+    run = str(rospy.get_param(names.ROBOT_RUN, ""))
+    known = rospy.get_param(names.TEST_AREA_IN_FORCE, {})
+    remembered = known.get("area") if run and isinstance(known, dict) and known.get("run") == run else None
+    return AreaKeeper(not parameters.simulated, corners_from(parameters.test_area_xy), remembered,
+                      lambda area: rospy.set_param(names.TEST_AREA_IN_FORCE, {"run": run, "area": area}))
+
+
 def make(parameters: Parameters) -> DispatcherNode:
     """The node with its ports open."""
     # What a Status says of it has to be true.
@@ -279,7 +294,7 @@ def make(parameters: Parameters) -> DispatcherNode:
         rospy.set_param(names.WRITTEN_FOLDERS, [str(folder) for folder in _written_folders(parameters)])
         identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
                             key.x_m, key.y_m)
-        return DispatcherNode(parameters, Dispatcher(parameters, identity), server,
+        return DispatcherNode(parameters, Dispatcher(parameters, identity, _areas(parameters)), server,
                               Eyes(mounted_lidars(robot)), gate)
     except BaseException:
         # Its thread would keep the process alive.

@@ -1,11 +1,13 @@
 """Parameters of the dispatcher."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
+from typing import Tuple
 
 from mtr_core.errors import ConfigurationError, check_range
 from mtr_core.parameters import ParameterSet, number
 
 from .access.curve import is_loopback
+from .area.order import corners_from
 from .disks.room import FULL_MB
 
 
@@ -36,6 +38,9 @@ class Parameters(ParameterSet):
             may not be full; empty: they remember nothing.
         full_disk_mb: free space below which the Operator reads that a disk is full, and no test begins.
         disk_period_s: wall time between two looks at it.
+        simulated: the robot is simulated; a real one neither maps nor tests without a test area.
+        test_area_xy: corners x, y, x, y, ... of the test area in m, in the frame in which the robot stands at its start
+            (x ahead, y to the left); empty: the Operator draws it.
     """
 
     bind_address: str = "127.0.0.1"
@@ -59,9 +64,12 @@ class Parameters(ParameterSet):
     memory_folder: str = ""
     full_disk_mb: float = number(FULL_MB, 1.0, 100000.0, "MB")
     disk_period_s: float = number(10.0, 0.05, 600.0, "s")
+    simulated: bool = False
+    test_area_xy: Tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        corners_from(self.test_area_xy)
         check_range("default_speed_mps", self.default_speed_mps, 0.05, self.platform_speed_mps, "m/s")
         if self.status_port == self.command_port:
             raise ConfigurationError(f"Parameters status_port and command_port are both {self.status_port}; "

@@ -56,6 +56,29 @@ PRESS_STRENGTH = Sentence("dispatcher.press_strength",
 PRESS_DURATION = Sentence("dispatcher.press_duration",
                           "Button press {id}: duration is {value} s; allowed is {low} to {high} s.")
 
+# The test area
+AREA_WITHOUT_ID = Sentence("dispatcher.area_without_id", "Test area without an id; ids count from 1.")
+AREA_NOT_PAIRS = Sentence("dispatcher.area_not_pairs",
+                          "Test area {id}: {x_count} x and {y_count} y coordinates; each corner needs both.")
+AREA_CORNERS = Sentence("dispatcher.area_corners",
+                        "Test area {id}: {count} corners; the number must be between {low} and {high}.")
+AREA_COORDINATE = Sentence("dispatcher.area_coordinate",
+                           "Test area {id}: a corner is at {value} m; it must be within {high} m of the start.")
+AREA_EDGE = Sentence("dispatcher.area_edge", "Test area {id}: two corners are closer together than {low} m.")
+AREA_CROSSED = Sentence("dispatcher.area_crossed", "Test area {id}: its border crosses itself.")
+AREA_SIZE = Sentence("dispatcher.area_size",
+                     "Test area {id}: its size is {value:.1f} m2; it must be between {low:.0f} and {high:.0f} m2.")
+NO_AREA = Sentence("dispatcher.no_area",
+                   "No test area is set: draw it on the map before the robot maps the Car. A real robot drives by "
+                   "itself only inside one.")
+AREA_OF_OTHER_ORIGIN = Sentence(
+    "dispatcher.area_of_other_origin",
+    "The robot started a new map without a known position, so the test area no longer applies; draw it again.")
+FIXED_AREA_OF_OTHER_ORIGIN = Sentence(
+    "dispatcher.fixed_area_of_other_origin",
+    "The robot started a new map without a known position, so the test area of its launch file no longer applies; "
+    "start the robot again at its start place.")
+
 # Nodes, battery and disk
 NODE_CANNOT_START = Sentence("dispatcher.node_cannot_start", "The node {node} cannot start: {why}")
 STATE_MACHINE_SILENT = Sentence("dispatcher.state_machine_silent",

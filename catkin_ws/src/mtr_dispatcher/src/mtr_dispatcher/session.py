@@ -200,7 +200,8 @@ class ControlSession:
                 del self._former[next(iter(self._former))]
 
 
-def desired_state(desired: SessionState, default_speed_mps: float) -> DesiredState:
+def desired_state(desired: SessionState, default_speed_mps: float, area_problem: Problem = NO_PROBLEM
+                  ) -> DesiredState:
     """The same for the other nodes; where the Command leaves a choice it is made here."""
     command = desired.command
     return DesiredState(
@@ -209,7 +210,7 @@ def desired_state(desired: SessionState, default_speed_mps: float) -> DesiredSta
         max_speed_mps=default_speed_mps if command.max_speed_mps is None else command.max_speed_mps,
         key_height_m=math.nan if command.key_height_m is None else command.key_height_m,
         press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order,
-        resume_hold_id=command.resume_hold_id)
+        resume_hold_id=command.resume_hold_id, area_problem=area_problem)
 
 
 def is_same(one: Optional[SessionState], other: SessionState) -> bool:

@@ -9,6 +9,7 @@ from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
 
 from ..command_codec import MAX_MESSAGE_BYTES
+from .area import AreaReport, add_area
 from .car_pose import CarPose, UncertainPose, base_in_car
 from .inputs import CarFields, CheckFields, Inputs, ModeFields, PeripheralsFields, PoseFields
 from .log_buffer import Entry
@@ -61,6 +62,8 @@ class Report(NamedTuple):
     notices: Iterable[Notice]
     waits_for_answer: bool
     is_one_map: bool
+    simulated: bool
+    area: AreaReport
 
 
 def status_bytes(identity: Identity, report: Report) -> bytes:
@@ -71,7 +74,8 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         map_car_id=report.confirmations.map_car_id, rejected_messages=report.rejected_messages,
         software_version=identity.software_version, steady_time_s=report.fresh.steady_s,
         interventions=link.Interventions(**report.interventions), emergency_stop=report.fresh.emergency_stop,
-        waits_for_answer=report.waits_for_answer)
+        waits_for_answer=report.waits_for_answer, simulated=report.simulated)
+    add_area(status.test_area, report.fresh, report.area)
     status.state.key_x, status.state.key_y = identity.key_x_m, identity.key_y_m
     if report.controller:
         status.controller_name = report.controller

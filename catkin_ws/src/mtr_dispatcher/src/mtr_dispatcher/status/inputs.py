@@ -31,6 +31,7 @@ class PoseFields(Stamped, Protocol):
     speed_mps: float
     yaw_rate_radps: float
     map_revision: int
+    origin_id: int
     message: str
     problems: Sequence[ProblemFields]
 

@@ -23,6 +23,10 @@ MAX_FOREIGN = 16
 PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
     "waiting_for_lidar", "waiting_for_odometry", "lidar_", "odometry_", "imu_", "base_", "wheels_slip",
     "second_publisher"))
+# Drive control at the border of the test area, and without a position in it.
+BORDER_OF_DRIVE = ("drive_control.area_", "drive_control.outside_area")
+# A robot that waits for a test area: the Operator has to act.
+AREA_CODES = (problems.NO_AREA.code, problems.AREA_OF_OTHER_ORIGIN.code, problems.FIXED_AREA_OF_OTHER_ORIGIN.code)
 # Of a motion lock whose owner is silent; these two are missed by name.
 SILENT_LOCKS = ("drive_control.lock_silent", "drive_control.waiting_for_lock")
 MISSED_OTHERWISE = ("dispatcher", "state_machine")
@@ -109,7 +113,8 @@ def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
     elif fresh.mode.mode == State.FAULT:
         yield Notice("fault", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
     elif fresh.mode.message and not fresh.mode.hold_id:
-        yield Notice("mode", INFO, problem_of(fresh.mode.problems, fresh.mode.message))
+        problem = problem_of(fresh.mode.problems, fresh.mode.message)
+        yield (Notice("test_area", ERROR, problem) if problem.code in AREA_CODES else Notice("mode", INFO, problem))
 
 
 def _drive_notices(fresh: Inputs) -> Iterator[Notice]:
@@ -118,6 +123,8 @@ def _drive_notices(fresh: Inputs) -> Iterator[Notice]:
     is_missed = problem.code in SILENT_LOCKS and dict(problem.arguments).get("owner") not in MISSED_OTHERWISE
     if problem.code.startswith(PARTS_OF_DRIVE) or is_missed:
         yield Notice("drive_control", ERROR, problem)
+    elif problem.code.startswith(BORDER_OF_DRIVE):
+        yield Notice("test_area_border", WARNING, problem)
 
 
 def _peripherals_notices(fresh: Inputs, low_battery: float) -> Iterator[Notice]:
