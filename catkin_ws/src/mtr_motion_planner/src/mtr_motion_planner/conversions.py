@@ -13,8 +13,9 @@ from mtr_core.conversions import goal_from
 from mtr_core.problems import messages_of, problem_of
 from mtr_core.se2 import Pose2
 from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, Problem, RobotMode, VelocityCommand
+from mtr_msgs.msg import TestArea as AreaMessage
 
-from .inputs import CollisionStop, DesiredMotion, EstimatedCar, RobotState, SideSigmas, Zone
+from .inputs import CollisionStop, DesiredMotion, DrawnArea, EstimatedCar, RobotState, SideSigmas, Zone
 from .outputs import Path as PlannedPath
 from .outputs import PlannerOutput
 from .picture import PlanPicture
@@ -81,6 +82,11 @@ def collision_stop_from(message: Optional[DriveStatus], stamp_s: float) -> Optio
     zone = Zone(message.zone) if message.zone in tuple(Zone) else Zone.BLOCKED
     return CollisionStop(stamp_s, zone, message.obstacle_m, message.obstacle_bearing,
                          problem_of(message.problems, message.message))
+
+
+def area_from(message: AreaMessage) -> DrawnArea:
+    """The Operator's test area."""
+    return DrawnArea(tuple(zip(message.x, message.y)))
 
 
 def velocity_message(output: PlannerOutput, header: Header) -> VelocityCommand:

@@ -116,6 +116,16 @@ class CollisionStop:
 
 
 @dataclass(frozen=True)
+class DrawnArea:
+    """The Operator's area, which drive control enforces: corners in map, m; none: no bound."""
+
+    corners: Tuple[Point, ...] = ()
+
+
+NO_AREA = DrawnArea()
+
+
+@dataclass(frozen=True)
 class Inputs:
     """Newest message of each kind at a tick, None before the first; the planner can do without drive control's."""
 
@@ -124,6 +134,7 @@ class Inputs:
     robot: Optional[RobotState]
     car: Optional[EstimatedCar]
     collision_stop: Optional[CollisionStop] = None
+    area: DrawnArea = NO_AREA
 
 
 class InputsUnusable(ProblemError):
@@ -139,6 +150,7 @@ class Situation:
     robot: RobotState
     car: EstimatedCar
     collision_stop: Optional[CollisionStop]
+    area: DrawnArea = NO_AREA
 
 
 Stamped = TypeVar("Stamped", DesiredMotion, RobotState, EstimatedCar)
@@ -148,7 +160,8 @@ def situation_of(inputs: Inputs, age_limit_s: float) -> Situation:
     """The inputs checked; InputsUnusable when they must not move the robot."""
     now = Situation(inputs.tick_s, _fresh("order", inputs.desired, inputs.tick_s, age_limit_s),
                     _fresh("pose", inputs.robot, inputs.tick_s, age_limit_s),
-                    _fresh("position of the Car", inputs.car, inputs.tick_s, age_limit_s), inputs.collision_stop)
+                    _fresh("position of the Car", inputs.car, inputs.tick_s, age_limit_s), inputs.collision_stop,
+                    inputs.area)
     fault = _value_fault(now.desired, now.robot, now.car)
     if fault:
         raise InputsUnusable(fault)

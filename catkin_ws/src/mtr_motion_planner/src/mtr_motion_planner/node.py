@@ -13,9 +13,10 @@ from mtr_core.liveness import NS
 from mtr_core.lockstep import Ticker, TickInput, publisher, run_node
 from mtr_core.lockstep.clock import is_lockstep, stamp_of, steady_at
 from mtr_description.robot_description import described_robot
-from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, VelocityCommand
+from mtr_msgs.msg import CarEstimate, DriveStatus, LocalizedPose, MotionStatus, RobotMode, TestArea, VelocityCommand
 
 from .conversions import (
+    area_from,
     car_from,
     collision_stop_from,
     desired_from,
@@ -55,6 +56,8 @@ class MotionPlannerNode:
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         self._car = TickInput(names.CAR_ESTIMATE, CarEstimate, schedule.CAR_LOCATOR)
         self._drive = TickInput(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
+        self._area = rospy.Subscriber(names.TEST_AREA, TestArea, self._take_area, queue_size=1)
+        self._drawn = area_from(TestArea())
         self._velocity = publisher(names.PLANNER_VELOCITY, VelocityCommand)
         self._status = publisher(names.MOTION_STATUS, MotionStatus)
         self._path = rospy.Publisher(names.MOTION_PATH, Path, queue_size=1, latch=True)
@@ -77,7 +80,7 @@ class MotionPlannerNode:
             rospy.logwarn("%s", refusal)
         inputs = Inputs(steady_at(tick_ns) * NS, desired, robot_from(self._pose.at(tick_ns), self._pose.stamp_s),
                         car_from(self._car.at(tick_ns), self._car.stamp_s),
-                        collision_stop_from(self._drive.at(tick_ns), self._drive.stamp_s))
+                        collision_stop_from(self._drive.at(tick_ns), self._drive.stamp_s), self._drawn)
         output = self._planner.step(inputs)
         stamp = stamp_of(tick_ns)
         self._velocity.publish(velocity_message(output, Header(stamp=stamp)))
@@ -93,6 +96,9 @@ class MotionPlannerNode:
             picture = picture_of(self._planner, self._parameters)
             if picture:
                 self._markers.publish(markers_message(picture, stamp))
+
+    def _take_area(self, message: TestArea) -> None:
+        self._drawn = area_from(message)
 
     def _take_nav_goal(self, message: PoseStamped) -> None:
         goal = nav_goal_from(message)

@@ -108,7 +108,8 @@ class MotionPlanner:
         if self.site is None:
             return
         is_retried = self._result == Result.REFUSED and self.site.is_wider_for(now.car, now.robot)
-        if self.site.holds_for(now.car, now.robot) and not is_retried:
+        is_same = self.site.holds_for(now.car, now.robot) and self.site.area == now.area
+        if is_same and not is_retried:
             return
         self.site = None
         if self._result != Result.REACHED:
@@ -131,7 +132,7 @@ class MotionPlanner:
 
     def _arranged(self, now: Situation) -> Optional[Site]:
         try:
-            self.site = Site(self._goal.waypoint, now.car, now.robot, self._outline, self._parameters)
+            self.site = Site(self._goal.waypoint, now.car, now.robot, self._outline, self._parameters, now.area)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), None)
         return self.site

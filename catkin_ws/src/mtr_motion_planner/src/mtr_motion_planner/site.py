@@ -5,22 +5,26 @@ and plan stay as they are, and only the robot is seen elsewhere.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
-from typing import Optional
+from typing import List, Optional
+
+from shapely.geometry import Polygon
 
 from mtr_core import names
 from mtr_core.requests import Waypoint
 from mtr_core.se2 import Pose2
 
 from . import problems
-from .geometry.fence import Fence, corners_of
+from .geometry.fence import Fence, bound_of, corners_of
 from .geometry.growth import bounds_of
 from .geometry.keep_out import KeepOut
 from .geometry.robot_outline import RobotOutline
-from .inputs import EstimatedCar, RobotState
-from .parameters import MotionParameters
+from .inputs import NO_AREA, DrawnArea, EstimatedCar, RobotState
+from .parameters import Margins, MotionParameters
 from .timing.plan import PlanRefused
 
 SHIFT_M, SHIFT_RAD = 0.02, math.radians(0.5)
+# Beyond drive control's area_gap_m (0.05 m): errors of following, and sigma that grows on the way.
+AREA_GAP_M = 0.15
 MAP_FROM_MAP = Pose2(0.0, 0.0, 0.0)
 
 
@@ -31,12 +35,14 @@ class Site:
         in_car_frame: the frame is the Car's, else map.
         goal: pose of the robot's turn centre in the frame.
         keep_out: the Car's outline in the frame.
+        area: the Operator's test area, in map.
         fence: the test area in the frame, None when there is no bound.
     """
 
     def __init__(self, goal: Waypoint, car: EstimatedCar, state: RobotState, robot: RobotOutline,
-                 parameters: MotionParameters):
+                 parameters: MotionParameters, area: DrawnArea = NO_AREA):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
+        self.area = area
         self._car, self._reach_m, self._margins = car, robot.front_m, parameters.margins
         if goal.frame not in (names.CAR, names.MAP):
             raise PlanRefused(problems.GOAL_FRAME(frame=repr(goal.frame)))
@@ -49,18 +55,28 @@ class Site:
         frame_from_car = MAP_FROM_MAP if self.in_car_frame else car.pose
         self.keep_out = KeepOut([frame_from_car.apply(x, y) for x, y in car.outline], robot, parameters.margins,
                                 frame_from_car, bounds_of(car, state, self._reach_m, self._margins))
-        self.fence = self._fence(parameters, frame_from_car)
+        self.fence = self._fence(parameters, frame_from_car, state)
 
-    def _fence(self, parameters: MotionParameters, frame_from_car: Pose2) -> Optional[Fence]:
-        margins = parameters.margins
+    def _fence(self, parameters: MotionParameters, frame_from_car: Pose2, state: RobotState) -> Optional[Fence]:
+        bounds = [*self._parameter_bound(parameters.margins, frame_from_car), *self._drawn_bound(state)]
+        return Fence(bounds, self.keep_out.robot, parameters.limits) if bounds else None
+
+    def _parameter_bound(self, margins: Margins, frame_from_car: Pose2) -> List[Polygon]:
         corners = corners_of(margins.geofence_xy)
-        if not corners:
-            return None
         in_car = margins.geofence_frame == "car"
-        if in_car and not self._car.located:
-            return None  # while the Car is mapped nobody knows yet where its frame is
+        # While the Car is mapped nobody knows yet where its frame is.
+        if not corners or (in_car and not self._car.located):
+            return []
         frame = frame_from_car if in_car else self.frame_from_map(self._car)
-        return Fence([frame.apply(x, y) for x, y in corners], self.keep_out.robot, parameters.limits)
+        return [bound_of([frame.apply(x, y) for x, y in corners])]
+
+    def _drawn_bound(self, state: RobotState) -> List[Polygon]:
+        """Inside of what drive control permits, so that it does not stop the robot on its path."""
+        if not self.area.corners:
+            return []
+        frame = self.frame_from_map(self._car)
+        sigma_m = state.position_sigma_m + state.heading_sigma * self._reach_m
+        return [bound_of([frame.apply(x, y) for x, y in self.area.corners], AREA_GAP_M + 2.0 * sigma_m)]
 
     def frame_from_map(self, car: EstimatedCar) -> Pose2:
         """Where map is in the frame, by the Car's newest pose."""

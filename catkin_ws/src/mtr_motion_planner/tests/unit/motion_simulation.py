@@ -13,7 +13,7 @@ from mtr_core.se2 import Pose2
 from mtr_core.states import Direction, Result
 from mtr_description.shipped import shipped_geometry
 from mtr_motion_planner.geometry.robot_outline import RobotOutline
-from mtr_motion_planner.inputs import CollisionStop, DesiredMotion, EstimatedCar, Inputs, RobotState
+from mtr_motion_planner.inputs import NO_AREA, CollisionStop, DesiredMotion, EstimatedCar, Inputs, RobotState
 from mtr_motion_planner.outputs import PlannerOutput
 from mtr_motion_planner.parameters import MotionParameters, Slip
 from mtr_motion_planner.planner import MotionPlanner
@@ -43,6 +43,7 @@ class SimulatedRobot:
         self.speed = self.yaw_rate = 0.0
         self.planner = MotionPlanner(parameters, FOOTPRINT, InlineExecutor())
         self.collision_stop: Optional[CollisionStop] = None
+        self.area = NO_AREA
         self.speed_cap, self.is_degenerate = math.inf, False
         self.position_sigma_m = self.heading_sigma = 0.0
         self.ticks = 0
@@ -69,7 +70,7 @@ class SimulatedRobot:
         robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate, "", self.is_degenerate,
                            self.position_sigma_m, self.heading_sigma)
         return Inputs(self.now, DesiredMotion(self.now, self.goal, self.max_speed), robot,
-                      replace(self.car, stamp_s=self.now), self.collision_stop)
+                      replace(self.car, stamp_s=self.now), self.collision_stop, self.area)
 
     def tick(self) -> PlannerOutput:
         """One period."""

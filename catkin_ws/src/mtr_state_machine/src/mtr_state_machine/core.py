@@ -177,7 +177,8 @@ class StateMachine:
         self._table.fire(event)
 
     def _is_map_ordered(self, seen: Observation) -> bool:
-        return seen.desired.link_alive and seen.desired.map_car_id not in (0, self._map_car_id)
+        is_new = seen.desired.link_alive and seen.desired.map_car_id not in (0, self._map_car_id)
+        return is_new and not seen.desired.area_problem
 
     def _is_check_ordered(self, seen: Observation) -> bool:
         state = self._before_fault if self.state is State.FAULT else self.state
@@ -201,7 +202,7 @@ class StateMachine:
 
     @staticmethod
     def _may_move(seen: Observation) -> bool:
-        return seen.desired.link_alive and not seen.desired.stop
+        return seen.desired.link_alive and not seen.desired.stop and not seen.desired.area_problem
 
     def _pursue(self, seen: Observation) -> None:
         desired = seen.desired
@@ -254,6 +255,8 @@ class StateMachine:
     def _message(self, seen: Observation) -> Problem:
         if self._hold.id:
             return self._hold.reason
+        if seen.desired.area_problem:
+            return seen.desired.area_problem
         if self.state is State.READY_TO_MAP_CAR:
             return problems.WAITS_FOR_WAYPOINT()
         if self.state is State.FOLLOWING_WAYPOINT:

@@ -1,9 +1,10 @@
 """The bound of the test area: footprint and stopping distance stay inside; poses are those of the turn centre."""
 # SPDX-License-Identifier: Apache-2.0
+import functools
 from typing import Sequence
 
 import numpy as np
-from shapely.geometry import MultiPoint, Polygon
+from shapely.geometry import JOIN_STYLE, MultiPoint, Polygon
 from shapely.prepared import prep
 
 from mtr_core.arrays import FloatArray
@@ -23,11 +24,17 @@ def corners_of(numbers: Sequence[float]) -> Sequence[Point]:
     return corners
 
 
-class Fence:
-    """Polygon in the frame of the plan."""
+def bound_of(corners: Sequence[Point], margin_m: float = 0.0) -> Polygon:
+    """Area inside these corners and farther than the margin from its border."""
+    polygon = Polygon(corners)
+    return polygon.buffer(-margin_m, join_style=JOIN_STYLE.mitre) if margin_m else polygon
 
-    def __init__(self, corners: Sequence[Point], robot: RobotOutline, limits: MotionLimits):
-        self._area = prep(Polygon(corners))
+
+class Fence:
+    """Common part of areas in the frame of the plan."""
+
+    def __init__(self, bounds: Sequence[Polygon], robot: RobotOutline, limits: MotionLimits):
+        self._area = prep(functools.reduce(lambda one, other: one.intersection(other), bounds))
         self._robot, self._limits = robot, limits
 
     def holds(self, poses: FloatArray, speeds: FloatArray) -> bool:
