@@ -23,7 +23,7 @@ ROBOT_STATE = {
 COMMAND = {
     "session_id": 1, "id": 2, "sent_time_s": 3, "seen_status_id": 4, "seen_robot_time_s": 5, "stop": 6, "waypoint": 7,
     "max_speed_mps": 8, "device_height_m": 9, "press": 10, "map_car_id": 11, "end_session": 12,
-    "check_car_id": 13, "resume_hold_id": 14, "watches": 15,
+    "check_car_id": 13, "resume_hold_id": 14, "watches": 15, "test_area": 16,
 }
 STATUS = {
     "id": 1, "robot_session_id": 2, "sent_time_s": 3, "state": 4, "car": 5, "mode": 6, "session_id": 7,
@@ -31,7 +31,12 @@ STATUS = {
     "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
     "car_check": 18, "waypoint_problems": 19, "steady_time_s": 20, "interventions": 21, "emergency_stop": 22,
     "motion_source": 23, "hold_id": 24, "controller_name": 25, "surroundings": 26,
-    "preflight": 27, "waits_for_answer": 28,
+    "preflight": 27, "waits_for_answer": 28, "simulated": 29, "test_area": 30,
+}
+TEST_AREA = {"id": 1, "origin_id": 2, "x": 3, "y": 4}
+TEST_AREA_STATE = {
+    "required": 1, "fixed": 2, "area": 3, "origin_id": 4, "x": 5, "y": 6, "heading": 7, "car_x": 8, "car_y": 9,
+    "car_heading": 10, "problems": 11,
 }
 PREFLIGHT = {"made_s": 1, "items": 2, "checks": 3, "bad": 4}
 PREFLIGHT_ITEM = {"name": 1, "level": 2, "sentence": 3}
@@ -45,6 +50,8 @@ def test_robot_state_keeps_the_numbers_and_types_of_the_thesis():
 
 def test_messages_keep_their_field_numbers():
     for message, promised in ((robot_link_pb2.Command, COMMAND), (robot_link_pb2.Status, STATUS),
+                              (robot_link_pb2.TestArea, TEST_AREA),
+                              (robot_link_pb2.TestAreaState, TEST_AREA_STATE),
                               (robot_link_pb2.PreflightReport, PREFLIGHT),
                               (robot_link_pb2.PreflightItem, PREFLIGHT_ITEM)):
         fields = message.DESCRIPTOR.fields_by_name

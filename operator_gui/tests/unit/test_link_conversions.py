@@ -21,6 +21,8 @@ DESIRED = [
     requests.DesiredState(check_car_id=4, resume_hold_id=2 ** 62),
     requests.DesiredState(max_speed_mps=0.5, key_height_m=1.25,
                        waypoint=requests.Waypoint(4, Pose(1.5, -2.25, math.pi), requests.Direction.BACKWARD)),
+    requests.DesiredState(area=requests.AreaOrder(3, 2 ** 62, ((1.5, -2.5), (4.0, 0.0), (0.0, 3.0)))),
+    requests.DesiredState(area=requests.AreaOrder(4, 7, ())),
     requests.DesiredState(press=requests.Press(9, (1, 2), 0.75, 0.5)),
 ]
 
@@ -49,7 +51,9 @@ STATUS = robot_status.RobotStatus(
     emergency_stop=robot_status.EmergencyStop.RELEASED, motion_source=robot_status.MotionSource.MANUAL, hold_id=2 ** 62,
     controller_name="Jana", preflight=PreflightReport(40.5, (PreflightItem("disk", True, "Full."),
                                                               PreflightItem("/imu/data", False, "50 Hz.")), 12, 1),
-    waits_for_answer=True)
+    waits_for_answer=True, simulated=True,
+    area=robot_status.AreaState(True, True, 3, 2 ** 62, ((1.5, -2.5), (4.0, 0.0), (0.0, 3.0)), 2 ** 61,
+                                Pose(1.0, 2.0, 0.5), Pose(-1.0, 4.0, -0.25), (LOST, LATE)))
 
 
 @pytest.mark.parametrize("desired", DESIRED)
@@ -119,6 +123,19 @@ def test_robot_of_before_says_nothing_of_a_preflight_and_another_that_none_was_m
     assert conversions.decode_status(message.SerializeToString()).preflight == PreflightReport()
 
 
+def test_robot_of_before_says_nothing_of_an_area_and_counts_as_a_real_one():
+    status = conversions.decode_status(pb.Status(id=1, robot_session_id=2, sent_time_s=3.5).SerializeToString())
+    assert status.area is None and not status.simulated
+
+
+def test_area_and_pose_that_are_not_finite_are_none():
+    message = pb.Status(id=1, robot_session_id=2, sent_time_s=3.5)
+    message.test_area.area.CopyFrom(pb.TestArea(id=1, x=[0.0, math.nan, 1.0], y=[0.0, 0.0, 1.0]))
+    message.test_area.x, message.test_area.y, message.test_area.heading = 1.0, math.inf, 0.0
+    state = conversions.decode_status(message.SerializeToString()).area
+    assert state.corners == () and state.robot is None and state.car is None
+
+
 @pytest.mark.parametrize("made_s", [math.nan, math.inf])
 def test_preflight_of_no_time_is_none(made_s):
     message = pb.PreflightReport(made_s=made_s, items=[pb.PreflightItem(name="disk")], checks=1, bad=1)
@@ -151,9 +168,9 @@ def test_other_bytes_are_undecodable(payload):
 
 
 @pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions",
-                                     "PreflightReport", "PreflightItem"])
+                                     "PreflightReport", "PreflightItem", "TestArea", "TestAreaState"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 15, "Status": 28, "RobotState": 19, "CarDimensions": 15, "CarCheck": 8, "Interventions": 7,
+    known = {"Command": 16, "Status": 30, "TestArea": 4, "TestAreaState": 11, "RobotState": 19, "CarDimensions": 15, "CarCheck": 8, "Interventions": 7,
              "PreflightReport": 4, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

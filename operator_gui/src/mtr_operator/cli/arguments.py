@@ -8,6 +8,9 @@ import sys
 from typing import NoReturn
 
 from mtr_operator import __version__
+from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.geometry.area import corners_from_text
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.scenarios import SCENARIOS
 
 from .exit_codes import EXIT_USAGE
@@ -89,6 +92,9 @@ def _add_run(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--laboratory", type=pathlib.Path, metavar="FILE",
                         help="what the laboratory requires of each identity, YAML; default: laboratory.yaml beside the "
                              "window's settings, if there is one")
+    parser.add_argument("--test-area", type=_corners, metavar="CORNERS",
+                        help="area that the robot does not leave, as 'x y; x y; ...' in m, where it stood at its start "
+                             "(x ahead, y left), or the path of a file with them; default: the one that the robot has")
     parser.add_argument("--bundle", action="store_true", help="write the signed evidence of the test into DIR, too")
     _add_robot(parser)
     car = parser.add_argument_group("Car")
@@ -158,7 +164,7 @@ def _add_demo(parser: argparse.ArgumentParser) -> None:
     _add_seed(parser)
     _add_car_seed(parser)
     parser.set_defaults(phone_feed=None)
-    parser.set_defaults(can_log=None, can_log_format="blf", bundle=False)
+    parser.set_defaults(can_log=None, can_log_format="blf", bundle=False, test_area=None)
     parser.set_defaults(params=None, continued=None, calibration=None, identity=None, laboratory=None,
                         simulated_robot=True, simulated_car=True, simulated_key_sleep=0.0,
                         simulated_extender=0.0)
@@ -272,6 +278,14 @@ def _add_car_seed(car: argparse._ActionsContainer, default: int | None = 1) -> N
     car.add_argument("--car-seed", type=_whole_number, default=default, metavar="N",
                      help="of the substitute of the Car: another one is another Car with ranges of its own, whatever "
                           "--seed is; default 1")
+
+
+def _corners(text: str) -> tuple[Point, ...]:
+    path = pathlib.Path(text)
+    try:
+        return corners_from_text(path.read_text(encoding="utf-8").replace("\n", ";") if path.is_file() else text)
+    except (InvalidParameter, OSError, UnicodeDecodeError) as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _number(text: str) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 
+from mtr_operator.domain.actions.area import set_area
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.event_observer import EventObserver, run_told
 from mtr_operator.domain.actions.trouble import Cancelled
@@ -129,6 +130,8 @@ class CommandLineRun:
             loop = ControlLoop(robot, car, observer, interrupt.is_requested, Release(display.say, enter))
             profile = self._progress.session.get(CAR_PROFILE, "")
             loop.course, loop.event_log = self._recording.begin(car, profile), events
+            if self._options.test_area is not None:
+                set_area(loop, self._options.test_area)
             person = HandleQuestion(display.say, enter).person
             loop.person, loop.switcher, loop.phone = person, person, self._phone
             rejected_before = loop.status.rejected_messages

@@ -8,7 +8,7 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass
 
-from .geometry.pose import Pose
+from .geometry.pose import Point, Pose
 
 
 class Direction(enum.Enum):
@@ -39,10 +39,23 @@ class Press:
 
 
 @dataclass(frozen=True)
+class AreaOrder:
+    """A test area, which the robot does not leave; without corners it withdraws the one in force.
+
+    id: unique within the session, never 0. origin_id: AreaState.origin_id of the Status by which it was drawn.
+    """
+
+    id: int
+    origin_id: int
+    corners: tuple[Point, ...]
+
+
+@dataclass(frozen=True)
 class DesiredState:
     """The whole desired final state of the robot. Immutable: a change is a new object with a new id.
 
     resume_hold_id: the RobotStatus.hold_id that the Operator has released, 0 for none.
+    area: None leaves the test area as it is.
     """
 
     stop: bool = False
@@ -53,3 +66,4 @@ class DesiredState:
     map_car_id: int = 0
     check_car_id: int = 0
     resume_hold_id: int = 0
+    area: AreaOrder | None = None

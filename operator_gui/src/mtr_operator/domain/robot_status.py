@@ -241,6 +241,37 @@ class PreflightReport:
 
 
 @dataclass(frozen=True)
+class AreaState:
+    """What the robot reports of its test area.
+
+    required: without one it neither maps nor tests. is_fixed: its launch file has set it. corners: in force, empty
+    without one; area_id: 0 when another session has set them. area_origin_id, origin_id: origins of the start frame to
+    which corners and poses refer. robot, car: in the start frame, None while unknown. problems: why it neither maps nor
+    tests, outermost first.
+    """
+
+    required: bool = False
+    is_fixed: bool = False
+    area_id: int = 0
+    area_origin_id: int = 0
+    corners: tuple[Point, ...] = ()
+    origin_id: int = 0
+    robot: Pose | None = None
+    car: Pose | None = None
+    problems: tuple[Problem, ...] = ()
+
+    @property
+    def is_in_force(self) -> bool:
+        """True when the robot keeps inside an area, with a position in it."""
+        return bool(self.corners) and self.area_origin_id == self.origin_id
+
+    def corners_at_car(self) -> tuple[Point, ...]:
+        """Corners in the Car coordinate system; none before the Car is mapped, or of another origin."""
+        car = self.car
+        return tuple(map(car.to_source, self.corners)) if car is not None and self.is_in_force else ()
+
+
+@dataclass(frozen=True)
 class RobotStatus:
     """One Status message. NaN or None where the robot did not say.
 
@@ -249,6 +280,7 @@ class RobotStatus:
     controlled_by_other: another application has the robot; the confirmations are absent then.
     car_check: None for a robot that cannot check the Car's frame.
     controller_name: owner of the key whose Commands the robot obeys; empty on a link that is not encrypted.
+    simulated: a robot of before does not say it, and counts as a real one. area: None of a robot of before.
     surroundings, preflight: None in most Statuses, and of a robot of before.
     waits_for_answer: of a simulated robot: its time stands still until this Status is answered.
     hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
@@ -302,6 +334,8 @@ class RobotStatus:
     surroundings: Surroundings | None = None
     preflight: PreflightReport | None = None
     waits_for_answer: bool = False
+    simulated: bool = False
+    area: AreaState | None = None
 
     @property
     def is_abandoned(self) -> bool:
@@ -318,5 +352,7 @@ class RobotStatus:
         yield self.waypoint_problems
         yield from (notification.problems for notification in self.notifications)
         yield from (press.problems for press in self.presses)
+        if self.area is not None:
+            yield self.area.problems
         if self.car_check is not None:
             yield self.car_check.problems

@@ -39,6 +39,7 @@ from .results.session_record import (
     RECOVERED,
     WIDENED,
     again_text,
+    area_record,
     clock_record,
     controller_record,
     preflight_record,
@@ -108,7 +109,7 @@ class Runner:
         self._warn(*filter(None, (offset_sentence(ahead_s),)))
         told = self._loop.status
         record = {**controller_record(told.controller_name), **clock_record(ahead_s),
-                  **preflight_record(self._loop.preflight, told.steady_s),
+                  **preflight_record(self._loop.preflight, told.steady_s), **area_record(told.area),
                   **self._progress.with_earlier(self._car.record)}
         if record:
             self._notebook.add(SESSION, record)

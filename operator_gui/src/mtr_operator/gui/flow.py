@@ -11,6 +11,7 @@ from PyQt5.QtCore import QObject, pyqtSignal
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.entry import EventKind
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.station.begun.starting import begun_test
 from mtr_operator.station.begun.unfinished import UnfinishedTest
@@ -236,6 +237,11 @@ class Flow(QObject):
         """Have the robot try something."""
         self.model.order_motion()
         self.connecting.links.calibrate(request)
+
+    def set_area(self, corners: tuple[Point, ...], origin_id: int) -> None:
+        """Have the robot keep inside this test area, without corners in none."""
+        if self.connecting.worker is not None:
+            self.connecting.worker.set_area(corners, origin_id)
 
     def request_car(self, request: CarRequest) -> None:
         """Have the robot check or map the Car, or stop doing so."""

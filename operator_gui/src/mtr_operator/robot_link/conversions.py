@@ -14,6 +14,7 @@ from mtr_operator.domain.geometry.pose import Pose
 from mtr_proto import robot_link_pb2 as pb
 from mtr_proto.parsing import parse_whole
 
+from .area import area_message, area_order_from, area_state_from, fill_area_state
 from .plausibility import not_finite, plausible, violation_of
 from .preflight import preflight_from, preflight_message
 from .surroundings import surroundings_from, surroundings_message
@@ -62,6 +63,8 @@ def command_from_desired(desired: requests.DesiredState, header: CommandHeader) 
         waypoint, pose = desired.waypoint, desired.waypoint.pose
         command.waypoint.CopyFrom(pb.Waypoint(id=waypoint.id, x=pose.x, y=pose.y, heading=pose.heading,
                                               direction=waypoint.direction.value))
+    if desired.area is not None:
+        command.test_area.CopyFrom(area_message(desired.area))
     if desired.press is not None:
         press = desired.press
         command.press.CopyFrom(pb.ButtonPress(id=press.id, buttons=press.buttons, strength=press.strength,
@@ -82,7 +85,8 @@ def desired_from_command(command: pb.Command) -> requests.DesiredState:
     return requests.DesiredState(stop=command.stop, waypoint=waypoint, press=press, map_car_id=command.map_car_id,
                               check_car_id=command.check_car_id, resume_hold_id=command.resume_hold_id,
                               max_speed_mps=_value(command, "max_speed_mps", None),
-                              key_height_m=_value(command, "device_height_m", None))
+                              key_height_m=_value(command, "device_height_m", None),
+                              area=area_order_from(command.test_area) if command.HasField("test_area") else None)
 
 
 def decode_command(payload: bytes) -> pb.Command:
@@ -150,7 +154,9 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         controller_name=message.controller_name,
         surroundings=surroundings_from(message.surroundings) if message.HasField("surroundings") else None,
         preflight=preflight_from(message.preflight) if message.HasField("preflight") else None,
-        waits_for_answer=message.waits_for_answer)
+        waits_for_answer=message.waits_for_answer, simulated=message.simulated,
+        area=area_state_from(message.test_area, _problems_from(message.test_area.problems))
+        if message.HasField("test_area") else None)
 
 
 def _press_from(message: pb.PressConfirmation) -> robot_status.PressReport:
@@ -164,7 +170,7 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
         id=status.id, robot_session_id=status.robot_session_id, state=_state_message(status),
         sent_time_s=status.stamp_s if math.isnan(status.sent_s) else status.sent_s,
         emergency_stop=status.emergency_stop.value, motion_source=status.motion_source.value, hold_id=status.hold_id,
-        waits_for_answer=status.waits_for_answer,
+        waits_for_answer=status.waits_for_answer, simulated=status.simulated,
         interventions=pb.Interventions(**{name: getattr(status.interventions, name) for name in _COUNTS}),
         mode=status.mode.value, session_id=status.session_id, command_id=status.command_id,
         waypoint_id=status.waypoint_id, waypoint_result=status.waypoint_result.value,
@@ -188,6 +194,9 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
         _fill_check(message.car_check, status.car_check)
     if status.surroundings is not None:
         message.surroundings.CopyFrom(surroundings_message(status.surroundings))
+    if status.area is not None:
+        fill_area_state(message.test_area, status.area)
+        message.test_area.problems.extend(_problem_messages(status.area.problems))
     if status.preflight is not None:
         message.preflight.CopyFrom(preflight_message(status.preflight))
     return message

@@ -66,6 +66,7 @@ class ViewModel:
         prompt: what the Operator is asked to do at the Car's handle or with the extender, None when nothing.
         motion: what was ordered between two tests.
         view: what the robot sees, None while it does not say. obstacles: where something stands around the Car.
+        echoes: the LiDARs' newest returns in base_link, also before the Car is mapped.
         events: what has happened since the start.
         wanted: the test that is about to begin. free_bytes: room on the disk of the results, None when not known.
     """
@@ -90,6 +91,7 @@ class ViewModel:
         self.motion = Motion()
         self.view: View | None = None
         self.obstacles = ObstacleMap()
+        self.echoes: tuple[Point, ...] = ()
         self.events = EventList()
         self.wanted = Wanted()
         self._remaining = Remaining()
@@ -213,6 +215,7 @@ class ViewModel:
             self.motion.learn(batch.robot.status, self._received_s)
         if batch.sight is not None:
             self.view = view_of(batch.sight)
+            self.echoes = () if batch.sight.surroundings is None else batch.sight.surroundings.points
             if self.view is not None:
                 self.obstacles.learn(batch.sight, self.view)
         if batch.trail_begins:

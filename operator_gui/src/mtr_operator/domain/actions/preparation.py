@@ -8,6 +8,7 @@ from ..battery.levels import is_critical
 from ..errors import RobotFailed
 from ..geometry.ray import Ray
 from ..robot_status import DISK_FULL_CODE, CarCheck, Mode, RobotStatus
+from .area import await_area
 from .car import Car
 from .control_loop import ControlLoop
 from .robot import Robot
@@ -35,6 +36,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _refuse_after_bad_preflight(loop)
     _refuse_with_full_disk(loop.status)
     _refuse_with_bad_charge(loop)
+    await_area(loop)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
     robot.move_key_to(key_height_m)

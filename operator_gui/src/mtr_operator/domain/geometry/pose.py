@@ -27,6 +27,12 @@ class Pose:
         dx, dy = self.rotate(point)
         return self.x + dx, self.y + dy
 
+    def to_source(self, point: Point) -> Point:
+        """Coordinates in source of a point in target."""
+        dx, dy = point[0] - self.x, point[1] - self.y
+        cos, sin = math.cos(self.heading), math.sin(self.heading)
+        return cos * dx + sin * dy, cos * dy - sin * dx
+
     def rotate(self, vector: Point) -> Point:
         """Components in target of a vector in source."""
         cos, sin = math.cos(self.heading), math.sin(self.heading)

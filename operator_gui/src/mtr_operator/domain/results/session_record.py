@@ -9,7 +9,8 @@ from typing import Mapping, Sequence
 from mtr_operator import __version__
 
 from ..clocks.clock_offset import span_text
-from ..robot_status import PreflightReport
+from ..geometry.area import corners_text
+from ..robot_status import AreaState, PreflightReport
 
 STARTED, CONTINUED, ROBOT_SOFTWARE = "started", "continued", "robot software"
 # Only in the record of a test in which it happened.
@@ -33,6 +34,8 @@ CAR_PROFILE_FILES = "car profile files"
 CLOCK_OFFSET = "robot's clock ahead of the laptop's by"
 # Only in the record of a test whose robot had one since it was started.
 PREFLIGHT = "robot's preflight"
+# Only in the record of a test whose robot kept inside one.
+TEST_AREA = "test area"
 # What stands in the record for the robot or the profile where a substitute took its part.
 SUBSTITUTE = "substitute"
 # The window names the robot's substitute so, and a campaign its own with what it simulates behind a colon.
@@ -84,6 +87,14 @@ def preflight_record(report: PreflightReport | None, steady_s: float) -> dict[st
         return {}
     age_s = max(steady_s - report.made_s, 0.0)
     return {PREFLIGHT: f"{report.checks} checks, {report.bad} bad, {span_text(age_s)} before"}
+
+
+def area_record(area: AreaState | None) -> dict[str, str]:
+    """Corners of the area that the robot enforces; nothing without one."""
+    if area is None or not area.corners:
+        return {}
+    source = "of the robot's launch file" if area.is_fixed else "drawn"
+    return {TEST_AREA: f"{corners_text(area.corners)} (x y in m in the robot's start frame, {source})"}
 
 
 def again_text(session: Mapping[str, str], numbers: Sequence[int]) -> str:

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-from typing import Any
+import math
+from typing import Any, Sequence
 
 from PyQt5.QtCore import QObject
 
 from mtr_operator.domain.errors import InvalidParameter
-from mtr_operator.domain.geometry.pose import Pose
+from mtr_operator.domain.geometry.pose import Point, Pose
 from mtr_operator.domain.results.picture import Picture, Stretch
-from mtr_operator.domain.robot_status import CarDimensions
+from mtr_operator.domain.robot_status import AreaState, CarDimensions
 from mtr_operator.station.estimate import USUAL_CAR, plan_of
 from mtr_operator.station.sight.view import View
 from mtr_operator.station.test import Test
@@ -17,6 +18,7 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..threads.task import Task
 from .glide import Glide
+from .layers.area_layer import AreaLayer
 from .layers.car_layer import CarLayer
 from .layers.lines_layer import LinesLayer
 from .layers.points_layer import AreasLayer, PointsLayer
@@ -24,6 +26,9 @@ from .layers.robot_layer import RobotLayer, TrailLayer, WaypointLayer
 from .layers.sight_layer import SightLayer
 from .layers.surroundings import GridLayer, ScaleLayer
 from .picture_panel import PicturePanel
+
+# The still part of the picture is painted anew for a border that has moved farther.
+_BORDER_STEP_M = 0.02
 
 
 class MeasurementPicture(QObject):
@@ -47,6 +52,7 @@ class MeasurementPicture(QObject):
         self.points = PointsLayer()
         self.lines = LinesLayer()
         self.sight = SightLayer()
+        self.border = AreaLayer()
 
     def show_model(self, now_s: float) -> None:
         """Something is another one."""
@@ -75,12 +81,19 @@ class MeasurementPicture(QObject):
             status.position_sigma_m
         robot.is_stale = self._model.is_stale
         self._show_sight(None if robot.is_stale or not status.pose_valid else self._model.view)
+        self._show_border(status.area)
         self._show_waypoint(None if snapshot.waypoint is None else snapshot.waypoint.pose)
         if self._model.trail is not self.trail.places:
             self.trail.places = self._model.trail
             self._panel.view.refresh()
         if self.trail.has_news:
             self._panel.view.add_news(self.trail)
+
+    def _show_border(self, state: AreaState | None) -> None:
+        corners = () if state is None else state.corners_at_car()
+        if not _is_near(corners, self.border.corners):
+            self.border.corners = corners
+            self._panel.view.refresh()
 
     def _show_sight(self, view: View | None) -> None:
         if view is not self.sight.view:
@@ -103,7 +116,7 @@ class MeasurementPicture(QObject):
         self.areas.is_complete = model.done == model.total
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
-        self._panel.view.show_layers([GridLayer(), self.lines, self.areas, CarLayer(car, mapped is not None),
+        self._panel.view.show_layers([GridLayer(), self.border, self.lines, self.areas, CarLayer(car, mapped is not None),
                                       self.points, self.trail, self.sight, self.waypoint, self.robot, ScaleLayer()])
 
     def _compute_picture(self, car: CarDimensions) -> None:
@@ -136,3 +149,8 @@ class MeasurementPicture(QObject):
             return plan_of(test.scenario, test.parameters, car, True).stretches
         except InvalidParameter:  # the runner says it
             return ()
+
+
+def _is_near(one: Sequence[Point], other: Sequence[Point]) -> bool:
+    """True when nobody would see the difference: the Car's pose in the start frame changes with each Status."""
+    return len(one) == len(other) and all(math.dist(a, b) < _BORDER_STEP_M for a, b in zip(one, other))

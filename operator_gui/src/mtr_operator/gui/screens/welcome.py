@@ -16,10 +16,11 @@ _WIDTH = 620
 
 
 class WelcomeScreen(QWidget):
-    """Signals: new_test, history, calibrate; go_on, dismiss: what to do with the unfinished test."""
+    """Signals: new_test, history, area, calibrate; go_on, dismiss: what to do with the unfinished test."""
 
     new_test = pyqtSignal()
     history = pyqtSignal()
+    area = pyqtSignal()
     calibrate = pyqtSignal()
     go_on = pyqtSignal()
     dismiss = pyqtSignal()
@@ -31,8 +32,10 @@ class WelcomeScreen(QWidget):
         title.setProperty("role", "title")
         self.new = Tile(self.tr("New test"), self.tr("Choose scenario and parameters, and let the robot measure."))
         self.open = Tile(self.tr("Tests so far"), self.tr("Open, continue, repeat or compare tests of before."))
+        self.border = Tile(self.tr("Test area"), self.tr("Draw the area that the robot does not leave; a real robot "
+                                                          "needs it before it maps the Car."))
         self.calibration = Tile(self.tr("Calibrate"), self.tr("Try lift and buttons of the robot."))
-        for tile, signal in ((self.new, self.new_test), (self.open, self.history),
+        for tile, signal in ((self.new, self.new_test), (self.open, self.history), (self.border, self.area),
                              (self.calibration, self.calibrate)):
             tile.clicked.connect(signal)
         self.offer = self._make_offer()
@@ -41,7 +44,7 @@ class WelcomeScreen(QWidget):
         column.addStretch(2)
         column.addWidget(title)
         column.addSpacing(S)
-        for widget in (self.offer, self.new, self.open, self.calibration):
+        for widget in (self.offer, self.new, self.open, self.border, self.calibration):
             widget.setFixedWidth(_WIDTH)
             column.addWidget(widget)
         column.addStretch(3)

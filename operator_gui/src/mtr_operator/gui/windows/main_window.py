@@ -15,6 +15,7 @@ from mtr_operator.history.line_pairs import Side
 from mtr_operator.station.readiness import RUNNING
 from mtr_operator.station.test import Test
 
+from ..area.area_window import AreaWindow
 from ..bus.bus_window import BusWindow
 from ..calibration.guide_window import GuideWindow
 from ..dialogs import after_delivery, ask_folder, ask_progress_file, confirm, show_message
@@ -109,6 +110,9 @@ class MainWindow(QMainWindow):
     def _show_guide(self) -> None:
         self._open_beside(GuideWindow, lambda: GuideWindow(self._flow, self))
 
+    def _show_area(self) -> None:
+        self._open_beside(AreaWindow, lambda: AreaWindow(self._flow, self._appearance, self))
+
     def _show_bus(self) -> None:
         self._open_beside(BusWindow, lambda: BusWindow(self._flow, self._appearance, self))
 
@@ -144,6 +148,7 @@ class MainWindow(QMainWindow):
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
         self.welcome.history.connect(self._show_history)
         self.welcome.calibrate.connect(self._show_calibration)
+        self.welcome.area.connect(self._show_area)
         self.welcome.go_on.connect(flow.open_unfinished)
         self.welcome.dismiss.connect(self._dismiss)
         self.types.back.connect(flow.to_welcome)

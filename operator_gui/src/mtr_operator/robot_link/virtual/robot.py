@@ -20,6 +20,7 @@ from mtr_operator.domain.robot_status import (
     WaypointResult,
 )
 
+from .area import VirtualArea
 from .check import VirtualCheck
 from .keyholder import VirtualKeyholder
 from .route import Box, Point, advance, route
@@ -80,6 +81,7 @@ class VirtualRobot:
         self._speed_mps = self._yaw_rate_radps = 0.0
         self._key = VirtualKeyholder()
         self._check = VirtualCheck(world.check_difference_m)
+        self._area = VirtualArea(self._robot_session_id, self.pose)
         self._desired = DesiredState(stop=True)
         self._waypoint: Waypoint | None = None
         self._way: list[Point] = []
@@ -119,6 +121,7 @@ class VirtualRobot:
         if session_id != self._session_id:
             self._begin_session(session_id)
         self._command_id, self._desired = command_id, desired
+        self._area.take(session_id, desired.area)
         if self._mode() in (Mode.FOLLOWING_WAYPOINT, Mode.CHECKING_CAR):
             self._check.request(desired.check_car_id)
         if desired.stop:
@@ -191,7 +194,8 @@ class VirtualRobot:
             session_id=self._session_id, command_id=self._command_id,
             waypoint_id=self._waypoint.id if self._waypoint else 0, waypoint_result=self._result,
             waypoint_message=self._result_text, presses=self._key.confirmations, map_car_id=self._map_car_id,
-            software_version=f"{__version__} (substitute)")
+            software_version=f"{__version__} (substitute)", simulated=True,
+            area=self._area.state(self._session_id, self.pose, is_mapped=mapped))
 
     def _mode(self) -> Mode:
         if self._time_s < _START_TIME_S + self._world.starting_s:

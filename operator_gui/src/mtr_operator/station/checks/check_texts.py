@@ -41,7 +41,8 @@ def check_title(check: Check, speech: Speech = ENGLISH) -> str:
         Check.LINK: translate("Check", "Link"), Check.ENCRYPTION: translate("Check", "Encryption"),
         Check.ROBOT: translate("Check", "Robot"), Check.PREFLIGHT: translate("Check", "Preflight"),
         Check.EMERGENCY_STOP: translate("Check", "Emergency stop"),
-        Check.POSITION: translate("Check", "Position"), Check.SIZE: translate("Check", "Car's size"),
+        Check.POSITION: translate("Check", "Position"), Check.TEST_AREA: translate("Check", "Test area"),
+        Check.SIZE: translate("Check", "Car's size"),
         Check.WAY: translate("Check", "Way of the lines"),
         Check.GROUND: translate("Check", "Ground next to the Car"), Check.CABLES: translate("Check", "Cables"),
         Check.OPENINGS: translate("Check", "Doors and lids"), Check.FITTINGS: translate("Check", "Fittings"),
@@ -60,7 +61,7 @@ def check_text(item: Item, speech: Speech = ENGLISH) -> str:
     # Robot, link and file may say braces.
     finding, said = item.finding, speech.sentence(item.said).replace("{", "{{").replace("}", "}}")
     first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
-    texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said),
+    texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said), **_of_area(translate, said),
              **_of_place(translate, said, bool(item.numbers)), **_of_way(translate, said), **_of_unseen(translate),
              **_of_battery(translate),
              **_of_car(translate, said, is_cyclic=not math.isnan(second)), **_of_files(translate, said)}
@@ -107,6 +108,16 @@ def _of_preflight(translate: Translate, said: str) -> dict[Finding, str]:
         Finding.PREFLIGHT_BAD: " ".join((translate("Check", "{first} of {second} wrong, {age} ago."), said)),
         Finding.PREFLIGHT_NEVER: translate("Check", "Never made since the robot was started."),
         Finding.PREFLIGHT_UNTOLD: translate("Check", "The robot does not say whether one was made."),
+    }
+
+
+def _of_area(translate: Translate, said: str) -> dict[Finding, str]:
+    return {
+        Finding.AREA_KEPT: translate("Check", "The robot keeps inside an area of {first} m2."),
+        Finding.AREA_FIXED: translate("Check", "The robot's launch file sets an area of {first} m2."),
+        Finding.AREA_MISSING: said or translate("Check", "The robot has none."),
+        Finding.AREA_NOT_NEEDED: translate("Check", "None; a simulated robot needs none."),
+        Finding.AREA_UNTOLD: translate("Check", "The robot does not say whether it keeps inside one."),
     }
 
 
@@ -206,6 +217,8 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
         Finding.OTHER_OPERATOR: translate("Check", "End the other application; control comes here by itself."),
         Finding.PREFLIGHT_OLD: translate("Check", "Make it again on the robot: rosrun mtr_bringup preflight"),
         Finding.PREFLIGHT_BAD: translate("Check", "Then make it again on the robot: rosrun mtr_bringup preflight"),
+        Finding.AREA_MISSING: translate("Check", "Draw it on the start page under Test area."),
+        Finding.AREA_UNTOLD: translate("Check", "Stay where you can stop the robot before an edge."),
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
         Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),

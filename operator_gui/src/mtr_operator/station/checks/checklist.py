@@ -9,7 +9,7 @@ from ..estimate import Plan
 from ..events import RobotSnapshot
 from ..readiness import SILENCE_LIMIT_S
 from ..sight.ways import Ways, spans
-from . import car_checks, robot_checks
+from . import area_check, car_checks, robot_checks
 from .finding import Check, Finding, Item, State
 from .preflight_check import preflight
 
@@ -78,6 +78,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield preflight(robot)
     yield robot_checks.emergency_stop(status.emergency_stop)
     yield robot_checks.position(status)
+    yield area_check.test_area(status.area)
     yield robot_checks.size(status.car, facts.wanted.plan)
     yield _way(facts.wanted.ways)
     yield from robot_checks.parts(status)

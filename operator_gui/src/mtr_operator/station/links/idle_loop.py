@@ -8,8 +8,9 @@ from dataclasses import dataclass, replace
 from typing import Callable
 
 from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import CarLink
-from mtr_operator.domain.requests import DesiredState, Press
+from mtr_operator.domain.requests import AreaOrder, DesiredState, Press
 from mtr_operator.domain.robot_status import RobotStatus
 
 from ..events import RobotSnapshot, known_facts
@@ -57,7 +58,7 @@ class IdleLoop:
         self._resumed_hold = resumed_hold
         self._car = car
         self._desired = DesiredState()
-        self._press_id = self._check_id = self._map_id = 0
+        self._press_id = self._check_id = self._map_id = self._area_id = 0
         self._has_status = False
         self.claims, self._released_hold = claims, resumed_hold(0)
         self._clock = clock
@@ -87,6 +88,12 @@ class IdleLoop:
             self._map_id += 1
         self._desired = replace(self._desired, stop=request is CarRequest.STOP, check_car_id=self._check_id,
                                 map_car_id=self._map_id)
+
+    def set_area(self, corners: tuple[Point, ...], origin_id: int) -> None:
+        """Have the robot keep inside this area from now on, without corners in none; it does not move for that."""
+        self._claim()
+        self._area_id += 1
+        self._desired = replace(self._desired, area=AreaOrder(self._area_id, origin_id, corners))
 
     @property
     def has_order(self) -> bool:

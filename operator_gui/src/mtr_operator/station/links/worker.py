@@ -15,6 +15,7 @@ from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
 from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.results.session_record import now
 
 from ..bus.bus_view import BusView
@@ -127,6 +128,11 @@ class Worker:
         else:
             self._order(lambda idle: idle.request_car(request))
             self.note("Map the Car." if request is CarRequest.MAP else "Check where the Car stands.")
+
+    def set_area(self, corners: tuple[Point, ...], origin_id: int) -> None:
+        """Have the robot keep inside this test area, without corners in none. A stop stays in force."""
+        self._requests.put(lambda: self._links.idle.set_area(corners, origin_id) if self._links.idle else None)
+        self.note("Set the test area." if corners else "Remove the test area.")
 
     def note(self, text: str, kind: EventKind = EventKind.OPERATOR) -> None:
         """Add to the event list what the Operator does, or a fault of the application."""
