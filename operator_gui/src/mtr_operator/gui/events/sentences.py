@@ -53,6 +53,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The handle was taken."),
     QT_TRANSLATE_NOOP("Sentence", "Map the Car."),
     QT_TRANSLATE_NOOP("Sentence", "Check where the Car stands."),
+    QT_TRANSLATE_NOOP("Sentence", "Set the test area."),
+    QT_TRANSLATE_NOOP("Sentence", "Remove the test area."),
     QT_TRANSLATE_NOOP("Sentence", "The event list {} holds {} entries; the rest is not kept."),
     QT_TRANSLATE_NOOP("Sentence", "The event list is not kept in {} any more: {}."),
     QT_TRANSLATE_NOOP("Sentence", "The event list {} cannot be read: {}."),

@@ -3,7 +3,7 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 from ..events import sentences as events
-from . import cars, figures, handle, identity, keeping, learn, limits, pairing, passes
+from . import area, cars, figures, handle, identity, keeping, learn, limits, pairing, passes
 from .bus import can, logs
 from .keys import phone, relay
 
@@ -134,6 +134,7 @@ SENTENCES = (
     *keeping.SENTENCES,
     *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
     *can.SENTENCES, *logs.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
+    *area.SENTENCES,
     *cars.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
