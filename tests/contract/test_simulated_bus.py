@@ -8,6 +8,7 @@ import pytest
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.car_signals import IGNITION, SPEED, SignalState
 from mtr_operator.domain.ports import KEY_BUTTON, LockState
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_simulation.car.can_port import MemoryCanPort
@@ -90,3 +91,22 @@ def test_its_times_are_true_within_what_it_says_of_them(bench):
 
 def test_it_knows_the_cause_where_the_lock_message_tells_it(bench):
     assert {event.source for event in bench.events} == {KEY_BUTTON if bench.profile.sources else ""}
+
+
+@pytest.mark.parametrize("name", ["gentle", *HONEST])
+def test_application_reads_ignition_and_speed_of_every_simulated_car(name):
+    choice, port = chosen_car(name), MemoryCanPort()
+    car, watch = choice.car(1, port, TrueEvents()), LockWatch(load_profile(choice.profile))
+
+    def states(first_step):
+        for step in range(first_step, first_step + 100):
+            car.step(step * STEP_NS, KEY, RELEASED)
+            for frame in port.frames:
+                watch.frame(CanFrame(frame.can_id, False, frame.data, frame.time_ns * 1e-9))
+            port.frames.clear()
+        return {signal.kind: signal.state for signal in watch.signals}
+    assert states(50) == {IGNITION: SignalState.SAFE, SPEED: SignalState.SAFE}
+    car.vehicle.ignition_on = True
+    assert states(150) == {IGNITION: SignalState.ACTIVE, SPEED: SignalState.SAFE}
+    car.vehicle.ignition_on, car.vehicle.speed_kmh = False, 0.01
+    assert states(250) == {IGNITION: SignalState.SAFE, SPEED: SignalState.ACTIVE}

@@ -100,6 +100,8 @@ SIM_HOLD = "/sim/hold"
 SIM_TRUTH = "/sim/truth"
 SIM_HANDLE_REQUEST = "/sim/handle_request"
 SIM_KIDNAP = "/sim/kidnap"
+SIM_IGNITION = "/sim/ignition"
+SIM_CAR_SPEED = "/sim/car_speed"
 # With physics in another process: pose of the key in frame car, and how high the firmware has lifted it
 SIM_KEY = "/sim/key"
 SIM_LIFT = "/sim/lift"

@@ -1,5 +1,6 @@
 """What is no physics: the firmware that moves lift and servos, and the Car that sees the key; one tick at a time."""
 # SPDX-License-Identifier: Apache-2.0
+import math
 from typing import Any, Mapping, Optional, Tuple
 
 from mtr_core.schedule import CLOCK_STEP, SIMULATION_START_NS
@@ -10,6 +11,7 @@ from .car.can_port import CanPort
 from .car.choice import Car, chosen_car
 from .car.ecu import Command
 from .car.slcan_port import Fault, SlcanPort
+from .car.vehicle import MAX_SPEED_KMH
 from .firmware.simulated import SimulatedFirmware
 from .parameters import EquipmentParameters
 from .truth.log import EventLog, NoTruthLog, TruthLog
@@ -58,6 +60,16 @@ class Equipment:
         """A hand takes the Car's handle, to lock or to open it."""
         if self._car:
             self._car.request_handle(Command.LOCK if locks else Command.UNLOCK)
+
+    def set_ignition(self, is_on: bool) -> None:
+        """The Car reports its ignition as on or off from now on."""
+        if self._car:
+            self._car.vehicle.ignition_on = is_on
+
+    def set_car_speed(self, speed_kmh: float) -> None:
+        """The Car reports this speed from now on, and stands still all the same; out of range it is limited."""
+        if self._car and math.isfinite(speed_kmh):
+            self._car.vehicle.speed_kmh = min(max(speed_kmh, 0.0), MAX_SPEED_KMH)
 
     def set_faults(self, faults: Mapping[str, str]) -> None:
         """What parts of the hardware do from now on instead of working, by the names of mtr_fault_injection."""

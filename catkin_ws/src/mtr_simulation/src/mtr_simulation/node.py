@@ -13,7 +13,7 @@ from nav_msgs.msg import Odometry
 from rosgraph_msgs.msg import Clock
 from rospy.exceptions import TransportException
 from sensor_msgs.msg import BatteryState, Imu
-from std_msgs.msg import Bool, Header
+from std_msgs.msg import Bool, Float32, Header
 
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
@@ -114,6 +114,8 @@ class SimulatorNode:
         sim, equipment = self._world.sim, self._world.equipment
         self._listen(names.WHEEL_COMMAND, Twist, lambda twist: sim.command(twist.linear.x, twist.angular.z))
         self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: equipment.request_handle(locks=request.data))
+        self._listen(names.SIM_IGNITION, Bool, lambda state: equipment.set_ignition(state.data))
+        self._listen(names.SIM_CAR_SPEED, Float32, lambda speed: equipment.set_car_speed(speed.data))
         self._listen(names.SIM_KIDNAP, Pose2D, self._kidnap)
         self._listen(names.ACTIVE_FAULTS, ActiveFaults, self._set_faults)
         for topic, message_type, handle in self._firmware.subscriptions:

@@ -133,3 +133,14 @@ def test_injected_faults_of_the_hardware_are_there_until_they_are_gone(tmp_path,
     world.equipment.set_faults({})
     assert port.fault is Fault.NONE and not (firmware.lift_is_stuck or firmware.servos_are_dead)
     world.close()
+
+
+def test_ignition_and_speed_are_what_the_car_reports(tmp_path):
+    world = World(SimulatorParameters(scenario="open", car_port_link=str(tmp_path / "can")))
+    vehicle = world.equipment._car.vehicle
+    world.equipment.set_ignition(True)
+    for told, reported in ((7.5, 7.5), (-1.0, 0.0), (1e9, 650.0), (float("nan"), 650.0), (0.0, 0.0)):
+        world.equipment.set_car_speed(told)
+        assert (vehicle.ignition_on, vehicle.speed_kmh) == (True, reported)
+    assert world.step()
+    world.close()

@@ -6,7 +6,7 @@ from typing import Any
 import rospy
 from geometry_msgs.msg import PoseStamped
 from sensor_msgs.msg import BatteryState
-from std_msgs.msg import Bool, Float64
+from std_msgs.msg import Bool, Float32, Float64
 
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher, run_node
@@ -37,6 +37,8 @@ class EquipmentNode:
         for topic, message_type, handle in self._topics.subscriptions:
             self._listen(topic, message_type, handle)
         self._listen(names.SIM_HANDLE_REQUEST, Bool, lambda request: self._equipment.request_handle(request.data))
+        self._listen(names.SIM_IGNITION, Bool, lambda state: self._equipment.set_ignition(state.data))
+        self._listen(names.SIM_CAR_SPEED, Float32, lambda speed: self._equipment.set_car_speed(speed.data))
         self._listen(names.ACTIVE_FAULTS, ActiveFaults, lambda active: self._equipment.set_faults(
             {fault.part: fault.kind for fault in active.faults}))
         self._listen(names.SIM_KEY, PoseStamped, self._see)

@@ -9,6 +9,7 @@ from .ecu import BodyEcu, Command, LockState, PassiveEntry, Source
 from .frames import CarFrames
 from .parameters import CarParameters
 from .radio import PassiveEntryRadio, RemoteRadio
+from .vehicle import Vehicle
 
 Point = Tuple[float, float, float]
 
@@ -21,6 +22,7 @@ class SimulatedCar:
 
     Attributes:
         ecu: the body ECU, to look at its state.
+        vehicle: ignition and speed that it reports.
     """
 
     def __init__(self, seed: int, parameters: CarParameters, port: CanPort, truth_log: EventLog):
@@ -28,7 +30,8 @@ class SimulatedCar:
         self.ecu = BodyEcu(parameters.boot_ms * 1_000_000)
         self._port = port
         self._truth_log = truth_log
-        self._frames = CarFrames(self.ecu)
+        self.vehicle = Vehicle()
+        self._frames = CarFrames(self.ecu, self.vehicle)
         self._passive_enabled = parameters.passive_entry.enabled
         self._passive_radio = PassiveEntryRadio(seed, parameters.passive_entry, correlation_m)
         self._passive = PassiveEntry(parameters.passive_entry)

@@ -20,6 +20,7 @@ from .parameters import CarParameters
 from .reaction.gentle import GentleReactions
 from .reaction.honest import HonestReactions
 from .reaction.model import ReactionModel
+from .vehicle import Vehicle
 
 FOLDER = pathlib.Path(__file__).with_name("cars")
 GENTLE, HONEST = "gentle", "honest"
@@ -29,7 +30,13 @@ _HEADINGS = ("model", "description", "profile")
 
 
 class Car(Protocol):
-    """A Car in the simulation."""
+    """A Car in the simulation.
+
+    Attributes:
+        vehicle: ignition and speed that it reports.
+    """
+
+    vehicle: Vehicle
 
     def step(self, time_ns: int, key_xyz: Tuple[float, float, float], servo_us: Tuple[float, float],
              key_yaw_rad: float = 0.0) -> None:

@@ -5,11 +5,12 @@ Everything repeats, so each distinct frame goes through cantools once and comes 
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
-from typing import Any, Iterator, NamedTuple, Tuple
+from typing import Any, Iterator, NamedTuple, Optional, Tuple
 
 import cantools
 
 from .ecu import BodyEcu
+from .vehicle import Vehicle
 
 DBC_PATH = pathlib.Path(__file__).with_name("mtr_demo_car.dbc")
 LOCK_MESSAGE = "DoorLockStatus"
@@ -30,8 +31,9 @@ class Frame(NamedTuple):
 class CarFrames:
     """Yields the frames that are due, with the state of the ECU."""
 
-    def __init__(self, ecu: BodyEcu):
-        self._ecu = ecu
+    def __init__(self, ecu: BodyEcu, vehicle: Optional[Vehicle] = None):
+        """vehicle: None for a Car at rest whose ignition is off."""
+        self._ecu, self._vehicle = ecu, vehicle or Vehicle()
         self._database: Any = cantools.database.load_file(str(DBC_PATH))
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
         messages = self._database.messages
@@ -53,8 +55,8 @@ class CarFrames:
             changed = int(ecu.has_just_changed(time_ns))
             return (int(ecu.lock_state), changed, int(ecu.last_source), ecu.command_counter % 256, count % 16)
         if name == "VehicleSpeed":
-            return (0, 1, count % 16)
-        return (0, 12.6)
+            return (self._vehicle.speed_kmh, 1, count % 16)
+        return (self._vehicle.terminal_state, 12.6)
 
     def _encode_once(self, name: str, *values: float) -> bytes:
         message = self._database.get_message_by_name(name)

@@ -9,6 +9,7 @@ from ..can_port import CanPort
 from ..ecu import Command
 from ..noise import uniform_pair
 from ..parameters import RemoteParameters
+from ..vehicle import Vehicle
 from .attempts import Attempts
 from .extender import Extender
 from .frames import HonestFrames, database
@@ -32,6 +33,7 @@ class HonestCar:
     Attributes:
         locks: to look at their state.
         key: to look at whether it sleeps.
+        vehicle: ignition and speed that it reports.
     """
 
     def __init__(self, seed: int, parameters: HonestParameters, port: CanPort, truth_log: EventLog):
@@ -41,7 +43,8 @@ class HonestCar:
         self._port = port
         self._truth_log = truth_log
         self._passive_parameters = passive
-        self._frames = HonestFrames(seed, self.locks, parameters.bus)
+        self.vehicle = Vehicle()
+        self._frames = HonestFrames(seed, self.locks, parameters.bus, self.vehicle)
         self._attempts = Attempts(seed, parameters)
         self._passive = PassiveEntry(passive)
         self._polls = _Period(seed, "poll_phase", passive.poll_period_ms * 1_000_000)

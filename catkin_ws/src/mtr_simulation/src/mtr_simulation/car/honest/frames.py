@@ -8,6 +8,7 @@ import cantools
 
 from ..frames import Frame
 from ..noise import uniform_pair
+from ..vehicle import Vehicle
 from .extender import EXTENDER_MESSAGE
 from .handle import HANDLE_MESSAGE
 from .locks import Cause, Locks
@@ -26,8 +27,8 @@ _MS = 1_000_000
 class HonestFrames:
     """Yields the frames that are due, with the state of the locks."""
 
-    def __init__(self, seed: int, locks: Locks, bus: BusParameters):
-        self._locks = locks
+    def __init__(self, seed: int, locks: Locks, bus: BusParameters, vehicle: Vehicle):
+        self._locks, self._vehicle = locks, vehicle
         self._bus = bus
         self._database = database()
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
@@ -73,7 +74,8 @@ class HonestFrames:
             return (int(locks.state), int(cause), counter, alive)
         if name == CAUSE_MESSAGE:
             return (int(locks.cause), counter, alive)
-        return (0, 1, alive) if name == "VehicleSpeed" else (0, 12.6)
+        vehicle = self._vehicle
+        return (vehicle.speed_kmh, 1, alive) if name == "VehicleSpeed" else (vehicle.terminal_state, 12.6)
 
     def _encode_once(self, name: str, *values: float) -> bytes:
         message = self._database.get_message_by_name(name)
