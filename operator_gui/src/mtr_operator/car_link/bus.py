@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Callable, Mapping, Sequence
 import can
 
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
+from mtr_operator.domain.car_signals import CarSignals, first_active, unknown_unless_active
 from mtr_operator.domain.distance_feed import DistanceFeed
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState, Refused
@@ -111,7 +112,7 @@ class CanCarLink(CarLink, FrameSink):
             reader.stop()
             raise
         self._reader = reader
-        self._outputs = Outputs(profile, self._settings.is_listening, self._send)
+        self._outputs = Outputs(profile, self._settings.is_listening, self._send, self._output_refusal)
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink."""
@@ -134,6 +135,17 @@ class CanCarLink(CarLink, FrameSink):
         """See CarLink."""
         with self._changed:
             return LockState.UNKNOWN if self._watch is None or self._trouble.problem else self._watch.lock_state
+
+    @property
+    def signals(self) -> CarSignals:
+        """See CarLink."""
+        with self._changed:
+            if self._watch is None:
+                return ()
+            signals = self._watch.signals
+            if self._trouble.problem or self._further.problem:
+                signals = unknown_unless_active(signals)
+            return signals
 
     @property
     def facts(self) -> LockFacts:
@@ -230,6 +242,10 @@ class CanCarLink(CarLink, FrameSink):
         if reader is not None:
             reader.stop()
         self.log_to(None)
+
+    def _output_refusal(self) -> str:
+        active = first_active(self.signals)
+        return "" if active is None else f"No output at the Car is switched. {active.sentence}"
 
     def _send(self, message: can.Message) -> threading.Event:
         """Through the reader at hand; without one nothing is sent any more."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import collections
 import math
 
+from mtr_operator.domain.car_signals import CarSignal
 from mtr_operator.domain.ports import CarEvent, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
@@ -13,6 +14,7 @@ from .clocks.frame_time import FrameTime
 from .clocks.stamp_kind import StampKind
 from .further.companions import Companions
 from .further.state_buses import StateBuses
+from .further.stop_watch import StopWatch
 from .liveness import Liveness
 from .lock_changes import Change, LockChanges
 from .profile import CarProfile, LockReading
@@ -47,6 +49,7 @@ class LockWatch:
         self._time = FrameTime()
         self._changes = LockChanges(profile, Refused())
         self._companions = Companions(profile.further)
+        self._stops = StopWatch(profile.further)
         self._restart()
 
     def _restart(self) -> None:
@@ -54,6 +57,7 @@ class LockWatch:
         self._time.restart()
         self._decode = self._profile.decoder()
         self._companions.restart()
+        self._stops.restart()
         self._frames: collections.deque[tuple[float, bytes]] = collections.deque(maxlen=_KEPT_FRAMES)
         self._changes = LockChanges(self._profile, self.refused)
         self._released: LockState | None = None
@@ -114,7 +118,9 @@ class LockWatch:
             self._companion(frame, self.local_s)
 
     def _companion(self, frame: CanFrame, local_s: float) -> None:
-        for doubt in self._companions.frame((frame.bus, frame.can_id, frame.is_extended), frame.data, local_s):
+        key = (frame.bus, frame.can_id, frame.is_extended)
+        self._stops.frame(key, frame.data, local_s)
+        for doubt in self._companions.frame(key, frame.data, local_s):
             self._changes.doubt(local_s, frame.arrival_s, doubt)
 
     def status(self, status: RobotStatus, arrival_s: float) -> None:
@@ -166,6 +172,11 @@ class LockWatch:
         silence = self._liveness.problem
         return (self._buses.elsewhere(is_silent=bool(silence)) or silence or self._time.problem
                 or self._buses.several_channels)
+
+    @property
+    def signals(self) -> tuple[CarSignal, ...]:
+        """Signals that stop the robot, as of the newest frame."""
+        return self._stops.signals(self._time.newest_s)
 
     @property
     def notices(self) -> tuple[str, ...]:

@@ -21,6 +21,7 @@ from .robot_status import RobotStatus
 
 if TYPE_CHECKING:
     from .assistance import ExtenderPort, HandlePort
+    from .car_signals import CarSignals
     from .distance_feed import DistanceFeed
 
 
@@ -239,6 +240,11 @@ class CarLink(ABC):
     def facts(self) -> LockFacts:
         """What is known of this car beforehand."""
         return LockFacts()
+
+    @property
+    def signals(self) -> CarSignals:
+        """Signals of ignition, gear, speed and doors that this Car's profile names; empty when it names none."""
+        return ()
 
     @property
     def handle(self) -> HandlePort | None:

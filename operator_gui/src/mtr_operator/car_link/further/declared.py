@@ -9,6 +9,8 @@ from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY
 
 from .counting import CountRange, count_range
 from .entries import FIRST_BUS, Entries, is_whole
+from .stop_signals import KEY as STOP_KEY
+from .stop_signals import PLACE_KEYS, StopSignal, stop_signal, stop_tables
 
 SOURCES = (PASSIVE_ENTRY, KEY_BUTTON, HANDLE)
 # A body ECU tells a cause within some cycles of the change; a person who acts twice needs longer.
@@ -19,7 +21,7 @@ _CAUSE_KEYS = {"bus", "message", "signal", "sources", "idle", "stays"}
 _DOOR_KEYS = {"bus", "message", "signal", "open"}
 _KEY_KEYS = {"bus", "message", "signal", "under_test"}
 _COUNTER_KEYS = {"bus", "message", "signal", "values"}
-KEYS = ("buses", "causes", "cause_within_s", "cause_required", "doors", "key_number")
+KEYS = ("buses", "causes", "cause_within_s", "cause_required", "doors", "key_number", STOP_KEY)
 
 MessageKey = tuple[str, int, bool]
 # Entries of a profile with the values of its counters, by the entry with the counter.
@@ -78,6 +80,7 @@ class Further:
     within_s: around a change, in which what belongs to it comes. is_required: a change whose cause is not listed counts
     for nothing. key: number of the key that moved the locks; key_under_test: its value, None where any may be.
     counters: of changes or commands; alive: of the frames of their messages. buses: further ones, in the log's order.
+    stops: signals with which the robot must not move, next to the doors.
     """
 
     causes: tuple[CauseSignal, ...] = ()
@@ -89,6 +92,7 @@ class Further:
     alive: tuple[Place, ...] = ()
     doors: tuple[DoorSignal, ...] = ()
     buses: tuple[str, ...] = field(default=())
+    stops: tuple[StopSignal, ...] = ()
 
     @property
     def sources(self) -> frozenset[str]:
@@ -104,6 +108,7 @@ class Further:
         """All signals."""
         yield from (cause.place for cause in self.causes)
         yield from (door.place for door in self.doors)
+        yield from (stop.place for stop in self.stops)
         yield from (*self.counters, *self.alive, *((self.key,) if self.key else ()))
 
 
@@ -119,7 +124,8 @@ def read_further(entries: Entries, first_message: Any, cycle_s: float) -> Furthe
         key=None if key is None else reader.place("key_number", key, _KEY_KEYS),
         key_under_test=None if key is None else reader.whole("key_number", key, "under_test"),
         counters=reader.elsewhere("command_signal"), alive=reader.elsewhere("alive_signal"),
-        doors=tuple(reader.door(name, each) for name, each in _doors(entries).items()), buses=buses)
+        doors=tuple(reader.door(name, each) for name, each in _doors(entries).items()), buses=buses,
+        stops=tuple(reader.stop(kind, each) for kind, each in stop_tables(entries).items()))
 
 
 def is_elsewhere(entry: Any) -> bool:
@@ -179,6 +185,11 @@ class _Reader:
         """One of doors."""
         place = self.place("doors", table, _DOOR_KEYS)
         return DoorSignal(name, place, self._values("doors", table, "open", (1,), place))
+
+    def stop(self, kind: str, table: dict[str, Any]) -> StopSignal:
+        """One of stop_signals."""
+        place = self.place(STOP_KEY, {name: table[name] for name in PLACE_KEYS & set(table)}, PLACE_KEYS)
+        return stop_signal(self._entries, kind, table, place)
 
     def whole(self, key: str, table: dict[str, Any], name: str) -> int | None:
         """A whole number, None when it is absent."""

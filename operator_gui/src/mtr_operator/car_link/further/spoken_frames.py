@@ -37,10 +37,13 @@ class SpokenFrames:
 
     Attributes:
         is_locked, source: what the next cycle says; source: as in CarEvent.
+        stops, open_doors: raw values of stop signals by kind that are not safe, and names of open doors.
     """
 
     def __init__(self, profile: CarProfile, is_locked: bool = True):
         self.is_locked, self.source = is_locked, ""
+        self.stops: dict[str, int] = {}
+        self.open_doors: set[str] = set()
         self._profile = profile
         self._was_locked = is_locked
         self._cycles = self._changes = self._shown = 0
@@ -116,14 +119,21 @@ class SpokenFrames:
                 yield place.signal, place.counts.value(count)
         if isinstance(profile.phone, PhoneSignal) and profile.phone.place.key == key and self._distance_raw is not None:
             yield profile.phone.place.signal, self._distance_raw
-        for door in further.doors:
-            if door.place.message is message:
-                yield door.place.signal, _other_than(door.open)
+        yield from self._stops(message)
         if further.key is not None and further.key.message is message:
             yield further.key.signal, further.key_under_test or 1
         for cause in further.causes:
             if cause.place.message is message:
                 yield cause.place.signal, self._cause(cause)
+
+    def _stops(self, message: Any) -> Iterator[tuple[str, int]]:
+        """Doors, and signals that stop the robot."""
+        for door in self._profile.further.doors:
+            if door.place.message is message:
+                yield door.place.signal, min(door.open) if door.name in self.open_doors else _other_than(door.open)
+        for stop in self._profile.further.stops:
+            if stop.place.message is message:
+                yield stop.place.signal, self.stops.get(stop.kind, min(stop.safe))
 
     def _state(self, sent: int) -> Iterator[tuple[str, int]]:
         """sent: frames of the message, this one included."""

@@ -6,6 +6,7 @@ import math
 import pathlib
 from typing import Iterator, Mapping, Sequence
 
+from mtr_operator.domain.car_signals import CarSignals
 from mtr_operator.domain.errors import ConnectionFailed
 from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
 from mtr_operator.domain.results.session_record import CAN_ADAPTER
@@ -97,6 +98,11 @@ class LogCarLink(CarLink):
     def facts(self) -> LockFacts:
         """See CarLink."""
         return LockFacts() if self._profile is None else self._profile.facts
+
+    @property
+    def signals(self) -> CarSignals:
+        """See CarLink."""
+        return () if self._watch is None else self._watch.signals
 
     @property
     def notices(self) -> Sequence[str]:

@@ -14,12 +14,13 @@ from .switch import OutputSwitch
 
 
 class BusHandle(HandlePort):
-    """send: see OutputSwitch."""
+    """send, refusal: see OutputSwitch."""
 
     by = OUTPUT
 
-    def __init__(self, output: DeclaredOutput, send: Callable[[can.Message], threading.Event]):
-        self._switch = OutputSwitch(output, send)
+    def __init__(self, output: DeclaredOutput, send: Callable[[can.Message], threading.Event],
+                 refusal: Callable[[], str] = lambda: ""):
+        self._switch = OutputSwitch(output, send, refusal)
 
     def request(self, distance_m: float) -> None:
         """See HandlePort."""

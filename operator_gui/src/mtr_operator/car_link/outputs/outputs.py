@@ -23,10 +23,12 @@ class Outputs:
     notices: sentences on those that only listening leaves idle.
     """
 
-    def __init__(self, profile: CarProfile, is_listening: bool, send: Callable[[can.Message], threading.Event]):
+    def __init__(self, profile: CarProfile, is_listening: bool, send: Callable[[can.Message], threading.Event],
+                 refusal: Callable[[], str] = lambda: ""):
+        """send, refusal: see OutputSwitch."""
         handle, extender = profile.handle_output, profile.extender_output
-        self.handle = None if handle is None or is_listening else BusHandle(handle, send)
-        self.extender = None if extender is None or is_listening else BusExtender(extender, send)
+        self.handle = None if handle is None or is_listening else BusHandle(handle, send, refusal)
+        self.extender = None if extender is None or is_listening else BusExtender(extender, send, refusal)
         declared = ((handle, _HANDLE_IDLE), (extender, _EXTENDER_IDLE))
         self.notices = tuple(notice for output, notice in declared if output is not None and is_listening)
 

@@ -6,6 +6,7 @@ import pathlib
 from typing import Mapping, Sequence
 
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
+from mtr_operator.domain.car_signals import CarSignals
 from mtr_operator.domain.distance_feed import DistanceFeed
 from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
@@ -39,6 +40,11 @@ class WatchedCarLink(CarLink):
     def facts(self) -> LockFacts:
         """See CarLink."""
         return self._link.facts
+
+    @property
+    def signals(self) -> CarSignals:
+        """See CarLink."""
+        return self._link.signals
 
     @property
     def handle(self) -> HandlePort | None:

@@ -1,0 +1,59 @@
+"""Entries of a profile for the signals that stop the robot: ignition, gear and speed."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from mtr_operator.domain.car_signals import GEAR, IGNITION, SPEED
+
+from .entries import Entries, is_whole
+
+if TYPE_CHECKING:
+    from .declared import Place
+
+KEY = "stop_signals"
+KINDS = (IGNITION, GEAR, SPEED)
+PLACE_KEYS = {"bus", "message", "signal"}
+_KEYS = PLACE_KEYS | {"safe", "unknown"}
+
+
+@dataclass(frozen=True, eq=False)
+class StopSignal:
+    """kind: see domain.car_signals. safe: raw values with which the robot may move. unknown: values without
+    information. Any other value stops the robot."""
+
+    kind: str
+    place: Place
+    safe: frozenset[int]
+    unknown: frozenset[int]
+
+
+def stop_tables(entries: Entries) -> dict[str, dict[str, Any]]:
+    """The entry stop_signals by kind; ConnectionFailed says what is wrong with it."""
+    table = entries.content.get(KEY, {})
+    if not isinstance(table, dict) or not set(table) <= set(KINDS):
+        raise entries.wrong(f"{KEY} must be a table of {', '.join(KINDS)}.")
+    for kind, each in table.items():
+        if not isinstance(each, dict) or not {"message", "signal", "safe"} <= set(each) <= _KEYS:
+            raise entries.wrong(f"{kind} of {KEY} must be a table of message, signal and safe; bus and unknown are "
+                                "optional.")
+        if not each["safe"]:
+            raise entries.wrong(f"{kind} of {KEY} has no safe value: the robot could never move.")
+    return table
+
+
+def stop_signal(entries: Entries, kind: str, table: dict[str, Any], place: Place) -> StopSignal:
+    """One of them; values as they are decoded."""
+    safe, unknown = (_values(entries, kind, name, table.get(name, []), place) for name in ("safe", "unknown"))
+    if not safe:
+        raise entries.wrong(f"{kind} of {KEY} lists no safe value that the signal {place.signal} can carry.")
+    if safe & unknown:
+        raise entries.wrong(f"{kind} of {KEY} lists {min(safe & unknown)} as safe and as unknown.")
+    return StopSignal(kind, place, safe, unknown)
+
+
+def _values(entries: Entries, kind: str, name: str, values: Any, place: Place) -> frozenset[int]:
+    if not isinstance(values, list) or not all(is_whole(value) for value in values):
+        raise entries.wrong(f"{kind} of {KEY} has {name}: {values!r}; allowed is a list of whole numbers.")
+    return frozenset().union(*(entries.decoded(value, (place.declared,)) for value in values))
