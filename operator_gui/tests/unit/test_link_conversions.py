@@ -10,7 +10,7 @@ from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.robot_status import PreflightItem, PreflightReport
 from mtr_operator.robot_link import conversions
 from mtr_operator.robot_link.conversions import CommandHeader, UndecodableMessage
-from mtr_operator.robot_link.preflight import preflight_from
+from mtr_operator.robot_link.preflight import preflight_from, preflight_message
 from mtr_proto import robot_link_pb2 as pb
 
 HEADER = CommandHeader(2 ** 63 - 1, 5, 12.5, seen_status_id=7, seen_robot_time_s=3.25)
@@ -136,6 +136,14 @@ def test_area_and_pose_that_are_not_finite_are_none():
     assert state.corners == () and state.robot is None and state.car is None
 
 
+@pytest.mark.parametrize("motion_made_s", [math.nan, math.inf, -math.inf, None])
+def test_time_of_the_preflight_in_motion_survives_the_link_and_one_that_is_none_does_not(motion_made_s):
+    report = PreflightReport(8.0, (), 3, 0, 7.5)
+    assert preflight_from(preflight_message(report)) == report
+    message = pb.PreflightReport(made_s=8.0, checks=3, motion_made_s=motion_made_s)
+    assert preflight_from(message) == PreflightReport(8.0, (), 3, 0)
+
+
 @pytest.mark.parametrize("made_s", [math.nan, math.inf])
 def test_preflight_of_no_time_is_none(made_s):
     message = pb.PreflightReport(made_s=made_s, items=[pb.PreflightItem(name="disk")], checks=1, bad=1)
@@ -171,6 +179,6 @@ def test_other_bytes_are_undecodable(payload):
                                      "PreflightReport", "PreflightItem", "TestArea", "TestAreaState"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 16, "Status": 30, "TestArea": 4, "TestAreaState": 11, "RobotState": 19, "CarDimensions": 15, "CarCheck": 8, "Interventions": 7,
-             "PreflightReport": 4, "PreflightItem": 3}
+    known = {"Command": 16, "Status": 30, "TestArea": 4, "TestAreaState": 11, "RobotState": 19, "CarDimensions": 15,
+             "CarCheck": 8, "Interventions": 7, "PreflightReport": 5, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

@@ -197,6 +197,8 @@ class LogMessage:
 
 # A Status is stamped before what it says of a preflight is known.
 _PREFLIGHT_SLACK_S = 1.0
+# A working day: cables, mounts and clocks were touched since.
+PREFLIGHT_VALID_S = 12.0 * 3600.0
 
 
 @dataclass(frozen=True)
@@ -218,17 +220,29 @@ class PreflightReport:
     """The last preflight of this run of the robot: `rosrun mtr_bringup preflight`, made by whoever sets it up.
 
     made_s: when it ended, on the robot's steady clock; NaN: none was made. items: what is wrong first, of checks in
-    all; bad: how many of them found something wrong.
+    all; bad: how many of them found something wrong. motion_made_s: when sensors were compared in motion last, on the
+    same clock; NaN: never.
     """
 
     made_s: float = math.nan
     items: tuple[PreflightItem, ...] = ()
     checks: int = 0
     bad: int = 0
+    motion_made_s: float = math.nan
 
     def was_made_before(self, steady_s: float) -> bool:
         """False before one was made, and for one of another run of a simulated clock."""
-        return not math.isnan(self.made_s) and not self.made_s > steady_s + _PREFLIGHT_SLACK_S
+        return _is_before(self.made_s, steady_s)
+
+    def was_in_motion(self, steady_s: float) -> bool:
+        """True when sensors were compared in motion, in this run of the robot's clock."""
+        return _is_before(self.motion_made_s, steady_s)
+
+    @property
+    def oldest_s(self) -> float:
+        """When the older of its two parts was made, at rest and in motion; NaN unless both were."""
+        return math.nan if math.isnan(self.made_s) or math.isnan(self.motion_made_s) else min(self.made_s,
+                                                                                              self.motion_made_s)
 
     def hinders(self, steady_s: float) -> bool:
         """True when no test may begin: something is wrong with the robot as it runs."""
@@ -238,6 +252,10 @@ class PreflightReport:
     def first_bad(self) -> str:
         """The first sentence of what is wrong, with what was looked at; empty when nothing is."""
         return next((item.text for item in self.items if item.is_bad), "")
+
+
+def _is_before(made_s: float, steady_s: float) -> bool:
+    return not math.isnan(made_s) and not made_s > steady_s + _PREFLIGHT_SLACK_S
 
 
 @dataclass(frozen=True)

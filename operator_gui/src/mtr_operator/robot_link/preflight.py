@@ -18,7 +18,13 @@ def preflight_from(message: pb.PreflightReport) -> PreflightReport:
     items = tuple(PreflightItem(item.name, item.level != pb.SEVERITY_INFO, item.sentence)
                   for item in message.items[:_MAX_ITEMS])
     return PreflightReport(message.made_s, items, max(message.checks, len(items)),
-                           max(message.bad, sum(item.is_bad for item in items)))
+                           max(message.bad, sum(item.is_bad for item in items)), _motion_made_s(message))
+
+
+def _motion_made_s(message: pb.PreflightReport) -> float:
+    """NaN for a time that is none."""
+    is_told = message.HasField("motion_made_s") and math.isfinite(message.motion_made_s)
+    return float(message.motion_made_s) if is_told else math.nan
 
 
 def preflight_message(report: PreflightReport) -> pb.PreflightReport:
@@ -27,4 +33,7 @@ def preflight_message(report: PreflightReport) -> pb.PreflightReport:
         return pb.PreflightReport()
     items = [pb.PreflightItem(name=item.name, sentence=item.sentence,
                               level=pb.SEVERITY_ERROR if item.is_bad else pb.SEVERITY_INFO) for item in report.items]
-    return pb.PreflightReport(made_s=report.made_s, items=items, checks=report.checks, bad=report.bad)
+    message = pb.PreflightReport(made_s=report.made_s, items=items, checks=report.checks, bad=report.bad)
+    if not math.isnan(report.motion_made_s):
+        message.motion_made_s = report.motion_made_s
+    return message

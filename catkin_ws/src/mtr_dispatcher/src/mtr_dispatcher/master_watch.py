@@ -6,7 +6,7 @@ from typing import Any, Callable, Dict, Optional
 
 from mtr_core import names
 
-from .preflight_report import PreflightReport, report_in
+from .preflight_report import PreflightReport, report_in, with_motion
 
 # A node is started again after 2 s.
 ASK_PERIOD_WALL_S = 1.0
@@ -42,7 +42,8 @@ class MasterWatch:
         """Ask once; without an answer what was known before stands."""
         try:
             self.failures = failures_in(self._ask(names.START_FAILURES))
-            self.preflight = report_in(self._ask(names.PREFLIGHT_REPORT))
+            motion = report_in(self._ask(names.PREFLIGHT_MOTION))
+            self.preflight = with_motion(report_in(self._ask(names.PREFLIGHT_REPORT)), motion)
         except Exception:  # Of sockets, HTTP, XML, the master: a thread that ended would tell nothing any more.
             return
 

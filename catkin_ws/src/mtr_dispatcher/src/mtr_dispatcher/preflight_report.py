@@ -29,18 +29,25 @@ class PreflightReport(NamedTuple):
         items: the bad ones first, at most MAX_ITEMS of them.
         checks: how many there were.
         bad: how many of them were bad.
+        motion_made_s: when sensors were compared in motion last, on the same clock; None: not in this run of the robot.
     """
 
     made_s: float
     items: Tuple[PreflightItem, ...]
     checks: int
     bad: int
+    motion_made_s: Optional[float] = None
 
 
 def report_of(made_s: float, items: Tuple[PreflightItem, ...]) -> PreflightReport:
     """The report of these findings."""
     ordered = sorted(items, key=lambda item: not item.is_bad)
     return PreflightReport(made_s, tuple(ordered[:MAX_ITEMS]), len(items), sum(item.is_bad for item in items))
+
+
+def with_motion(report: Optional[PreflightReport], motion: Optional[PreflightReport]) -> Optional[PreflightReport]:
+    """The report with the time of the findings in motion; None for what was not made."""
+    return report if report is None or motion is None else report._replace(motion_made_s=motion.made_s)
 
 
 def parameter_of(report: PreflightReport) -> Dict[str, Any]:

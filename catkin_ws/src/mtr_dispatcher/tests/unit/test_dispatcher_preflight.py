@@ -69,6 +69,24 @@ def test_largest_report_is_within_a_status():
     assert len(status.preflight.items) == MAX_ITEMS and len(status.preflight.items[0].sentence) == MAX_SENTENCE
 
 
+def test_time_of_the_findings_in_motion_is_told_beside_the_report():
+    motion = report_of(40.0, (FINE,))
+    parameters = {names.PREFLIGHT_REPORT: parameter_of(REPORT), names.PREFLIGHT_MOTION: parameter_of(motion)}
+    master = MasterWatch(parameters.get)
+    master.update()
+    assert master.preflight == REPORT._replace(motion_made_s=40.0)
+    assert statuses(master.preflight)[-1].preflight.motion_made_s == 40.0
+    # A preflight at rest leaves the findings in motion as they are.
+    parameters[names.PREFLIGHT_REPORT] = parameter_of(REPORT._replace(made_s=95.0))
+    master.update()
+    assert (master.preflight.made_s, master.preflight.motion_made_s) == (95.0, 40.0)
+    for damaged in (None, {}, "text", {**parameter_of(motion), "made_s": math.nan}):
+        parameters[names.PREFLIGHT_MOTION] = damaged
+        master.update()
+        assert (master.preflight.made_s, master.preflight.motion_made_s) == (95.0, None)
+        assert not statuses(master.preflight)[-1].preflight.HasField("motion_made_s")
+
+
 def test_report_is_asked_of_the_master_and_gone_with_it():
     parameters = {names.PREFLIGHT_REPORT: parameter_of(REPORT)}
     master = MasterWatch(parameters.get)

@@ -19,6 +19,8 @@ def add_preflight(message: link.PreflightReport, report: Optional[PreflightRepor
     if report is None:
         return
     message.made_s, message.checks, message.bad = report.made_s, report.checks, report.bad
+    if report.motion_made_s is not None:
+        message.motion_made_s = report.motion_made_s
     for item in report.items:
         level = link.SEVERITY_ERROR if item.is_bad else link.SEVERITY_INFO
         message.items.add(name=cut(item.name), level=level, sentence=cut(item.sentence, MAX_SENTENCE))
