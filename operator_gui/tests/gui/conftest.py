@@ -141,6 +141,12 @@ def short_hold(monkeypatch):
 
 
 @pytest.fixture(autouse=True)
+def busy_machine(monkeypatch):
+    """A window of a test shares its processor with other tests: one that hangs is a test of its own."""
+    monkeypatch.setattr("mtr_operator.station.links.attention.LIMIT_S", 3.0)
+
+
+@pytest.fixture(autouse=True)
 def no_leftovers(qapp):
     """Widgets that are left over would be styled anew by the style sheet of each later test."""
     yield

@@ -11,7 +11,7 @@ from .sentences import robot_sentences
 
 FRAME_MS = 33
 # Without any event for so long the view still learns that the robot is silent, and time goes on.
-HEARTBEAT_MS = 500
+HEARTBEAT_MS = 250
 
 
 class Bridge(QObject):

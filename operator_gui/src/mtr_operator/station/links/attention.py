@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from typing import Callable
 
-# The view takes twice a second at least what has come.
-LIMIT_S = 3.0
+# The view takes four times a second at least what has come, and 0.7 s of work for another language block it longest.
+LIMIT_S = 1.0
 # Two looks are nearer to each other, unless the whole application stood: then the view has had no time either.
 _MAX_STEP_S = 0.5
 
