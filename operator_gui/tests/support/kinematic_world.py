@@ -50,6 +50,7 @@ class World:
         self.press_delay_s, self.reaction_s, self.foreign = 0.03, REACTION_S, []
         self.handle_m, self.output, self.extender, self.phone = 1.5, None, None, None
         self.pressed, self.presses, self.toggles, self.events = set(), [], [], []
+        self.signals = lambda time_s: ()
 
     def take(self, desired):
         self.desired = desired

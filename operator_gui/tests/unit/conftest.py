@@ -27,7 +27,8 @@ class FakeRobot(RobotLink):
         world.step()
         self.status_id += 1
         return world.spoil(RobotStatus(
-            id=self.status_id, robot_session_id=7, stamp_s=world.time_s, x=world.x, y=world.y, heading=world.heading,
+            id=self.status_id, robot_session_id=7, stamp_s=world.time_s, sent_s=world.time_s,
+            steady_s=world.time_s, x=world.x, y=world.y, heading=world.heading,
             speed_mps=world.speed_mps, pose_valid=True, position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M,
             key_height_m=world.height_m, mode=world.mode, car=world.car, car_frame=world.frame,
             preflight=PreflightReport(), battery_percent=80,
@@ -65,6 +66,10 @@ class FakeCar(CarLink):
     @property
     def handle(self):
         return self.world.output
+
+    @property
+    def signals(self):
+        return self.world.signals(self._stamp_s)
 
     @property
     def extender(self):

@@ -127,7 +127,7 @@ FINE = PreflightReport(1.0, (PreflightItem("disk", False, "Free."),), 2, 0)
 
 def told(report, every=10):
     """What becomes of a Status of a robot that tells this preflight, in every tenth Status."""
-    return lambda status: replace(status, steady_s=100.0 + status.stamp_s,
+    return lambda status: replace(status, sent_s=100.0 + status.stamp_s, steady_s=100.0 + status.stamp_s,
                                   preflight=None if status.id % every else report)
 
 

@@ -6,6 +6,7 @@ import math
 import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
+from mtr_operator.domain.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignal, SignalState
 from mtr_operator.domain.ports import BusTraffic, LockState
 from mtr_operator.domain.robot_status import (
     CarDimensions,
@@ -18,9 +19,10 @@ from mtr_operator.domain.robot_status import (
     RobotStatus,
 )
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.supervision.conditions import CONDITIONS
 from mtr_operator.station.alert import Alert, Heard, alert_of
 from mtr_operator.station.checks.check_texts import check_advice, check_text
-from mtr_operator.station.checks.checklist import UNSEEN, Facts, Wanted, checklist, hindrances
+from mtr_operator.station.checks.checklist import CONDITION_OF, UNSEEN, Facts, Wanted, checklist, hindrances
 from mtr_operator.station.checks.finding import Check, Finding, State
 from mtr_operator.station.checks.preflight_check import OLD_AFTER_S
 from mtr_operator.station.disk_watch import free_bytes
@@ -40,7 +42,8 @@ from mtr_operator.station.readiness import (
 from mtr_operator.station.sight.ways import Ways
 
 STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
-                     battery_percent=80, position_sigma_m=0.02, emergency_stop=EmergencyStop.RELEASED)
+                     battery_percent=80, position_sigma_m=0.02, sent_s=1.0, steady_s=1.0,
+                     emergency_stop=EmergencyStop.RELEASED)
 TRAFFIC = BusTraffic(0.3, 0.1, 0.1)
 LIDAR = Problem("drive_control.lidar_covered", (("lidar", "rear LiDAR"),), "The rear LiDAR is covered.")
 
@@ -50,7 +53,7 @@ FINE, FULL = PreflightItem("/imu/data", False, "50 Hz."), PreflightItem("disk", 
 
 def after_preflight(*found, age_s=180.0):
     report = PreflightReport(1000.0 - age_s, found, len(found), sum(item.is_bad for item in found))
-    return dataclasses.replace(snapshot(steady_s=1000.0), preflight=report)
+    return dataclasses.replace(snapshot(sent_s=1000.0, steady_s=1000.0), preflight=report)
 
 
 def snapshot(lock=LockState.LOCKED, problem="", traffic=TRAFFIC, is_secret=False, is_exposed=False, **changes):
@@ -66,20 +69,81 @@ def test_each_thing_is_looked_at_in_its_order():
     shown = checklist(Facts(snapshot(), 0.1, free_bytes=10 ** 11))
     assert [item.check for item in shown] == list(Check)
     assert {item.check for item in shown if item.state is not State.GOOD} == {
-        Check.PREFLIGHT, Check.SIZE, Check.WAY, *UNSEEN, Check.ROBOT_CLOCK, Check.KEY, Check.LIMITS}
+        Check.PREFLIGHT, Check.SIZE, Check.WAY, *UNSEEN, Check.SIGNALS, Check.ROBOT_CLOCK, Check.KEY, Check.LIMITS}
     assert not hindrances(shown)
 
 
 @pytest.mark.parametrize("silent_s", [0.1, 9.0])
 @pytest.mark.parametrize(("check", "words"), [
     (Check.GROUND, ("lying", "chocks", "Walk around")), (Check.CABLES, ("CAN cable", "charging cable")),
-    (Check.OPENINGS, ("hatch", "by itself", "boot")), (Check.FITTINGS, ("tow bar", "rear_fitting_m"))])
+    (Check.OPENINGS, ("hatch", "by itself", "boot")), (Check.FITTINGS, ("tow bar", "rear_fitting_m")),
+    (Check.AREA, ("2 m free", "stairs", "dock", "kerb")), (Check.PEOPLE, ("adults", "kneels")),
+    (Check.WEATHER, ("ice", "fog", "low sun", "8 m/s")), (Check.LIGHT, ("lit",)),
+    (Check.CAR, ("brake", "gear P", "chocks", "cabin empty", "alarm")),
+    (Check.ATTENDANCE, ("10 m", "in sight", "hardware emergency stop"))])
 def test_what_no_sensor_shows_is_for_a_person_to_check(check, words, silent_s):
     item = items(snapshot(), silent_s)[check]
     assert item.state is State.UNKNOWN
     shown = f"{check_text(item)} {check_advice(item)}"
     assert all(word in shown for word in words)
     assert all(len(sentence.split()) <= 30 for sentence in (check_text(item), check_advice(item)))
+
+
+def test_operating_conditions_are_items_and_good_once_a_person_has_confirmed_them():
+    assert list(CONDITION_OF.values()) == list(CONDITIONS)
+    for check, name in CONDITION_OF.items():
+        found = items(snapshot(), wanted=Wanted(confirmed=(name,)))
+        assert (found[check].state, found[check].finding) == (State.GOOD, Finding.CONFIRMED)
+        assert all(found[other].state is State.UNKNOWN for other in UNSEEN if other is not check)
+
+
+IGNITION_ON = CarSignal(IGNITION, "Terminal of Power", SignalState.ACTIVE)
+GEAR_SILENT = CarSignal(GEAR, "Lever of Gear", SignalState.UNKNOWN)
+ALL_SAFE = tuple(CarSignal(kind, "Signal", SignalState.SAFE) for kind in (IGNITION, GEAR, SPEED, DOOR))
+
+
+@pytest.mark.parametrize("signals, state, finding, words", [
+    ((), State.UNKNOWN, Finding.SIGNALS_UNNAMED, "names no signal for: ignition, gear, speed, door. Watch them"),
+    (ALL_SAFE[1:], State.UNKNOWN, Finding.SIGNALS_UNNAMED, "names no signal for: ignition. Watch"),
+    (ALL_SAFE, State.GOOD, Finding.SIGNALS_FINE, "are received"),
+    ((*ALL_SAFE, GEAR_SILENT), State.UNKNOWN, Finding.SIGNALS_SILENT, "Not received from the Car: Lever of Gear."),
+    ((GEAR_SILENT, IGNITION_ON), State.BAD, Finding.SIGNAL_ACTIVE, "ignition is on (signal Terminal of Power).")])
+def test_signals_of_the_car_are_looked_at_before_a_test(signals, state, finding, words):
+    robot = dataclasses.replace(snapshot(), signals=signals)
+    item = items(robot)[Check.SIGNALS]
+    assert (item.state, item.finding) == (state, finding)
+    assert words in f"{check_text(item)} {check_advice(item)}"
+    readiness = readiness_of(robot, 0.1, Phase.IDLE)
+    assert readiness.can_start is (state is not State.BAD)
+
+
+def test_door_that_the_bus_tells_open_is_noted():
+    opened = CarSignal(DOOR, "Tail of Doors", SignalState.ACTIVE, "tailgate")
+    item = items(dataclasses.replace(snapshot(), signals=(opened,)))[Check.OPENINGS]
+    assert (item.state, item.finding) == (State.NOTE, Finding.OPENINGS_OPEN)
+    assert check_text(item) == "A door or lid of the Car is open: tailgate (signal Tail of Doors)."
+
+
+def real(report, steady_s=50_000.0):
+    """A robot whose clock tells the date."""
+    return dataclasses.replace(snapshot(sent_s=1.7e9, steady_s=steady_s), preflight=report)
+
+
+MOVED = PreflightReport(49_000.0, (FINE,), 1, 0, 48_000.0)
+
+
+@pytest.mark.parametrize("report, state, finding", [
+    (None, State.BAD, Finding.PREFLIGHT_UNTOLD), (PreflightReport(), State.BAD, Finding.PREFLIGHT_NEVER),
+    (dataclasses.replace(MOVED, motion_made_s=math.nan), State.BAD, Finding.PREFLIGHT_AT_REST),
+    (dataclasses.replace(MOVED, motion_made_s=1.0), State.BAD, Finding.PREFLIGHT_OLD),
+    (MOVED, State.GOOD, Finding.PREFLIGHT_FINE)])
+def test_real_robot_needs_a_preflight_in_motion(report, state, finding):
+    item = items(real(report))[Check.PREFLIGHT]
+    assert (item.state, item.finding) == (state, finding)
+    assert state is State.GOOD or "preflight" in check_advice(item)
+    assert readiness_of(real(report), 0.1, Phase.IDLE).can_start is (state is State.GOOD)
+    # A test that runs goes on.
+    assert readiness_of(real(report), 0.1, Phase.MEASURING).word is ReadinessWord.MEASURING
 
 
 @pytest.mark.parametrize(("ways", "state", "finding", "said"), [

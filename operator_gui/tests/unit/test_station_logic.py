@@ -16,7 +16,8 @@ from mtr_operator.station.readiness import Cause, Phase, ReadinessWord, can_resu
 from mtr_operator.station.trail import thinned
 from mtr_operator.station.view_model import ViewModel
 
-STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
+STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, sent_s=1.0, steady_s=1.0, pose_valid=True,
+                     mode=Mode.FOLLOWING_WAYPOINT,
                      battery_percent=80)
 
 

@@ -28,6 +28,11 @@ class RunIdentity:
             self._laboratory = load_laboratory(options.laboratory or laboratory_path())
         check_photos(self._given.photos)
 
+    @property
+    def unattended_stop(self) -> str:
+        """Rated stop that the laboratory declares for tests without a person; empty without one."""
+        return self._laboratory.unattended_stop
+
     def give(self, progress: Progress) -> None:
         """To a test that begins; InvalidIdentity when something is missing that the laboratory requires."""
         identity = self._given.identity.filled_from(self._laboratory.defaults)

@@ -1,13 +1,21 @@
-"""Asks whether a robot that is held may go on."""
+"""Asks whether a robot that is held may go on, and whether a person is present."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from typing import Callable
 
+from mtr_operator.domain.supervision.conditions import CONDITIONS
+from mtr_operator.domain.supervision.presence import Presence, PresenceParameters
+
 from .enter import Enter
 
 QUESTION = ("The robot stands until you have it go on: see that nobody is near it, then press Enter. Ctrl-C ends "
             "it.")
+
+
+CONDITIONS_QUESTION = ("Confirm by Enter within {:g} s that these conditions hold, and that you are in sight of the "
+                       "robot:")
+PRESENCE_QUESTION = "Press Enter within {:g} s to confirm that you are in sight of the robot; else it stops."
 
 
 class Release:
@@ -29,3 +37,29 @@ class Release:
         # Whoever answers has read the question asked last, when that was this one.
         if hold_id == self._asked:
             self._released = hold_id
+
+
+class PresenceQuestion:
+    """Attributes: presence: asks for the conditions at the start, and for presence alone later."""
+
+    def __init__(self, say: Callable[[str], None], enter: Enter, announcement: str = "",
+                 parameters: PresenceParameters | None = None):
+        """announcement: what people next to the Car have to know."""
+        self._say = say
+        self._enter = enter
+        self._announcement = announcement
+        self._has_asked = False
+        self.presence = Presence(self._show, parameters)
+
+    def _show(self, is_asked: bool) -> None:
+        self._enter.withdraw(self.presence.confirm)
+        if is_asked:
+            self._say(self._question().format(self.presence.parameters.answer_s))
+            self._enter.ask(self.presence.confirm)
+
+    def _question(self) -> str:
+        if self._has_asked:
+            return PRESENCE_QUESTION
+        self._has_asked = True
+        return "\n".join((CONDITIONS_QUESTION, *(f"  {name}: {text}" for name, text in CONDITIONS.items()),
+                          *filter(None, (self._announcement,))))

@@ -9,14 +9,18 @@ from mtr_operator.domain.actions.area import set_area
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.event_observer import EventObserver, run_told
 from mtr_operator.domain.actions.trouble import Cancelled
+from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.document import shown_text
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWARE, SUBSTITUTE, now, session_record
+from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.supervision.conditions import CONDITIONS
+from mtr_operator.domain.supervision.supervision import Supervision
 from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.domain.verdict.suitability import check_before_start
 from mtr_operator.domain.verdict.verdict import Verdict
@@ -44,7 +48,7 @@ from .interrupt import Interrupt
 from .links import car_link, lives_in_real_time, phone_feed, robot_link
 from .planning import Outlook
 from .records.evidence import write_for
-from .release import Release
+from .release import PresenceQuestion, Release
 
 
 class CommandLineRun:
@@ -134,6 +138,7 @@ class CommandLineRun:
                 set_area(loop, self._options.test_area)
             person = HandleQuestion(display.say, enter).person
             loop.person, loop.switcher, loop.phone = person, person, self._phone
+            loop.supervision = self._supervision(display, enter, loop.status)
             rejected_before = loop.status.rejected_messages
             self._progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)
             display.outlook = Outlook(self._scenario, self._parameters, car.facts, self._progress)
@@ -147,6 +152,15 @@ class CommandLineRun:
                 for problem in filter(None, self._recording.end()):
                     display.say(shown_text(problem))
                 _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
+
+    def _supervision(self, display: Display, enter: Enter, status: RobotStatus) -> Supervision:
+        """On a real robot a person who answers at the command line, or the rated stop that is declared."""
+        stop = self._identity.unattended_stop
+        if is_simulated_robot(status) or stop:
+            return Supervision(unattended_stop=stop)
+        presence = PresenceQuestion(display.say, enter, self._scenario.announcement).presence
+        presence.ask()
+        return Supervision(presence, confirmed=tuple(CONDITIONS))
 
     def _phone_closing(self) -> contextlib.AbstractContextManager[object]:
         return contextlib.nullcontext() if self._phone is None else contextlib.closing(self._phone)

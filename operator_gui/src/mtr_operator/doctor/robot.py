@@ -25,7 +25,8 @@ from mtr_operator.station.mailbox import Mailbox
 LISTEN_S = 3.0
 _POLL_S = 0.1
 # Of Car, laptop and chosen test, which nobody asks a robot for.
-_NOT_OF_ROBOT = (Check.WAY, *UNSEEN, Check.BUS, Check.LOCKS, Check.CLOCK, Check.KEY, Check.DISK, Check.LIMITS)
+_NOT_OF_ROBOT = (Check.WAY, *UNSEEN, Check.BUS, Check.LOCKS, Check.SIGNALS, Check.CLOCK, Check.KEY,
+                 Check.DISK, Check.LIMITS)
 # Twice this and nothing that moves is sent: the robot would stop again and again.
 _LONG_GAP_S = MAX_BLIND_S / 2
 _MS_PER_S = 1000.0

@@ -9,8 +9,10 @@ OperatorError
 │   └── BusRefused       the adapter of a further bus of the Car cannot be used, or there is none
 ├── LinkLost             robot or Car fell silent during a test
 ├── StoodStill           the laptop slept, or the application was stopped, during a test
+├── OperatorAbsent       nobody confirmed to be present during a test
 ├── RobotFailed          the robot is there, and cannot do what the test needs
-│   └── BatteryCritical  its charge no longer suffices to measure
+│   ├── BatteryCritical  its charge no longer suffices to measure
+│   └── CarActive        a signal of the Car forbids motion next to it
 ├── ProgressFileError    a progress file cannot be read or belongs to something else
 ├── UnsafeName           a document names a file that would lie outside its folder
 ├── InUse                another application measures this test, or has gone on with it
@@ -63,12 +65,20 @@ class StoodStill(OperatorError):
     """The laptop slept, or the application was stopped, during a test."""
 
 
+class OperatorAbsent(OperatorError):
+    """Nobody confirmed to be present during a test."""
+
+
 class RobotFailed(OperatorError):
     """The robot is there, and cannot do what the test needs."""
 
 
 class BatteryCritical(RobotFailed):
     """The robot's charge no longer suffices to measure."""
+
+
+class CarActive(RobotFailed):
+    """The Car's ignition, gear, speed, or an open door forbids motion next to it."""
 
 
 class ProgressFileError(OperatorError):

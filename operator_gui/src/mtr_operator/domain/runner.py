@@ -46,6 +46,7 @@ from .results.session_record import (
 )
 from .robot_status import CheckState
 from .scenario import AnyScenario, Line, ScenarioParameters
+from .supervision.admission import admit
 from .verdict.assessment import Assessor
 from .verdict.looking import Looking
 from .verdict.suitability import check_lines
@@ -101,6 +102,7 @@ class Runner:
         notices = tuple(self._car.notices)
         self._scenario.check_means(self._car)
         self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
+        released = admit(self._loop, self._progress.identity)
         prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
         self._retreat.begin()
         # What bus and clocks have told meanwhile.
@@ -110,6 +112,7 @@ class Runner:
         told = self._loop.status
         record = {**controller_record(told.controller_name), **clock_record(ahead_s),
                   **preflight_record(self._loop.preflight, told.steady_s), **area_record(told.area),
+                  **released,
                   **self._progress.with_earlier(self._car.record)}
         if record:
             self._notebook.add(SESSION, record)
@@ -301,6 +304,9 @@ class Runner:
 
     def _keep_line(self, result: LineResult) -> None:
         self._notebook.add(LINE, {"result": result.to_document(), "frame": self._frame_of_line()})
+        if self._loop.car_guard.reason:
+            self._save(self._progress)
+            self._loop.check_car_guard()
         self._loop.settle()
         self._save(self._progress)
         self._loop.settle()

@@ -53,6 +53,7 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         parameters_type: its parameters.
         result_type: its results; the columns of results.csv follow from it.
         distance_words: what the distances of a line are called, in the order of being measured.
+        announcement: what the Car may do to people next to it in this test, a sentence; empty when nothing.
         lines_stay: the lines do not depend on the Car's size, so that they may be shown while it is still refined.
     """
 
@@ -63,6 +64,7 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     result_type: type[Result]
     distance_words: tuple[str, ...]
     lines_stay: bool = False
+    announcement: str = ""
 
     @abstractmethod
     def lines(self, parameters: Parameters, car: CarDimensions) -> list[AnyLine]:

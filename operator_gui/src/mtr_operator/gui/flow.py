@@ -13,6 +13,7 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.entry import EventKind
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
+from mtr_operator.domain.supervision.conditions import CONDITIONS
 from mtr_operator.station.begun.starting import begun_test
 from mtr_operator.station.begun.unfinished import UnfinishedTest
 from mtr_operator.station.bus.bus_view import BusView
@@ -123,9 +124,9 @@ class Flow(QObject):
     # Test
 
     def start(self, scenario: AnyScenario, parameters: ScenarioParameters, paths: GivenPaths = NO_PATHS,
-              who: GivenIdentity = NOTHING_SAID) -> None:
+              who: GivenIdentity = NOTHING_SAID, confirmed: Sequence[str] = ()) -> None:
         """Begin a test; failed follows when a file that is given does not suit it any more, or the laboratory requires
-        more."""
+        more. confirmed: operating conditions."""
         if self.is_measuring():
             return
         try:
@@ -134,12 +135,13 @@ class Flow(QObject):
         except OperatorError as error:
             self.failed.emit(str(error))
             return
-        self.resume()
+        self._goes_on(confirmed)
         self.show(Step.MEASUREMENT)
 
     def resume(self) -> None:
-        """Measure what is left of the test at hand; failed follows when it was begun with other means."""
-        self._goes_on()
+        """Measure what is left of the test at hand; failed follows when it was begun with other means. Who resumes
+        confirms the operating conditions, as the screen says."""
+        self._goes_on(tuple(CONDITIONS))
 
     def is_measuring(self) -> bool:
         """True, and failed follows, while a test is measured, which keeps the window: a dialog or a thread may be
@@ -148,7 +150,7 @@ class Flow(QObject):
             self.failed.emit("A test is being measured: stop it first, then open or begin another one.")
         return self.model.phase in RUNNING
 
-    def _goes_on(self) -> bool:
+    def _goes_on(self, confirmed: Sequence[str]) -> bool:
         if self.is_measuring():
             return False
         test = self.model.current_test
@@ -159,7 +161,7 @@ class Flow(QObject):
             self.failed.emit(str(error))
             return False
         self.model.begin()
-        self.connecting.links.run_test(test)
+        self.connecting.links.run_test(test, confirmed)
         return True
 
     def measure_again(self, numbers: Sequence[int]) -> None:
@@ -167,7 +169,8 @@ class Flow(QObject):
         if self.is_measuring():
             return
         self.model.current_test.again = tuple(numbers)
-        if self._goes_on():
+        # On a real robot the next screen asks for the conditions.
+        if self._goes_on(()):
             self.show(Step.MEASUREMENT)
 
     def stop(self) -> None:
@@ -198,6 +201,11 @@ class Flow(QObject):
         """The Operator has taken the Car's handle, or switched the extender."""
         if self.model.prompt is not None:
             self.connecting.links.answer(self.model.prompt)
+
+    def confirm_presence(self) -> None:
+        """The Operator is present."""
+        if self.connecting.worker is not None:
+            self.connecting.worker.confirm_presence()
 
     def save_progress(self) -> None:
         """Write the progress now; saved or folder_wanted follows."""

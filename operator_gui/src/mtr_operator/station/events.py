@@ -7,6 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Union
 
+from mtr_operator.domain.car_signals import CarSignal
 from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Waypoint
@@ -27,6 +28,7 @@ class RobotSnapshot:
     bus, None where there is no bus to ask. facts: what its profile tells beforehand, None without one.
     is_exposed: whoever is in the robot's network can read the link and send. preflight: the newest that the robot
     has told, None while it has told nothing of it. clock_ahead_s: robot's clock less the laptop's, NaN when not known.
+    signals: of the Car that stop the robot, as its profile names them.
     """
 
     status: RobotStatus
@@ -39,6 +41,7 @@ class RobotSnapshot:
     is_exposed: bool = False
     preflight: PreflightReport | None = None
     clock_ahead_s: float = math.nan
+    signals: tuple[CarSignal, ...] = ()
 
 
 def known_facts(car: CarLink) -> LockFacts | None:
@@ -147,6 +150,13 @@ class PersonWanted:
 
 
 @dataclass(frozen=True)
+class PresenceWanted:
+    """The Operator has to confirm to be present; is_wanted: False when that need not be done any longer."""
+
+    is_wanted: bool
+
+
+@dataclass(frozen=True)
 class EventLogged:
     """The event list has grown by this."""
 
@@ -154,4 +164,4 @@ class EventLogged:
 
 
 StationEvent = Union[LinksOpened, LinkRefused, CarLinkOpened, RobotSilent, StandstillSeen, LinesPlanned, ActionBegun,
-                     LineBegun, LineMeasured, RunEnded, ProgressSaved, PersonWanted, EventLogged]
+                     LineBegun, LineMeasured, RunEnded, ProgressSaved, PersonWanted, PresenceWanted, EventLogged]

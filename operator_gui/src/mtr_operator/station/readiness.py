@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.battery.levels import is_critical, is_low
+from mtr_operator.domain.car_signals import first_active
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import (
     DISK_FULL_CODE,
@@ -15,6 +16,7 @@ from mtr_operator.domain.robot_status import (
     RobotStatus,
     WaypointResult,
 )
+from mtr_operator.domain.supervision.preflight_rule import preflight_hindrance
 
 from .events import RobotSnapshot
 from .motion import Motion, is_driving
@@ -71,6 +73,8 @@ class Cause(enum.Enum):
     HELD = "held"
     WAY_BLOCKED = "way blocked"
     PREFLIGHT_BAD = "preflight bad"
+    PREFLIGHT_MISSING = "preflight missing"
+    CAR_ACTIVE = "Car active"
 
 
 HELD_CODE = "held"
@@ -184,12 +188,18 @@ def _battery_reasons(percent: int | None, phase: Phase) -> list[Reason]:
 def _preflight_reasons(robot: RobotSnapshot, phase: Phase) -> list[Reason]:
     """A test that runs goes on: somebody looks at the robot meanwhile."""
     report = robot.preflight
-    if phase in RUNNING or report is None or not report.hinders(robot.status.steady_s):
+    if phase in RUNNING:
         return []
-    return [Reason(Cause.PREFLIGHT_BAD, True, report.first_bad)]
+    if report is not None and report.hinders(robot.status.steady_s):
+        return [Reason(Cause.PREFLIGHT_BAD, True, report.first_bad)]
+    missing = preflight_hindrance(report, robot.status)
+    return [Reason(Cause.PREFLIGHT_MISSING, True, missing)] if missing else []
 
 
 def _car_reasons(robot: RobotSnapshot) -> list[Reason]:
+    active = first_active(robot.signals)
+    if active is not None:
+        return [Reason(Cause.CAR_ACTIVE, True, active.sentence)]
     if robot.car_problem == NO_ADAPTER:
         return [Reason(Cause.NO_CAN, True)]
     if robot.car_problem:

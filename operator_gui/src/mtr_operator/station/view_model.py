@@ -29,6 +29,7 @@ from .events import (
     LinesPlanned,
     Outcome,
     PersonWanted,
+    PresenceWanted,
     RobotSilent,
     RobotSnapshot,
     RunEnded,
@@ -64,6 +65,7 @@ class ViewModel:
         outcome: how measuring ended last, None while it has not.
         judgement: of the lines measured so far, None without limits.
         prompt: what the Operator is asked to do at the Car's handle or with the extender, None when nothing.
+        is_presence_wanted: the Operator is asked to confirm to be present.
         motion: what was ordered between two tests.
         view: what the robot sees, None while it does not say. obstacles: where something stands around the Car.
         echoes: the LiDARs' newest returns in base_link, also before the Car is mapped.
@@ -88,6 +90,7 @@ class ViewModel:
         self.outcome: Outcome | None = None
         self.judgement: TestJudgement | None = None
         self.prompt: Prompt | None = None
+        self.is_presence_wanted = False
         self.motion = Motion()
         self.view: View | None = None
         self.obstacles = ObstacleMap()
@@ -255,12 +258,18 @@ class ViewModel:
             self._judge()
         elif isinstance(event, StandstillSeen):
             self.motion.stop()
-        elif isinstance(event, PersonWanted):
-            self.prompt = event.prompt
+        elif isinstance(event, (PersonWanted, PresenceWanted)):
+            self._ask(event)
         elif isinstance(event, EventLogged):
             self.events.add(event.entry)
         elif isinstance(event, RobotSilent):
             self._received_s = min(self._received_s, self._clock() - event.silent_s)
+
+    def _ask(self, event: PersonWanted | PresenceWanted) -> None:
+        if isinstance(event, PersonWanted):
+            self.prompt = event.prompt
+        else:
+            self.is_presence_wanted = event.is_wanted
 
     def _judge(self) -> None:
         """The progress belongs to the links' thread while the test runs; its limits do not change, its results do."""

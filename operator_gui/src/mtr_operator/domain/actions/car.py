@@ -68,12 +68,13 @@ class Car:
             raise RobotFailed(_NOBODY)
         handle.request(distance_m)
         try:
-            while not handle.is_taken() and self.change_to(LockState.UNLOCKED, asked_s) is None:
-                if self._loop.waited_s >= until_s:
-                    raise RobotFailed(f"Nobody has taken the Car's handle within {patience_s:g} s; continue the test "
-                                      "when somebody is there to do it, or increase handle_timeout_s.")
-                self._loop.step()
-            yield HandleTaken(asked_s, self._loop.now_s, handle.by)
+            with self._loop.car_guard.handle_pulled():
+                while not handle.is_taken() and self.change_to(LockState.UNLOCKED, asked_s) is None:
+                    if self._loop.waited_s >= until_s:
+                        raise RobotFailed(f"Nobody has taken the Car's handle within {patience_s:g} s; continue the "
+                                          "test when somebody is there to do it, or increase handle_timeout_s.")
+                    self._loop.step()
+                yield HandleTaken(asked_s, self._loop.now_s, handle.by)
         finally:
             handle.release()
 

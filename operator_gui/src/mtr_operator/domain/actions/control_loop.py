@@ -17,7 +17,7 @@ from ..clocks.clock_offset import ClockOffset
 from ..clocks.clock_step import counts_clock_step
 from ..clocks.waiting_time import WaitingTime
 from ..distance_feed import DistanceFeed, Reported
-from ..errors import LinkLost, RobotFailed, StoodStill
+from ..errors import CarActive, LinkLost, RobotFailed, StoodStill
 from ..eventlog.event_log import EventLog
 from ..kept_orders import KeptOrders, is_kept
 from ..ports import CarEvent, CarLink, RobotLink
@@ -27,12 +27,14 @@ from ..results.frame_history import FrameHistory
 from ..results.journal import EVENT, Journal, plain_fields
 from ..results.refusals import NOTHING, Refusals
 from ..robot_status import CarDimensions, PreflightReport, RobotStatus
+from ..supervision.car_guard import CarGuard
+from ..supervision.supervision import Supervision
 from .kept_preflight import KeptPreflight
 from .observer import RunObserver
 from .pose_history import STANDING_MPS, PoseHistory
 from .skipping import Skipping
 from .standstill import Standstill
-from .trouble import Cancelled, LineInvalid, trouble_between
+from .trouble import Cancelled, LineInvalid, LineStopped, trouble_between
 
 # Wall time of one look for a Status, after which a stop leaves, and another one as long as no Status comes.
 POLL_PERIOD_S = 0.05
@@ -75,6 +77,8 @@ class ControlLoop:
         skipping: the line at hand, which the Operator may skip.
         phone: tells the distance of a phone in place of the Car's own feed; None for that one.
         reported: distances that were told, in their order.
+        supervision: who is present, and what was confirmed; looked at on a real robot only.
+        car_guard: stops the test on the Car's ignition, gear, speed and doors.
     """
 
     def __init__(self, robot_link: RobotLink, car_link: CarLink, observer: RunObserver | None = None,
@@ -97,6 +101,8 @@ class ControlLoop:
         self.skipping = Skipping()
         self.phone: DistanceFeed | None = None
         self.reported: list[Reported] = []
+        self.car_guard = CarGuard()
+        self.supervision = Supervision()
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
         self._car_link = car_link
@@ -174,11 +180,18 @@ class ControlLoop:
         if hold_id != self.desired.resume_hold_id:
             self.change(resume_hold_id=hold_id)
         status = self._exchange()
+        self.check_car_guard()
+        self.supervision.look(status)
         self.journal.check()
         if self._is_cancelled():
             raise Cancelled("The test was interrupted.")
         self.skipping.look()
         return status
+
+    def check_car_guard(self) -> None:
+        """Raise CarActive when a signal of the Car has ended the test."""
+        if self.car_guard.reason:
+            raise CarActive(f"The robot was stopped. {self.car_guard.reason} Secure the Car, then continue the test.")
 
     def settle(self) -> None:
         """Answer the robot, but order nothing new, until all that was found is on disk; OutputError when it cannot."""
@@ -238,6 +251,7 @@ class ControlLoop:
         feed = self.distance_feed
         if feed is not None:
             self.reported = (self.reported + feed.observe(status))[-_KEPT_REPORTS:]
+        self._look_at_signals(status)
         self.course.status(status, self._car_link.mark)
         self.event_log.learn(status, events, self._car_link.problem)
         self._learn_events(events)
@@ -251,8 +265,14 @@ class ControlLoop:
         self._check(before, status)
         return status
 
+    def _look_at_signals(self, status: RobotStatus) -> None:
+        """A stop by a signal of the Car leaves at once, before anything is written."""
+        if self.car_guard.learn(self._car_link.signals, status.stamp_s):
+            self._robot_link.send(self._answer())
+
     def _answer(self) -> DesiredState:
-        return self._orders.newest(self.desired, self.journal, self._status)
+        desired = replace(self.desired, stop=True, press=None) if self.car_guard.reason else self.desired
+        return self._orders.newest(desired, self.journal, self._status)
 
     def _learn_events(self, events: list[CarEvent]) -> None:
         for event in events:
@@ -297,6 +317,8 @@ class ControlLoop:
         self._was_in_control = self._was_in_control or (status.session_id != 0 and not status.controlled_by_other)
 
     def _check(self, before: RobotStatus | None, status: RobotStatus) -> None:
+        if self.car_guard.reason and self.skipping.is_measuring:
+            raise LineStopped(f"The robot was stopped. {self.car_guard.reason}")
         if self._watched:
             # First: it knows more of an unknown lock state than that it is unknown.
             self._check_line(status)

@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import Callable
 
 from ..battery.levels import is_critical
-from ..errors import RobotFailed
+from ..errors import CarActive, RobotFailed
 from ..geometry.ray import Ray
 from ..robot_status import DISK_FULL_CODE, CarCheck, Mode, RobotStatus
+from ..supervision.preflight_rule import preflight_hindrance
 from .area import await_area
 from .car import Car
 from .control_loop import ControlLoop
@@ -33,7 +34,8 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _wait_until(loop, START_LIMIT_S, "did not start", _has_started)
     car.prepare()
     _wait_for_control(loop)
-    _refuse_after_bad_preflight(loop)
+    _refuse_without_preflight(loop)
+    _refuse_active_car(loop)
     _refuse_with_full_disk(loop.status)
     _refuse_with_bad_charge(loop)
     await_area(loop)
@@ -82,14 +84,19 @@ def _wait_for_control(loop: ControlLoop) -> None:
         loop.step()
 
 
-def _refuse_after_bad_preflight(loop: ControlLoop) -> None:
+def _refuse_without_preflight(loop: ControlLoop) -> None:
     until_s = loop.waited_s + PREFLIGHT_LIMIT_S
     while loop.preflight is None and loop.waited_s < until_s:
         loop.step()
-    report = loop.preflight
-    if report is not None and report.hinders(loop.status.steady_s):
-        raise RobotFailed(f"No test begins, because the robot's preflight found: {report.first_bad} Mend it, then run "
-                          "`rosrun mtr_bringup preflight` on the robot again.")
+    hindrance = preflight_hindrance(loop.preflight, loop.status)
+    if hindrance:
+        raise RobotFailed(hindrance)
+
+
+def _refuse_active_car(loop: ControlLoop) -> None:
+    said = loop.car_guard.begin(loop.car_link.signals)
+    if said:
+        raise CarActive(f"The test does not begin. {said}")
 
 
 def _refuse_with_full_disk(status: RobotStatus) -> None:

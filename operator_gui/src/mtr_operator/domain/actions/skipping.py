@@ -15,6 +15,11 @@ class Skipping:
         self._wanted = self._at_hand = 0
         self.is_skipped = False
 
+    @property
+    def is_measuring(self) -> bool:
+        """True while a line is measured."""
+        return bool(self._at_hand)
+
     def skip(self, number: int) -> None:
         """Leave the line with this number, from 1, if it is the one at hand."""
         self._wanted = number

@@ -27,8 +27,19 @@ class LineInvalid(Exception):
         self.since_s = since_s
 
 
-class LineSkipped(LineInvalid):
-    """The Operator skips the line at hand: whoever would try again what failed does not."""
+class LineLeft(LineInvalid):
+    """The line at hand is left: a caller that would repeat what failed does not."""
+
+
+class LineStopped(LineLeft):
+    """A signal of the Car stops the robot on the line at hand, and the test with it; all of the line is void."""
+
+    def __init__(self, reason: str) -> None:
+        super().__init__(reason, since_s=-math.inf)
+
+
+class LineSkipped(LineLeft):
+    """The Operator skips the line at hand."""
 
     def __init__(self) -> None:
         super().__init__("The line was skipped by the Operator.")

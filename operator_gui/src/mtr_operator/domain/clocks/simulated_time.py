@@ -13,6 +13,11 @@ _SAME_CLOCK_S = 1e-6
 _FIRST_DATE_S = 978_307_200.0
 
 
+def is_simulated_robot(status: RobotStatus) -> bool:
+    """True only for a robot whose Status shows that it is a simulation; one that does not is taken for a real one."""
+    return status.waits_for_answer or abs(status.sent_s - status.steady_s) <= _SAME_CLOCK_S
+
+
 def is_simulated(status: RobotStatus) -> bool:
     """True when the clock that this Status was sent by is a simulated one."""
     if math.isnan(status.steady_s):

@@ -44,7 +44,8 @@ class Photo:
 
 @dataclass(frozen=True)
 class Identity:
-    """What is empty, or None, is not known. key_battery_v: voltage of the key's battery before the test."""
+    """What is empty, or None, is not known. key_battery_v: voltage of the key's battery before the test.
+    person_in_charge: who releases site and test; the test of a real robot requires a name."""
 
     car_vin: str = ""
     car_model: str = ""
@@ -58,6 +59,7 @@ class Identity:
     notes: str = ""
     equipment: tuple[Equipment, ...] = ()
     photos: tuple[Photo, ...] = ()
+    person_in_charge: str = ""
 
     @property
     def is_empty(self) -> bool:
@@ -101,8 +103,8 @@ NOBODY = Identity()
 TITLES = {
     "car_vin": "Car's VIN", "car_model": "Car's model", "car_software": "Car's software",
     "key_serial": "Key's serial number", "key_type": "Key's type", "key_battery_v": "Key's battery",
-    "operator": "Operator", "place": "Place", "weather": "Weather", "notes": "Notes", "equipment": "Equipment",
-    "photos": "Photos"}
+    "operator": "Operator", "person_in_charge": "Person in charge", "place": "Place", "weather": "Weather",
+    "notes": "Notes", "equipment": "Equipment", "photos": "Photos"}
 TEXTS = tuple(name for name in TITLES if isinstance(getattr(NOBODY, name), str))
 # What comes back with the car's VIN.
 OF_A_CAR = ("car_vin", "car_model", "car_software", "key_serial", "key_type")

@@ -7,6 +7,7 @@
     key_type: remote
     key_battery_v: 3.02             # 0 to 60 V
     operator: J. Novak
+    person_in_charge: M. Svoboda    # required for a test on a real robot
     place: Hall 2
     weather: dry, 8 degrees
     notes: |                        # at most 4000 characters, lines as they are
@@ -46,7 +47,7 @@ _MAX_SHOWN = 40
 def identity_from(document: Any) -> Identity:
     """Identity in a document; InvalidIdentity says what is wrong where."""
     check_table(document, tuple(TITLES), "")
-    values: dict[str, Any] = {name: _notes(document[name]) if name == "notes" else _text(document[name], name)
+    values: dict[str, Any] = {name: _notes(document[name]) if name == "notes" else text_of(document[name], name)
                               for name in TEXTS if document.get(name) is not None}
     battery = document.get("key_battery_v")
     if battery is not None:
@@ -71,7 +72,8 @@ def check_table(table: Any, known: tuple[str, ...], place: str) -> None:
                               if not close else f"{place}{unknown!r} is unknown; did you mean {close[0]!r}?")
 
 
-def _text(value: Any, place: str) -> str:
+def text_of(value: Any, place: str) -> str:
+    """A text of one line; InvalidIdentity names the place when it is none."""
     if isinstance(value, (int, float)):
         raise InvalidIdentity(f"{place} is a number; write it in quotes, so that its zeros are kept.")
     if not isinstance(value, str) or len(value) > MAX_TEXT or not value.isprintable():
@@ -98,14 +100,14 @@ def _list(document: Mapping[str, Any], name: str, most: int) -> list[Any]:
 def _equipment(number: int, entry: Any) -> Equipment:
     place = f"equipment {number}: "
     check_table(entry, _EQUIPMENT_KEYS, place)
-    name = _text(entry.get("name", ""), f"{place}name")
+    name = text_of(entry.get("name", ""), f"{place}name")
     if not name:
         raise InvalidIdentity(f"{place}name is missing.")
     calibrated, valid_until = (_day(entry.get(key), f"{place}{key}") for key in ("calibrated", "valid_until"))
     if calibrated is not None and valid_until is not None and valid_until < calibrated:
         raise InvalidIdentity(f"{place}valid_until, {valid_until.isoformat()}, is before calibrated, "
                               f"{calibrated.isoformat()}.")
-    return Equipment(name, _text(entry.get("serial") or "", f"{place}serial"), calibrated, valid_until)
+    return Equipment(name, text_of(entry.get("serial") or "", f"{place}serial"), calibrated, valid_until)
 
 
 def _day(value: Any, place: str) -> datetime.date | None:
@@ -125,4 +127,4 @@ def _photo(entry: Any) -> Photo:
     problem = name_problem(name)
     if problem:
         raise InvalidIdentity(f"The file name {shown(name)} under photos is refused. {problem}.")
-    return Photo(_text(name, "photos"), digest)
+    return Photo(text_of(name, "photos"), digest)

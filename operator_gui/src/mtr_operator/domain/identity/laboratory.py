@@ -5,6 +5,7 @@
       place: Hall 2
       equipment:
         - {name: multimeter, serial: "77", calibrated: 2026-03-01, valid_until: 2027-03-01}
+    unattended_stop: ""       # rated stop with which mtr-operator run needs no person at a real robot; default: none
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -14,15 +15,19 @@ from typing import Any, Sequence
 
 from ..errors import InvalidIdentity
 from .identity import NOBODY, TITLES, Identity
-from .identity_document import check_table, identity_from
+from .identity_document import check_table, identity_from, text_of
 
 
 @dataclass(frozen=True)
 class Laboratory:
-    """required: keys of Identity without which no test starts. defaults: what holds unless somebody says otherwise."""
+    """required: keys of Identity without which no test starts. defaults: what holds unless somebody says otherwise.
+
+    unattended_stop: names the rated stop of a real robot that may measure without a person; empty when none may.
+    """
 
     required: tuple[str, ...] = ()
     defaults: Identity = NOBODY
+    unattended_stop: str = ""
 
     def missing(self, identity: Identity, photo_count: int | None = None) -> list[str]:
         """Keys that are required and empty. photo_count: of photos that will be kept; None counts the identity's.
@@ -54,10 +59,11 @@ def laboratory_from(document: Any) -> Laboratory:
     """A laboratory's wishes in a document, None for an empty one; InvalidIdentity says what is wrong where."""
     if document is None:
         return Laboratory()
-    check_table(document, ("required", "defaults"), "")
+    check_table(document, ("required", "defaults", "unattended_stop"), "")
     required = document.get("required") or []
     if not isinstance(required, list) or not all(isinstance(name, str) for name in required):
         raise InvalidIdentity("required has to be a list of keys, such as [car_vin, operator].")
     check_table(dict.fromkeys(required), tuple(TITLES), "required: ")
     defaults = document.get("defaults")
-    return Laboratory(tuple(dict.fromkeys(required)), NOBODY if defaults is None else identity_from(defaults))
+    return Laboratory(tuple(dict.fromkeys(required)), NOBODY if defaults is None else identity_from(defaults),
+                      text_of(document.get("unattended_stop") or "", "unattended_stop"))

@@ -27,6 +27,8 @@ ENCRYPTED = "encrypted"
 # the frames.
 CAN_ADAPTER, CAN_STAMPS = "CAN adapter", "CAN frames timed by"
 CAN_ADAPTER_OF_BUS = CAN_ADAPTER + " of the bus {}"
+# Only in the record of a test on a real robot.
+SUPERVISION, CONDITIONS_CONFIRMED = "supervision", "operating conditions confirmed"
 SOFTWARE, ROBOT, CAR_PROFILE = "software", "robot", "car profile"
 # Only in the record of a test whose profile is a file: its name and SHA-256, and those of its databases.
 CAR_PROFILE_FILES = "car profile files"

@@ -9,7 +9,7 @@ from typing import Any, Generator, Sequence
 from ..actions.car import Car
 from ..actions.distance import Distance, recorded_values
 from ..actions.robot import Robot
-from ..actions.trouble import LineInvalid, LineSkipped
+from ..actions.trouble import LineInvalid, LineLeft, LineStopped
 from ..estimation.passes.delay import has_two_speeds
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
@@ -20,6 +20,7 @@ from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
 from ..robot_status import CarDimensions
 from ..scenario import Scenario
+from ..supervision.announcements import LOCKS
 from .autolock_boundary import with_boundaries
 from .autolock_parameters import AutolockParameters
 from .autolock_pass import AxisPass, Course, Measured
@@ -42,6 +43,7 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
     parameters_type = AutolockParameters
     result_type = AutolockResult
     distance_words = (UNLOCK, LOCK)
+    announcement = LOCKS
 
     def lines(self, parameters: AutolockParameters, car: CarDimensions) -> list[Axis]:
         """All axes of all sides and corners."""
@@ -178,7 +180,10 @@ def _further(course: Course, first: AxisPass, passes: Sequence[AxisPass], robot:
         for planned in (this, AxisPass(this.number, this.speed_mps, this.step_m)):
             try:
                 course.measure(planned, first)
-            except LineSkipped:
+            except LineStopped:
+                first.lock = Measured()
+                raise
+            except LineLeft:
                 # What is measured counts.
                 return done
             except LineInvalid as error:

@@ -22,6 +22,7 @@ from ..results.line_result import LineStatus
 from ..results.picture import Picture
 from ..robot_status import CarDimensions
 from ..scenario import Scenario
+from ..supervision.announcements import BUTTONS
 from .key_press_parameters import KeyPressParameters
 from .key_press_result import ADAPTIVE, CONFIRMING, PRESS, KeyPressResult
 from .line_search import campaign, prospect, search
@@ -55,6 +56,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
     parameters_type = KeyPressParameters
     result_type = KeyPressResult
     distance_words = (PRESS,)
+    announcement = BUTTONS
 
     def lines(self, parameters: KeyPressParameters, car: CarDimensions) -> list[Radial]:
         """Radials around the Car; the nearest place on each has to lie outside the Car."""

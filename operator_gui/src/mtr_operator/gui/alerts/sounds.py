@@ -1,4 +1,5 @@
-"""Beeps for what the Operator has to hear: one when the robot begins to move, two at the end, three at trouble.
+"""Beeps for what the Operator has to hear: one when the robot begins to move, two at the end, three at trouble,
+four to ask for presence.
 
 And words, where they are wanted and the computer can speak.
 """
@@ -63,6 +64,8 @@ def spoken(alert: Alert, model: ViewModel) -> str:
         return translate("Status", "The test is done.")
     if alert is Alert.MOVES:
         return translate("Status", "The robot moves.")
+    if alert is Alert.ASKED:
+        return translate("Status", "Confirm that you are present.")
     readiness = model.readiness
     if model.trouble:
         return translated(model.trouble)
@@ -72,4 +75,5 @@ def spoken(alert: Alert, model: ViewModel) -> str:
 
 
 def _heard(model: ViewModel) -> Heard:
-    return Heard(model.may_move, model.readiness.word, model.phase, bool(model.trouble))
+    return Heard(model.may_move, model.readiness.word, model.phase, bool(model.trouble),
+                 model.is_presence_wanted)

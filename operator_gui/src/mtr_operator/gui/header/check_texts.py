@@ -26,3 +26,13 @@ def check_text(item: Item) -> str:
 def check_advice(item: Item) -> str:
     """What to do about it; empty where nothing is to be done, or the sentence says it already."""
     return check_texts.check_advice(item, _OF_WINDOW)
+
+
+def condition_title(name: str) -> str:
+    """An operating condition in a word or two."""
+    return check_texts.condition_title(name, _OF_WINDOW)
+
+
+def condition_text(name: str) -> str:
+    """What an operating condition demands, as a question."""
+    return check_texts.condition_text(name, _OF_WINDOW)

@@ -11,6 +11,7 @@ from mtr_operator.station.view_model import ViewModel
 from ..stopping import Stopping
 from ..theme.appearance import Appearance
 from ..theme.scale import S
+from .presence_banner import PresenceBanner
 from .reasons import blocked_text
 from .status_word import StatusWord
 from .step_bar import StepBar
@@ -24,7 +25,8 @@ _WIDE_PX = 960
 
 class HeaderBar(QWidget):
     """Attributes: stop: on the left, where no window that hangs over the screen's edge hides it. blocked: why the robot
-    does not go on; hidden while it does. foreign: that another application controls it; hidden while none does.
+    does not go on; hidden while it does. presence: asks whether the Operator is present. foreign: that another
+    application controls it; hidden while none does.
 
     Signals: settings_wanted, bus_wanted.
     """
@@ -47,6 +49,7 @@ class HeaderBar(QWidget):
         self.battery = BatterySymbol(appearance)
         self.settings = CogwheelButton(appearance)
         self.settings.clicked.connect(self.settings_wanted)
+        self.presence = PresenceBanner()
         self.blocked = QLabel()
         self.blocked.setWordWrap(True)
         self.blocked.setProperty("role", "banner")
@@ -71,6 +74,7 @@ class HeaderBar(QWidget):
         layout.setContentsMargins(S, S, S, S)
         layout.setSpacing(S)
         layout.addLayout(row)
+        layout.addWidget(self.presence)
         layout.addWidget(self.blocked)
         layout.addWidget(self.foreign)
         layout.addWidget(self.exposed)
@@ -90,6 +94,7 @@ class HeaderBar(QWidget):
         blocked = blocked_text(readiness)
         self.blocked.setText(blocked)
         self.blocked.setVisible(bool(blocked))
+        self.presence.setVisible(model.is_presence_wanted)
         self.foreign.setVisible(model.is_controlled_elsewhere)
         if model.robot is not None:
             self.battery.show_percent(model.robot.status.battery_percent, age_s)

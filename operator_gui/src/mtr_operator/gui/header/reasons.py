@@ -42,6 +42,7 @@ def reason_text(reason: Reason) -> str:
         Cause.HELD: detail or translate("Status", "The robot stands until you have it go on."),
         Cause.WAY_BLOCKED: detail or translate("Status", "Something blocks the robot's way."),
         Cause.PREFLIGHT_BAD: translate("Status", "The robot's preflight found: {detail}"),
+        Cause.PREFLIGHT_MISSING: detail, Cause.CAR_ACTIVE: detail,
         Cause.POSITION_LOST: detail or translate("Status", "The robot does not know its position."),
     }[reason.cause].replace("{detail}", detail)
 

@@ -8,6 +8,7 @@ from PyQt5.QtCore import QTimer, pyqtBoundSignal, pyqtSignal
 from PyQt5.QtGui import QHideEvent, QKeySequence, QResizeEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QShortcut, QVBoxLayout, QWidget
 
+from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.station.handle_prompt import HandlePrompt, Prompt
 from mtr_operator.station.readiness import Phase, can_resume
 from mtr_operator.station.view_model import ViewModel
@@ -43,6 +44,8 @@ class MeasurementScreen(QWidget):
 
     skip: button and key by which the line that is being measured is left.
 
+    conditions: what is confirmed by resuming a test on a real robot.
+
     held: why the robot stands until the Operator has it go on. go_on: the button for that.
     handle: what the Operator is to do at the Car's handle or with the extender. taken: the button that says it is done.
     Signals: resume_wanted, skip_wanted, release_wanted, prompt_answered, save_wanted, events_wanted, leave_wanted;
@@ -72,6 +75,10 @@ class MeasurementScreen(QWidget):
         self.held, self.go_on = self._hold.reason, self._hold.go_on
         self.go_on.held.connect(self.release_wanted)
         self.note = self._label("soft")
+        self.conditions = self._label("soft")
+        self.conditions.setText(self.tr("Who resumes is present, in sight of the robot, and confirms that the "
+                                        "operating conditions hold."))
+        self.conditions.hide()
         self.taken = self._button(self.tr("Handle taken"), "primary", self.prompt_answered)
         self.resume = self._hold_button(self.tr("Hold to resume"), self.resume_wanted)
         self.skip = self._button(self.tr("Skip the line"), "", self.skip_wanted)
@@ -121,6 +128,7 @@ class MeasurementScreen(QWidget):
         told.addWidget(self.facts, 1)
         told.addWidget(self.so_far, 2)
         told.addWidget(self.note)
+        told.addWidget(self.conditions)
         side = QVBoxLayout()
         side.setSpacing(S)
         side.addWidget(Scroller(told), 1)
@@ -160,6 +168,8 @@ class MeasurementScreen(QWidget):
         self._show_skip()
         self.resume.setVisible(model.phase is Phase.PAUSED)
         self.resume.setEnabled(can_resume(model.readiness))
+        is_real = model.robot is not None and not is_simulated_robot(model.robot.status)
+        self.conditions.setVisible(model.phase is Phase.PAUSED and is_real)
         self.leave.setVisible(model.phase is Phase.PAUSED)
 
     def resizeEvent(self, event: QResizeEvent) -> None:

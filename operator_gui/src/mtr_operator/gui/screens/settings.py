@@ -8,6 +8,7 @@ from PyQt5.QtCore import pyqtSignal
 from PyQt5.QtGui import QHideEvent, QShowEvent
 from PyQt5.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
+from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.station.checks.checklist import Wanted, hindrances
@@ -19,6 +20,7 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
+from ..forms.conditions_form import ConditionsForm
 from ..forms.given_form import GivenForm
 from ..forms.hold_button import HoldButton
 from ..forms.identity_form import IdentityForm
@@ -42,7 +44,7 @@ _PICTURE_HEIGHT = 240
 
 class SettingsScreen(QWidget):
     """Attributes: form: the parameters. given: files that go with them. identity: car, key and who measures.
-    picture: preview. start: the button.
+    conditions: what is confirmed before a test on a real robot. picture: preview. start: the button.
 
     notice: sentence on duration and battery. caution: what the parameters cannot give.
 
@@ -68,6 +70,7 @@ class SettingsScreen(QWidget):
         self.form = ParameterForm(scenario.parameters_type)
         self.given = GivenForm(scenario)
         self.identity = IdentityForm()
+        self.conditions = ConditionsForm(scenario)
         self.picture = PicturePanel(appearance)
         self.picture.setMinimumHeight(_PICTURE_HEIGHT)
         # Where there is less room than it likes it is smaller; nothing scrolls for that.
@@ -84,6 +87,7 @@ class SettingsScreen(QWidget):
         self.form.changed.connect(self._preview)
         self.given.changed.connect(self._preview)
         self.identity.changed.connect(self._judge)
+        self.conditions.changed.connect(self._confirm)
         self._preview()
 
     def _lay_out(self) -> None:
@@ -94,6 +98,7 @@ class SettingsScreen(QWidget):
         given.addWidget(self.identity)
         given.addWidget(self.form, 1)
         given.addWidget(self.given)
+        given.addWidget(self.conditions)
         back = QPushButton(self.tr("Back"))
         back.clicked.connect(self.back)
         buttons = QHBoxLayout()
@@ -124,7 +129,7 @@ class SettingsScreen(QWidget):
     def show_model(self) -> None:
         """Something of robot or Car is another one."""
         status = self._model.robot.status if self._model.robot else None
-        shown = (self._model.mapped_car, status and status.battery_percent, self._model.facts)
+        shown = (self._model.mapped_car, status and status.battery_percent, self._model.facts, self._is_real)
         if shown != self._shown:
             self._shown = shown
             self._preview()
@@ -188,6 +193,7 @@ class SettingsScreen(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """See QWidget."""
         super().showEvent(event)
+        self.conditions.clear()
         self._tell_wanted()
 
     def hideEvent(self, event: QHideEvent) -> None:
@@ -197,7 +203,8 @@ class SettingsScreen(QWidget):
 
     def _tell_wanted(self) -> None:
         """What is about to begin, for the checklist."""
-        self._model.wanted = Wanted(self._plan, self.given.limit_count, self.given.limits_problem, self._ways)
+        self._model.wanted = Wanted(self._plan, self.given.limit_count, self.given.limits_problem, self._ways,
+                                    self.conditions.confirmed)
 
     def _forecast(self, is_mapped: bool) -> str:
         plan = self._plan
@@ -224,11 +231,31 @@ class SettingsScreen(QWidget):
         self._judged = readiness, bad = self._standing()
         # The fields of the files say themselves what is wrong with them.
         missing = [item for item in bad if item.check is not Check.LIMITS]
-        self._hindrance.setText(" ".join(map(check_text, missing)))
-        self._hindrance.setVisible(bool(missing))
+        self.conditions.ask(self._is_real)
+        told = [*map(check_text, missing), *filter(None, (self._unconfirmed,))]
+        self._hindrance.setText(" ".join(told))
+        self._hindrance.setVisible(bool(told))
         is_given_well = self.given.judge(None if self._plan is None else self.form.parameters)
         is_well = is_given_well and not self.identity.problem
-        self.start.setEnabled(self._plan is not None and is_well and readiness.can_start and not missing)
+        self.start.setEnabled(self._plan is not None and is_well and readiness.can_start and not told)
+
+    @property
+    def _is_real(self) -> bool:
+        """The robot is not known to be a simulated one."""
+        return self._model.robot is not None and not is_simulated_robot(self._model.robot.status)
+
+    @property
+    def _unconfirmed(self) -> str:
+        """What a person still has to say before a test on a real robot; empty when nothing."""
+        if not self._is_real:
+            return ""
+        if not self.identity.given.identity.person_in_charge:
+            return self.tr("Name the person in charge under Car, key and operator.")
+        return "" if self.conditions.is_complete else self.tr("Confirm each operating condition below the parameters.")
+
+    def _confirm(self) -> None:
+        self._tell_wanted()
+        self._judge()
 
     def _start(self) -> None:
         self.started.emit(self.form.parameters, self.given.paths, self.identity.given)

@@ -3,7 +3,7 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 from ..events import sentences as events
-from . import area, cars, figures, handle, identity, keeping, learn, limits, pairing, passes
+from . import area, cars, figures, handle, identity, keeping, learn, limits, pairing, passes, supervision
 from .bus import can, logs
 from .keys import phone, relay
 
@@ -135,7 +135,7 @@ SENTENCES = (
     *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
     *can.SENTENCES, *logs.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
     *area.SENTENCES,
-    *cars.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
+    *cars.SENTENCES, *supervision.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m. "

@@ -10,6 +10,7 @@ TITLES = (
     QT_TRANSLATE_NOOP("Identity", "Key's type"),
     QT_TRANSLATE_NOOP("Identity", "Key's battery"),
     QT_TRANSLATE_NOOP("Identity", "Operator"),
+    QT_TRANSLATE_NOOP("Identity", "Person in charge"),
     QT_TRANSLATE_NOOP("Identity", "Place"),
     QT_TRANSLATE_NOOP("Identity", "Weather"),
     QT_TRANSLATE_NOOP("Identity", "Notes"),

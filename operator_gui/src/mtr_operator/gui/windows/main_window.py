@@ -143,6 +143,7 @@ class MainWindow(QMainWindow):
         flow.folder_wanted.connect(self._want_progress_folder)
         self.header.settings_wanted.connect(self.show_settings)
         self.header.bus_wanted.connect(self._show_bus)
+        self.header.presence.confirmed.connect(flow.confirm_presence)
         self.header.status.events_wanted.connect(self._show_events)
         self.measurement.events_wanted.connect(self._show_events)
         self.welcome.new_test.connect(lambda: flow.show(Step.TYPE))
@@ -174,7 +175,8 @@ class MainWindow(QMainWindow):
     def _settings_screen(self, name: str) -> SettingsScreen:
         screen = SettingsScreen(SCENARIOS[name], self._flow.model, self._appearance)
         screen.back.connect(lambda: self._flow.show(Step.TYPE))
-        screen.started.connect(lambda parameters, paths, who: self._flow.start(SCENARIOS[name], parameters, paths, who))
+        screen.started.connect(lambda parameters, paths, who: self._flow.start(
+            SCENARIOS[name], parameters, paths, who, screen.conditions.confirmed))
         self._screens.addWidget(screen)
         return screen
 

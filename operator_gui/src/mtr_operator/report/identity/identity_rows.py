@@ -9,7 +9,8 @@ from mtr_operator.domain.identity.identity import TEXTS, TITLES, Identity
 
 Row = Tuple[str, str]
 # Room beside the picture is for what tells tests apart; the rest is on a page of its own.
-_SHORT = ("car_vin", "car_model", "car_software", "key_serial", "key_battery_v", "operator", "place")
+_SHORT = ("car_vin", "car_model", "car_software", "key_serial", "key_battery_v", "operator",
+          "person_in_charge", "place")
 _MAX_SHORT = 34
 # Letters of a check sum that a person compares.
 _DIGEST = 12

@@ -6,6 +6,7 @@ import math
 from typing import Iterator
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
+from mtr_operator.domain.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignals, SignalState, first_active
 from mtr_operator.domain.ports import LockState
 
 from ..events import RobotSnapshot
@@ -43,6 +44,20 @@ def bus(robot: RobotSnapshot) -> Iterator[Item]:
     is_heard = robot.lock_state is not LockState.UNKNOWN
     yield (Item(Check.LOCKS, State.GOOD, Finding.LOCKS_HEARD, robot.lock_state.value) if is_heard
            else Item(Check.LOCKS, State.UNKNOWN if robot.car_problem else State.BAD, Finding.LOCKS_UNKNOWN))
+
+
+def stop_signals(signals: CarSignals) -> Item:
+    """Whether the signals that stop the robot are received; which of them the profile does not name."""
+    active = first_active(signals)
+    if active is not None:
+        return Item(Check.SIGNALS, State.BAD, Finding.SIGNAL_ACTIVE, active.sentence)
+    silent = [each.source for each in signals if each.state is SignalState.UNKNOWN]
+    if silent:
+        return Item(Check.SIGNALS, State.UNKNOWN, Finding.SIGNALS_SILENT, ", ".join(silent))
+    unnamed = [kind for kind in (IGNITION, GEAR, SPEED, DOOR) if kind not in {each.kind for each in signals}]
+    if unnamed:
+        return Item(Check.SIGNALS, State.UNKNOWN, Finding.SIGNALS_UNNAMED, ", ".join(unnamed))
+    return Item(Check.SIGNALS, State.GOOD, Finding.SIGNALS_FINE)
 
 
 def _traffic(robot: RobotSnapshot, clock_problem: str) -> Item:

@@ -46,9 +46,13 @@ def check_title(check: Check, speech: Speech = ENGLISH) -> str:
         Check.WAY: translate("Check", "Way of the lines"),
         Check.GROUND: translate("Check", "Ground next to the Car"), Check.CABLES: translate("Check", "Cables"),
         Check.OPENINGS: translate("Check", "Doors and lids"), Check.FITTINGS: translate("Check", "Fittings"),
+        Check.AREA: translate("Check", "Area"), Check.PEOPLE: translate("Check", "People"),
+        Check.WEATHER: translate("Check", "Weather"), Check.LIGHT: translate("Check", "Light"),
+        Check.CAR: translate("Check", "Car"), Check.ATTENDANCE: translate("Check", "Attendance"),
         Check.LIDARS: translate("Check", "LiDARs"), Check.BOARD: translate("Check", "Lift and buttons"),
         Check.BATTERY: translate("Check", "Battery"),
         Check.BUS: translate("Check", "CAN bus"), Check.LOCKS: translate("Check", "Car's locks"),
+        Check.SIGNALS: translate("Check", "Car's signals"),
         Check.CLOCK: translate("Check", "Clocks"), Check.ROBOT_CLOCK: translate("Check", "Robot's clock"),
         Check.KEY: translate("Check", "Remote key"),
         Check.DISK: translate("Check", "Disk"), Check.LIMITS: translate("Check", "Limits"),
@@ -63,6 +67,7 @@ def check_text(item: Item, speech: Speech = ENGLISH) -> str:
     first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
     texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said), **_of_area(translate, said),
              **_of_place(translate, said, bool(item.numbers)), **_of_way(translate, said), **_of_unseen(translate),
+             **_of_conditions(translate, said), **_of_signals(speech, item.said, said),
              **_of_battery(translate),
              **_of_car(translate, said, is_cyclic=not math.isnan(second)), **_of_files(translate, said)}
     return texts[finding].format(first=_shown(speech, item, first), second=_shown(speech, item, second, 1),
@@ -106,6 +111,7 @@ def _of_preflight(translate: Translate, said: str) -> dict[Finding, str]:
         Finding.PREFLIGHT_FINE: translate("Check", "{first} of {second} right, {age} ago."),
         Finding.PREFLIGHT_OLD: translate("Check", "{first} of {second} right, but {age} ago."),
         Finding.PREFLIGHT_BAD: " ".join((translate("Check", "{first} of {second} wrong, {age} ago."), said)),
+        Finding.PREFLIGHT_AT_REST: translate("Check", "Made at rest only; a real robot needs one in motion."),
         Finding.PREFLIGHT_NEVER: translate("Check", "Never made since the robot was started."),
         Finding.PREFLIGHT_UNTOLD: translate("Check", "The robot does not say whether one was made."),
     }
@@ -159,6 +165,50 @@ def _of_unseen(translate: Translate) -> dict[Finding, str]:
         Finding.FITTINGS_UNSEEN: translate("Check", "The robot does not see what stands out above or below the LiDARs, "
                                                     "such as a tow bar. It keeps 10 to 25 cm from "
                                                     "the Car's ends."),
+    }
+
+
+def _of_conditions(translate: Translate, said: str) -> dict[Finding, str]:
+    """Operating conditions, as docs/safety/hazards.yaml has them."""
+    return {
+        Finding.AREA_UNSEEN: translate("Check", "Closed or marked, 2 m free around the paths, no edge, stairs, dock or "
+                                                "kerb inside?"),
+        Finding.PEOPLE_UNSEEN: translate("Check", "Trained adults only, nobody lies, kneels or works at the Car?"),
+        Finding.WEATHER_UNSEEN: translate("Check", "No ice, snow, heavy rain or fog, no low sun into a LiDAR, mean "
+                                                   "wind below 8 m/s?"),
+        Finding.LIGHT_UNSEEN: translate("Check", "Is the area lit?"),
+        Finding.CAR_UNSEEN: translate("Check", "Parking brake applied, gear P, chocks placed, cabin empty, windows "
+                                               "closed, alarm off or announced?"),
+        Finding.ATTENDANCE_UNSEEN: translate("Check", "Is a trained person within 10 m and in sight of the robot, with "
+                                                      "a hardware emergency stop?"),
+        Finding.CONFIRMED: translate("Check", "Confirmed by a person."),
+        Finding.OPENINGS_OPEN: said,
+    }
+
+
+def condition_title(name: str, speech: Speech = ENGLISH) -> str:
+    """An operating condition in a word or two."""
+    return check_title(Check[name.upper()], speech)
+
+
+def condition_text(name: str, speech: Speech = ENGLISH) -> str:
+    """What an operating condition demands, as a question."""
+    if name == "ground":
+        return speech.translate("Check", "Dry or wet asphalt or concrete, steps and cables below 15 mm, slope at most "
+                                         "2 degrees?")
+    return _of_conditions(speech.translate, "")[Finding[f"{name.upper()}_UNSEEN"]]
+
+
+def _of_signals(speech: Speech, named: str, said: str) -> dict[Finding, str]:
+    translate = speech.translate
+    words = ", ".join(map(speech.word, named.split(", "))).replace("{", "{{").replace("}", "}}")
+    return {
+        Finding.SIGNAL_ACTIVE: said,
+        Finding.SIGNALS_FINE: translate("Check", "Ignition, gear, speed and doors are received, and do not forbid "
+                                                 "motion."),
+        Finding.SIGNALS_SILENT: translate("Check", "Not received from the Car: {signals}.").format(signals=said),
+        Finding.SIGNALS_UNNAMED: translate("Check", "The car profile names no signal for: {signals}.").format(
+            signals=words),
     }
 
 
@@ -219,6 +269,11 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
         Finding.PREFLIGHT_BAD: translate("Check", "Then make it again on the robot: rosrun mtr_bringup preflight"),
         Finding.AREA_MISSING: translate("Check", "Draw it on the start page under Test area."),
         Finding.AREA_UNTOLD: translate("Check", "Stay where you can stop the robot before an edge."),
+        **dict.fromkeys((Finding.PREFLIGHT_NEVER, Finding.PREFLIGHT_AT_REST, Finding.PREFLIGHT_UNTOLD),
+                        translate("Check", "Make it on the robot: rosrun mtr_bringup preflight --drive")),
+        Finding.OPENINGS_OPEN: translate("Check", "Close it."),
+        Finding.SIGNALS_SILENT: translate("Check", "Wake the Car; watch ignition, gear and doors yourself meanwhile."),
+        Finding.SIGNALS_UNNAMED: translate("Check", "Watch them yourself: the robot does not stop for them."),
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
         Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),

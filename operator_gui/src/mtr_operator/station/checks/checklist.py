@@ -5,6 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Iterator
 
+from mtr_operator.domain.car_signals import DOOR, first_active
+from mtr_operator.domain.supervision.conditions import CONDITIONS
+
 from ..estimate import Plan
 from ..events import RobotSnapshot
 from ..readiness import SILENCE_LIMIT_S
@@ -18,18 +21,25 @@ LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
 _BYTES_PER_MB = 1e6
 # No sensor of the robot shows these, so a person has to check them before it drives around the Car.
 UNSEEN = {Check.GROUND: Finding.GROUND_UNSEEN, Check.CABLES: Finding.CABLES_UNSEEN,
-          Check.OPENINGS: Finding.OPENINGS_UNSEEN, Check.FITTINGS: Finding.FITTINGS_UNSEEN}
+          Check.OPENINGS: Finding.OPENINGS_UNSEEN, Check.FITTINGS: Finding.FITTINGS_UNSEEN,
+          Check.AREA: Finding.AREA_UNSEEN, Check.PEOPLE: Finding.PEOPLE_UNSEEN, Check.WEATHER: Finding.WEATHER_UNSEEN,
+          Check.LIGHT: Finding.LIGHT_UNSEEN, Check.CAR: Finding.CAR_UNSEEN,
+          Check.ATTENDANCE: Finding.ATTENDANCE_UNSEEN}
+# Items that ask for an operating condition, see domain.supervision.conditions.
+CONDITION_OF = {Check[name.upper()]: name for name in CONDITIONS}
 
 
 @dataclass(frozen=True)
 class Wanted:
     """The test that is about to begin. plan: None before one is chosen. limits: how many are loaded, 0 for none;
-    limits_problem: why they do not suit. ways: which of its lines are free, None before the Car is mapped."""
+    limits_problem: why they do not suit. ways: which of its lines are free, None before the Car is mapped.
+    confirmed: operating conditions that a person has confirmed."""
 
     plan: Plan | None = None
     limits: int = 0
     limits_problem: str = ""
     ways: Ways | None = None
+    confirmed: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -52,7 +62,7 @@ def checklist(facts: Facts) -> tuple[Item, ...]:
     robot = facts.robot
     items = list(_of_robot(robot, facts) if robot is not None and facts.silent_s < SILENCE_LIMIT_S
                  else _of_silence(facts.silent_s))
-    items += [Item(check, State.UNKNOWN, finding) for check, finding in UNSEEN.items()]
+    items += [_unseen(check, finding, facts) for check, finding in UNSEEN.items()]
     items += [_disk(facts.free_bytes), _limits(facts.wanted)]
     order = list(Check)
     return tuple(sorted(items, key=lambda item: order.index(item.check)))
@@ -61,6 +71,14 @@ def checklist(facts: Facts) -> tuple[Item, ...]:
 def hindrances(items: tuple[Item, ...]) -> tuple[Item, ...]:
     """Those with which no test begins."""
     return tuple(item for item in items if item.state is State.BAD)
+
+
+def _unseen(check: Check, finding: Finding, facts: Facts) -> Item:
+    if CONDITION_OF.get(check) in facts.wanted.confirmed:
+        return Item(check, State.GOOD, Finding.CONFIRMED)
+    opened = None if check is not Check.OPENINGS or facts.robot is None else first_active(facts.robot.signals, (DOOR,))
+    return Item(check, State.UNKNOWN, finding) if opened is None else \
+        Item(check, State.NOTE, Finding.OPENINGS_OPEN, opened.sentence)
 
 
 def _of_silence(silent_s: float) -> Iterator[Item]:
@@ -84,6 +102,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield from robot_checks.parts(status)
     yield robot_checks.battery(status.battery_percent, facts.wanted.plan)
     yield from car_checks.bus(robot)
+    yield car_checks.stop_signals(robot.signals)
     yield robot_checks.clock(robot.clock_ahead_s)
     yield car_checks.key(facts.answered_s)
 

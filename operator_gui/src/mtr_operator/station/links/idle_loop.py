@@ -123,7 +123,8 @@ class IdleLoop:
         if self._clock() - self._attended_s >= ABANDONED_S:
             status = replace(status, controlled_by_other=False)
         return RobotSnapshot(status, self._car.lock_state, self._car.problem, None, self._robot.is_secret,
-                             self._car.traffic, known_facts(self._car), self._robot.is_exposed)
+                             self._car.traffic, known_facts(self._car), self._robot.is_exposed,
+                             signals=tuple(self._car.signals))
 
     def _claim(self) -> None:
         self.claims, self._free_s = True, self._clock()

@@ -18,6 +18,7 @@ from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
+from mtr_operator.domain.supervision.supervision import Supervision
 from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
@@ -34,13 +35,14 @@ class Answers:
     """What the Operator says during a test.
 
     resumed_hold: see ControlLoop. person: who takes the Car's handle, switcher: who
-    switches an extender; None when nobody is there. skipping: see ControlLoop.
+    switches an extender; None when nobody is there. skipping, supervision: see ControlLoop.
     """
 
     resumed_hold: Callable[[int], int] = lambda _: 0
     person: HandlePort | None = None
     switcher: ExtenderPort | None = None
     skipping: Skipping = field(default_factory=Skipping)
+    supervision: Supervision = field(default_factory=Supervision)
 
 
 NO_ANSWERS = Answers()
@@ -103,7 +105,7 @@ class MeasurementRun:
             observer = EventObserver(reporter, self._event_log, test.scenario.line_word)
             loop = ControlLoop(robot, self._car, observer, is_cancelled, self._answers.resumed_hold)
             loop.person, loop.switcher = self._answers.person, self._answers.switcher
-            loop.skipping = self._answers.skipping
+            loop.skipping, loop.supervision = self._answers.skipping, self._answers.supervision
             loop.event_log = self._event_log
             loop.standstill = self._standstill or loop.standstill
             try:

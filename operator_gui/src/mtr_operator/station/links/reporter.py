@@ -30,7 +30,7 @@ class Reporter(RunObserver):
         """See RunObserver."""
         self._mailbox.put_robot(RobotSnapshot(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
                                               self._robot.is_secret, self._car.traffic, known_facts(self._car),
-                                              self._robot.is_exposed))
+                                              self._robot.is_exposed, signals=tuple(self._car.signals)))
         self._after_status()
 
     def on_plan(self, done: int, total: int) -> None:

@@ -7,7 +7,7 @@ import logging
 import queue
 import threading
 from dataclasses import replace
-from typing import Callable
+from typing import Callable, Sequence
 
 from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
 from mtr_operator.domain.actions.skipping import Skipping
@@ -17,6 +17,8 @@ from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.results.session_record import now
+from mtr_operator.domain.supervision.presence import Presence, PresenceParameters
+from mtr_operator.domain.supervision.supervision import Supervision
 
 from ..bus.bus_view import BusView
 from ..connection import CanChoice, Connection, LinkOpener
@@ -26,6 +28,7 @@ from ..events import (
     LinksOpened,
     Outcome,
     PersonWanted,
+    PresenceWanted,
     ProgressSaved,
     RobotSilent,
     StandstillSeen,
@@ -50,9 +53,9 @@ class Worker:
 
     def __init__(self, connection: Connection, opener: LinkOpener, mailbox: Mailbox,
                  new_standstill: Callable[[], Standstill] = lambda: Standstill(SILENCE_LIMIT_S),
-                 attention: Attention | None = None):
+                 attention: Attention | None = None, *, presence: PresenceParameters | None = None):
         """new_standstill: makes what notices that the laptop slept, for each run and for the time between them.
-        attention: notices that the view hangs; None for the mailbox's own."""
+        attention: notices that the view hangs; None for the mailbox's own. presence: when a person is asked for."""
         self._new_standstill = new_standstill
         self._standstill = new_standstill()
         self._attention = attention or Attention(lambda: mailbox.taken)
@@ -66,6 +69,7 @@ class Worker:
         self._stop = StopOrder()
         self._released_hold = 0
         self._skipping = Skipping()
+        self._presence = Presence(lambda is_wanted: mailbox.put(PresenceWanted(is_wanted)), presence)
         self._person = AskedPerson(lambda prompt: self._mailbox.put(PersonWanted(prompt)))
         self._thread = threading.Thread(target=self._run, name="links", daemon=True)
         self._links = Links(connection, opener, self._stop, self._event_log, self._released)
@@ -82,10 +86,11 @@ class Worker:
             self._thread.join(timeout_s)
         return not self._thread.is_alive()
 
-    def run_test(self, test: Test) -> None:
-        """Measure what is left of a test; Ended comes into the mailbox."""
+    def run_test(self, test: Test, confirmed: Sequence[str] = ()) -> None:
+        """Measure what is left of a test; Ended comes into the mailbox. Who orders it is present. confirmed: operating
+        conditions."""
         ticket = self._stop.ticket
-        self._requests.put(lambda: self._measure(test, ticket))
+        self._requests.put(lambda: self._measure(test, ticket, tuple(confirmed)))
 
     def lay_aside(self) -> None:
         """Leave the robot to other applications unless something else was ordered: no test is at hand any more."""
@@ -101,17 +106,25 @@ class Worker:
     def release_hold(self, hold_id: int) -> None:
         """Have the robot go on that is held under this id."""
         self._released_hold = hold_id
+        self._presence.confirm()
         self.note("Go on.")
 
     def skip_line(self, number: int) -> None:
         """Have a running test leave this line, if it is the one that is measured, and go on with the next one."""
         self._skipping.skip(number)
+        self._presence.confirm()
         self.note(f"Skip line {number}.")
 
     def answer(self, prompt: Prompt) -> None:
         """A person has done what this prompt asks for."""
         self._person.answer(prompt.number)
+        self._presence.confirm()
         self.note(prompt.done)
+
+    def confirm_presence(self) -> None:
+        """The Operator is present."""
+        self._presence.confirm()
+        self.note("Presence confirmed.")
 
     def save(self, test: Test) -> None:
         """Write a test's progress; Saved comes into the mailbox."""
@@ -243,15 +256,18 @@ class Worker:
         else:
             self._mailbox.put(ProgressSaved(test, ""))
 
-    def _measure(self, test: Test, ticket: int) -> None:
+    def _measure(self, test: Test, ticket: int, confirmed: tuple[str, ...]) -> None:
         self._links.close_robot()
         # A stop that came meanwhile stays in force, and ends the run at its first Status.
         self._stop.lift(ticket)
         unattended: list[str] = []
-        answers = Answers(self._released, self._person, self._person, self._skipping)
+        self._presence.confirm()
+        answers = Answers(self._released, self._person, self._person, self._skipping,
+                          Supervision(self._presence, confirmed=confirmed))
         run = MeasurementRun(test, self._links.new_robot, self._links.car, self._mailbox, answers,
                              event_log=self._event_log, standstill=self._new_standstill())
         ended = run.run(lambda: self._is_stopped(unattended), self._run_short_requests)
+        self._presence.end()
         self._links.has_paused = ended.outcome is not Outcome.COMPLETE
         self._mailbox.put(replace(ended, text=ended.text or "".join(unattended)))
         # What happened during the run was told there.

@@ -11,6 +11,7 @@ from ...prospect import Prospect
 from ...results.picture import Picture
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...supervision.announcements import HANDLES
 from ..line_search import campaign, prospect, search
 from ..line_search.prospect import SearchLimits, UsualWidths
 from ..line_search.result import SHARES
@@ -34,6 +35,7 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
     parameters_type = HandleRequestParameters
     result_type = HandleRequestResult
     distance_words = (HANDLE_WORD,)
+    announcement = HANDLES
 
     def lines(self, parameters: HandleRequestParameters, car: CarDimensions) -> list[HandleAxis]:
         """See axes_of."""

@@ -17,6 +17,7 @@ from ...results.picture import Picture, PointRole, PointSet, Stretch
 from ...results.quantity import Quantity
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...supervision.announcements import HANDLES
 from ...verdict.requirement import AT_MOST_PERCENT
 from ..handle.fields import ALL_SIDES
 from .axis_trial import RelayTrial, has_kept
@@ -44,6 +45,7 @@ class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResist
     parameters_type = RelayResistanceParameters
     result_type = RelayResistanceResult
     distance_words = (RELAY,)
+    announcement = HANDLES
 
     def lines(self, parameters: RelayResistanceParameters, car: CarDimensions) -> list[RelayAxis]:
         """Those of the side, or of all."""

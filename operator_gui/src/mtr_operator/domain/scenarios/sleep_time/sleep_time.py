@@ -21,6 +21,7 @@ from ...results.picture import Picture, PointRole, PointSet, Stretch
 from ...results.quantity import Quantity
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...supervision.announcements import HANDLES
 from ...verdict.requirement import AT_LEAST_S, AT_MOST_S
 from .parameters import SleepTimeParameters
 from .result import HELD, SLEEP_TIME, SleepTimeResult, rest_columns
@@ -57,6 +58,7 @@ class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult]):
     parameters_type = SleepTimeParameters
     result_type = SleepTimeResult
     distance_words = (HELD,)
+    announcement = HANDLES
 
     def lines(self, parameters: SleepTimeParameters, car: CarDimensions) -> list[HeldPlace]:
         """The middle of the side."""

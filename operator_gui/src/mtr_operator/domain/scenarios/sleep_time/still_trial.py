@@ -9,7 +9,7 @@ from typing import Mapping
 from ...actions.car import Car
 from ...actions.distance import Distance
 from ...actions.robot import Robot
-from ...actions.trouble import LineInvalid, LineSkipped
+from ...actions.trouble import LineInvalid, LineLeft
 from ...geometry.ray import Ray
 from ...results.line_result import LineStatus
 from ..handle.hand import Hand, HandTaken
@@ -62,7 +62,7 @@ class StillKey:
         while wait_s is not None:
             try:
                 self._trial(wait_s)
-            except (KeySilent, LineSkipped):
+            except (KeySilent, LineLeft):
                 raise
             except LineInvalid:
                 self.disturbed += 1

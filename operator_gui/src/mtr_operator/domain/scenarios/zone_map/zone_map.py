@@ -12,7 +12,7 @@ from ...actions.car import Car
 from ...actions.distance import Distance
 from ...actions.pose_history import worst_sigma
 from ...actions.robot import Robot
-from ...actions.trouble import LineInvalid, LineSkipped
+from ...actions.trouble import LineInvalid, LineLeft
 from ...estimation.field.zone_search import ZoneSearch
 from ...estimation.interval import FloatArray
 from ...estimation.press.radial_search import PRESSES_IN_DOUBT
@@ -24,6 +24,7 @@ from ...results.line_result import LineStatus
 from ...results.picture import Picture
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
+from ...supervision.announcements import BUTTONS
 from ..line_search.silence import MAX_SILENT_LINES, ask_when_lasting
 from ..press.button import press_once
 from .field import boundaries, place_array, search_in
@@ -73,6 +74,7 @@ class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
     parameters_type = ZoneMapParameters
     result_type = ZoneMapResult
     distance_words = (REACH,)
+    announcement = BUTTONS
 
     def lines(self, parameters: ZoneMapParameters, car: CarDimensions) -> list[Zone]:
         """All zones at all heights."""
@@ -137,7 +139,7 @@ def _search(search: ZoneSearch, zone: Zone, measured: _Measured,
         place = zone.places[index]
         try:
             made, worked = _press_at(place, parameters, robot, len(measured.worked) + len(measured.failed) + 1)
-        except LineSkipped:
+        except LineLeft:
             raise
         except LineInvalid:
             troubles += 1

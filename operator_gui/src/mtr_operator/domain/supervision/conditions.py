@@ -1,0 +1,21 @@
+"""Operating conditions that a person confirms before a test: no sensor of the robot shows them."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from typing import Sequence
+
+# As in the table odd of docs/safety/hazards.yaml, and what each of them demands, for who confirms it.
+CONDITIONS = {
+    "area": "closed or marked area, 2 m free around the paths; no edge, stairs, dock or kerb inside",
+    "people": "trained adults only; no person lies, kneels or works at the Car",
+    "ground": "dry or wet asphalt or concrete, steps and cables below 15 mm, slope at most 2 degrees",
+    "weather": "no ice, snow, heavy rain or fog; no low sun into a LiDAR; mean wind below 8 m/s",
+    "light": "lit area",
+    "car": "parking brake, gear P, chocks; cabin empty; doors, lids and windows closed; alarm off or announced",
+    "attendance": "one trained person within 10 m, in sight of the robot, with a hardware emergency stop",
+}
+
+
+def unconfirmed(confirmed: Sequence[str]) -> list[str]:
+    """Conditions that were not confirmed, in their order."""
+    return [name for name in CONDITIONS if name not in confirmed]
