@@ -1,10 +1,15 @@
 """What a test on a real robot requires: a person who is present and in charge, conditions, a preflight in motion."""
 # SPDX-License-Identifier: Apache-2.0
+import io
 import math
+import pathlib
 from dataclasses import replace
 
 import pytest
+import yaml
 
+from mtr_operator.cli.enter import Enter
+from mtr_operator.cli.release import PresenceQuestion
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import InvalidParameter, OperatorAbsent, RobotFailed
@@ -237,3 +242,18 @@ def test_no_test_begins_on_a_real_robot_without_a_preflight_in_motion(real_robot
     with pytest.raises(RobotFailed, match="the last one was made at rest"):
         real_robot(Supervision(presence, confirmed=ALL), report=replace(FINE, motion_made_s=math.nan))
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
+
+
+@pytest.mark.parametrize("name, words", [
+    ("key_press", "horn"), ("zone_map", "alarm"), ("handle_request", "alarm"), ("sleep_time", "alarm"),
+    ("relay_resistance", "alarm"), ("autolock", "horn")])
+def test_scenarios_that_press_or_pull_are_announced(name, words):
+    assert words in SCENARIOS[name].announcement and "ear protection" in SCENARIOS[name].announcement
+    said = []
+    PresenceQuestion(said.append, Enter(io.StringIO()), SCENARIOS[name].announcement).presence.ask()
+    assert SCENARIOS[name].announcement in said[0] and all(name in said[0] for name in CONDITIONS)
+
+
+def test_operating_conditions_are_those_of_the_hazard_file():
+    hazards = pathlib.Path(__file__).parents[3] / "docs" / "safety" / "hazards.yaml"
+    assert list(yaml.safe_load(hazards.read_text(encoding="utf-8"))["odd"]) == list(CONDITIONS)
