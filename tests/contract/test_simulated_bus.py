@@ -8,9 +8,9 @@ import pytest
 from mtr_operator.car_link.can_frame import CanFrame
 from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
-from mtr_operator.domain.car_signals import IGNITION, SPEED, SignalState
 from mtr_operator.domain.ports import KEY_BUTTON, LockState
 from mtr_operator.domain.robot_status import RobotStatus
+from mtr_operator.domain.supervision.car_signals import IGNITION, SPEED, SignalState
 from mtr_simulation.car.can_port import MemoryCanPort
 from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.car.honest.parameters import LockParameters, NoiseParameters, UhfParameters

@@ -5,8 +5,8 @@ import dataclasses
 import pytest
 from PyQt5.QtCore import Qt
 
-from mtr_operator.domain.car_signals import IGNITION, CarSignal, SignalState
 from mtr_operator.domain.robot_status import PreflightReport
+from mtr_operator.domain.supervision.car_signals import IGNITION, CarSignal, SignalState
 from mtr_operator.domain.supervision.conditions import CONDITIONS
 from mtr_operator.station.alert import Alert, Heard, alert_of
 from mtr_operator.station.links import worker

@@ -8,11 +8,11 @@ from further_car import DOORS, DOORS_ID, OTHER_ID, Bench, written
 from mtr_operator.car_link.profile import load_profile, profile_names
 from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.domain.actions.control_loop import ControlLoop
-from mtr_operator.domain.car_signals import DOOR, GEAR, IGNITION, SPEED, SignalState, unknown_unless_active
 from mtr_operator.domain.errors import CarActive, ConnectionFailed, RobotFailed
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.supervision.car_signals import DOOR, GEAR, IGNITION, SPEED, SignalState, unknown_unless_active
 from mtr_operator.robot_link.fake import FakeRobotLink
 
 SAFE, ACTIVE, UNKNOWN = SignalState.SAFE, SignalState.ACTIVE, SignalState.UNKNOWN

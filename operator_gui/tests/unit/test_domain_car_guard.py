@@ -5,10 +5,10 @@ import math
 import pytest
 
 from mtr_operator.domain.actions.skipping import Skipping
-from mtr_operator.domain.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignal, SignalState
 from mtr_operator.domain.errors import CarActive
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.supervision.car_guard import DOOR_CLOSING_S, CarGuard
+from mtr_operator.domain.supervision.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignal, SignalState
 
 SAFE, ACTIVE, UNKNOWN = SignalState.SAFE, SignalState.ACTIVE, SignalState.UNKNOWN
 AUTOLOCK = SCENARIOS["autolock"]

@@ -146,6 +146,14 @@ def test_no_test_begins_on_a_robot_whose_disk_is_full(session, spoil, robot_link
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
 
 
+def test_no_test_begins_with_a_data_sheet_that_the_car_contradicts(session, spoil, robot_link):
+    told = Notification("sheet_contradicted", 3, "The Car was found. Its data sheet is contradicted.")
+    spoil(lambda status: True, notifications=(told,))
+    with pytest.raises(RobotFailed, match=r"^The Car was found\. Its data sheet is contradicted\.$"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert not any(desired.waypoint for _, desired in robot_link.answers)
+
+
 @pytest.mark.parametrize("percent", [0, 9])
 def test_no_test_begins_on_a_robot_whose_battery_is_nearly_empty(session, spoil, robot_link, percent):
     spoil(lambda status: True, battery_percent=percent)

@@ -6,7 +6,6 @@ import math
 import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
-from mtr_operator.domain.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignal, SignalState
 from mtr_operator.domain.ports import BusTraffic, LockState
 from mtr_operator.domain.robot_status import (
     CarDimensions,
@@ -19,6 +18,7 @@ from mtr_operator.domain.robot_status import (
     RobotStatus,
 )
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.supervision.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignal, SignalState
 from mtr_operator.domain.supervision.conditions import CONDITIONS
 from mtr_operator.station.alert import Alert, Heard, alert_of
 from mtr_operator.station.checks.check_texts import check_advice, check_text

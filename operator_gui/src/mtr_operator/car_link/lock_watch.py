@@ -5,9 +5,9 @@ from __future__ import annotations
 import collections
 import math
 
-from mtr_operator.domain.car_signals import CarSignal
 from mtr_operator.domain.ports import CarEvent, LockState, Refused
 from mtr_operator.domain.robot_status import RobotStatus
+from mtr_operator.domain.supervision.car_signals import CarSignal
 
 from .can_frame import CanFrame
 from .clocks.frame_time import FrameTime

@@ -21,8 +21,8 @@ from .robot_status import RobotStatus
 
 if TYPE_CHECKING:
     from .assistance import ExtenderPort, HandlePort
-    from .car_signals import CarSignals
     from .distance_feed import DistanceFeed
+    from .supervision.car_signals import CarSignals
 
 
 class LockState(enum.Enum):

@@ -167,6 +167,8 @@ class CarCheck:
 
 # Code of the notification with which no test begins; the measurement itself is on the laptop, so one that runs goes on.
 DISK_FULL_CODE = "disk_full"
+# Code of the notification with which no test begins: the scans contradict the Car's data sheet.
+SHEET_CONTRADICTED_CODE = "sheet_contradicted"
 # The application in control has fallen silent.
 LINK_LOST_CODE = "link_lost"
 

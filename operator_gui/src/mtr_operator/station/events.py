@@ -7,12 +7,12 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Union
 
-from mtr_operator.domain.car_signals import CarSignal
 from mtr_operator.domain.eventlog.entry import EventEntry
 from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, PreflightReport, RobotStatus
+from mtr_operator.domain.supervision.car_signals import CarSignal
 
 from .handle_prompt import Prompt
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.battery.levels import is_critical, is_low
-from mtr_operator.domain.car_signals import first_active
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import (
     DISK_FULL_CODE,
@@ -16,6 +15,7 @@ from mtr_operator.domain.robot_status import (
     RobotStatus,
     WaypointResult,
 )
+from mtr_operator.domain.supervision.car_signals import first_active
 from mtr_operator.domain.supervision.preflight_rule import preflight_hindrance
 
 from .events import RobotSnapshot

@@ -102,7 +102,7 @@ class LocatedCar:
                            side_sigmas=self.fit.side_sigmas.moved(*change.sigmas[:2]))
         self.revision, self.correction = self.revision + 1, change.motion
         self._refinement = Refinement(self.fit, self._parameters)
-        self.message = problems.CORRECTED(shift_cm=shift_cm, turn_deg=turn_deg, revision=self.revision)
+        self.message = told(self.fit, problems.CORRECTED(shift_cm=shift_cm, turn_deg=turn_deg, revision=self.revision))
 
 
 def found(fit: CarFit) -> Problem:
@@ -111,5 +111,11 @@ def found(fit: CarFit) -> Problem:
     if fit.by_wheels:
         is_known = fit.length_sigma < KNOWN_SIGMA_M
         sentence = problems.FOUND_BY_WHEELS if is_known else problems.FOUND_BY_WHEELS_ALONE
-    return sentence(length_m=fit.rectangle.length, length_sigma_cm=100.0 * fit.length_sigma,
-                    width_m=fit.rectangle.width, width_sigma_cm=100.0 * fit.width_sigma)
+    return told(fit, sentence(
+        length_m=fit.rectangle.length, length_sigma_cm=100.0 * fit.length_sigma, width_m=fit.rectangle.width,
+        width_sigma_cm=100.0 * fit.width_sigma))
+
+
+def told(fit: CarFit, message: Problem) -> Problem:
+    """The message, within the one on a data sheet that the Car contradicts."""
+    return problems.SHEET_CONTRADICTED(cause=message, details=fit.contradiction) if fit.contradiction else message

@@ -27,6 +27,11 @@ CORRECTED = Sentence(
     "The Car's frame was corrected by {shift_cm:.1f} cm and {turn_deg:.2f} deg, as it is seen now; it has revision "
     "{revision}.")
 
+SHEET_CONTRADICTED = Sentence(
+    "car_locator.sheet_contradicted",
+    "{cause} Its data sheet is contradicted: {details} No test begins like this: enter the measures of the Car that stands "
+    "there (car_file), restart the robot and map again.")
+
 # Not located, or lost
 NOT_FOUND = Sentence("car_locator.not_found",
                      "The Car was not found. {cause} Put the robot at the starting place and map again.")

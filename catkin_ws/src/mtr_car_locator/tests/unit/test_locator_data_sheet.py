@@ -7,6 +7,7 @@ import pytest
 from locator_surfels import LENGTH_M, WIDTH_M, box, prior, surfels
 
 from mtr_car_locator.find.fit import fit_car
+from mtr_car_locator.located import found
 from mtr_car_locator.parameters import DataSheet, LocatorParameters
 
 
@@ -70,3 +71,17 @@ def test_end_that_was_not_seen_is_not_compared():
     fit = fit_with(sides=("front", "left", "right"), known_length_m=LENGTH_M + 0.3)
     assert fit.in_plane.length is None and "than its data sheet" not in fit.warning
     assert fit.rectangle.length == LENGTH_M + 0.3
+
+
+@pytest.mark.parametrize("sheet, is_contradicted", [
+    ({"known_length_m": LENGTH_M - 0.05}, True), ({"known_width_m": WIDTH_M + 0.2}, True),
+    ({"known_length_m": LENGTH_M + 0.06, "known_width_m": WIDTH_M + 0.06}, False), ({}, False),
+    # Vague ends are a warning, and no contradiction.
+    ({"known_length_m": LENGTH_M + 0.119}, False)])
+def test_contradicted_data_sheet_is_what_the_locator_tells(sheet, is_contradicted):
+    fit = fit_with(**sheet)
+    assert bool(fit.contradiction) is is_contradicted and fit.contradiction in fit.warning
+    message = found(fit)
+    assert (message.code == "car_locator.sheet_contradicted") is is_contradicted
+    assert [each.code for each in message.chain()][-1] == "car_locator.found"
+    assert fit.contradiction in message.text and "The Car was found" in message.text

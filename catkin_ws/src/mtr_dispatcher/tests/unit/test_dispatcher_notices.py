@@ -16,7 +16,7 @@ from mtr_dispatcher.parameters import Parameters
 from mtr_dispatcher.status.builder import Identity
 from mtr_dispatcher.status.emergency import EmergencyStop
 from mtr_dispatcher.status.inputs import Inputs
-from mtr_msgs.msg import DriveStatus
+from mtr_msgs.msg import CarEstimate, DriveStatus
 from mtr_msgs.msg import Problem as ProblemMessage
 from mtr_proto import robot_link_pb2 as link
 
@@ -112,3 +112,16 @@ def test_few_nodes_are_told_and_a_master_that_does_not_answer_changes_nothing(tr
     master.update()
     master.update()
     assert list(master.failures) == ["node_0", "node_1", "node_10", "node_11"]
+
+
+@pytest.mark.parametrize("state, code, is_told", [
+    (CarEstimate.LOCATED, "car_locator.sheet_contradicted", True), (CarEstimate.LOCATED, "car_locator.found", False),
+    (CarEstimate.LOCATED, "", False), (CarEstimate.COLLECTING, "car_locator.sheet_contradicted", False),
+    (CarEstimate.FAILED, "car_locator.sheet_contradicted", False)])
+def test_data_sheet_that_the_car_contradicts_is_told_while_the_car_is_located(state, code, is_told):
+    told = [ProblemMessage(code=code, text="Contradicted.")] if code else []
+    car = CarEstimate(state=state, message="Contradicted.", problems=told)
+    core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
+    message = link.Status.FromString(core.status(Inputs(1.0, car=car)))
+    notices = [(notice.severity, notice.text) for notice in message.notifications if notice.code == "sheet_contradicted"]
+    assert notices == ([(link.SEVERITY_ERROR, "Contradicted.")] if is_told else [])

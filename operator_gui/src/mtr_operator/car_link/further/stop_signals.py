@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from mtr_operator.domain.car_signals import GEAR, IGNITION, SPEED
+from mtr_operator.domain.supervision.car_signals import GEAR, IGNITION, SPEED
 
 from .entries import Entries, is_whole
 
@@ -20,7 +20,7 @@ _KEYS = PLACE_KEYS | {"safe", "unknown"}
 
 @dataclass(frozen=True, eq=False)
 class StopSignal:
-    """kind: see domain.car_signals. safe: raw values with which the robot may move. unknown: values without
+    """kind: see domain.supervision.car_signals. safe: raw values with which the robot may move. unknown: values without
     information. Any other value stops the robot."""
 
     kind: str

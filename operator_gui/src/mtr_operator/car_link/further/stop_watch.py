@@ -7,7 +7,7 @@ import math
 from dataclasses import dataclass
 from typing import Callable
 
-from mtr_operator.domain.car_signals import DOOR, CarSignal, SignalState
+from mtr_operator.domain.supervision.car_signals import DOOR, CarSignal, SignalState
 
 from ..database.codec import SignalReader
 from .declared import Further, MessageKey, Place

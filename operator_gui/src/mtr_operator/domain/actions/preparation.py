@@ -7,7 +7,13 @@ from typing import Callable
 from ..battery.levels import is_critical
 from ..errors import CarActive, RobotFailed
 from ..geometry.ray import Ray
-from ..robot_status import DISK_FULL_CODE, CarCheck, Mode, RobotStatus
+from ..robot_status import (
+    DISK_FULL_CODE,
+    SHEET_CONTRADICTED_CODE,
+    CarCheck,
+    Mode,
+    RobotStatus,
+)
 from ..supervision.preflight_rule import preflight_hindrance
 from .area import await_area
 from .car import Car
@@ -46,6 +52,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
         robot.say("map the Car")
         robot.go_to(_AHEAD_OF_CAR, _AHEAD_M)
         _wait_until(loop, MAPPING_LIMIT_S, "did not find the Car", _is_ready)
+    _refuse_contradicted_sheet(loop.status)
 
 
 def check_car(robot: Robot) -> CarCheck | None:
@@ -116,6 +123,12 @@ def _refuse_with_bad_charge(loop: ControlLoop) -> None:
     if is_critical(percent):
         raise RobotFailed(f"The robot's battery is nearly empty ({percent} %); charge it, then begin "
                           "the test.")
+
+
+def _refuse_contradicted_sheet(status: RobotStatus) -> None:
+    for notification in status.notifications:
+        if notification.code == SHEET_CONTRADICTED_CODE:
+            raise RobotFailed(notification.text)
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:

@@ -6,7 +6,7 @@ import contextlib
 import math
 from typing import Iterator
 
-from ..car_signals import DOOR, CarSignal, CarSignals, SignalState, first_active
+from .car_signals import DOOR, CarSignal, CarSignals, SignalState, first_active
 
 # Robot time in which a person closes a door that was pulled open with the handle.
 DOOR_CLOSING_S = 5.0

@@ -20,12 +20,12 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
-from ..forms.conditions_form import ConditionsForm
 from ..forms.given_form import GivenForm
 from ..forms.hold_button import HoldButton
 from ..forms.identity_form import IdentityForm
 from ..forms.parameter_form import ParameterForm
 from ..header.check_texts import check_text
+from ..header.conditions_form import ConditionsForm
 from ..i18n import duration, number
 from ..names import domain_word, scenario_title
 from ..pictures.layers.car_layer import CarLayer

@@ -6,8 +6,16 @@ import math
 from typing import Iterator
 
 from mtr_operator.domain.absent_car import NO_ADAPTER
-from mtr_operator.domain.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignals, SignalState, first_active
 from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.supervision.car_signals import (
+    DOOR,
+    GEAR,
+    IGNITION,
+    SPEED,
+    CarSignals,
+    SignalState,
+    first_active,
+)
 
 from ..events import RobotSnapshot
 from .finding import Check, Finding, Item, State

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Iterator
 
-from mtr_operator.domain.car_signals import DOOR, first_active
+from mtr_operator.domain.supervision.car_signals import DOOR, first_active
 from mtr_operator.domain.supervision.conditions import CONDITIONS
 
 from ..estimate import Plan

@@ -53,6 +53,7 @@ class CarFit:
         by_wheels: length and centre are derived from the wheels only.
         in_plane: measured size in the scan plane.
         warning: sentence about a contradicting data sheet.
+        contradiction: the part of the warning about contradictions; empty if the data sheet may be of this Car.
         side_sigmas: 1 sigma of each side; front and rear may differ.
         range_bias: constant range errors of the LiDARs that the surfels are corrected for; scans that are compared with
             them need the same correction. Zero for surfels of uncorrected ranges, which share the bias with new scans.
@@ -71,3 +72,4 @@ class CarFit:
     warning: str = ""
     range_bias: RangeBias = NO_BIAS
     side_sigmas: SideSigmas = UNKNOWN_SIDES
+    contradiction: str = ""

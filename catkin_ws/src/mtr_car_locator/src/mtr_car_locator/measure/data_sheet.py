@@ -18,11 +18,12 @@ INSET_SIGMAS = 2.0
 VAGUE_M = 0.02
 
 
-def with_data_sheet(fit: CarFit, sheet: DataSheet, warning: str) -> CarFit:
+def with_data_sheet(fit: CarFit, sheet: DataSheet, warning: str, contradiction: str = "") -> CarFit:
     """Return the fit with length and width of the data sheet, if given, and an outline of that size."""
     car = fit.rectangle
     car = replace(car, length=sheet.known_length_m or car.length, width=sheet.known_width_m or car.width)
-    return replace(fit, rectangle=car, outline=_grown(fit.outline, car), warning=warning)
+    return replace(fit, rectangle=car, outline=_grown(fit.outline, car), warning=warning,
+                   contradiction=contradiction)
 
 
 def _grown(outline: Tuple[Point, ...], car: Rectangle) -> Tuple[Point, ...]:
@@ -36,6 +37,11 @@ def _grown(outline: Tuple[Point, ...], car: Rectangle) -> Tuple[Point, ...]:
 
 def warning_of(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> str:
     """Return sentences about contradictions of the data sheet or about ends with a large uncertainty; empty if none."""
+    return " ".join(filter(None, (contradiction_of(extents, ends, sheet), _vagueness_of(ends, sheet))))
+
+
+def contradiction_of(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> str:
+    """Return sentences about contradictions of the data sheet; empty if none."""
     found = [_disagreement("wide", [extents.get(name) for name in LONG_SIDES], sheet.known_width_m, 2.0 * MAX_INSET_M)]
     if sheet.known_length_m:
         insets_m = INSET_SIGMAS * math.hypot(sheet.front_inset_sigma_m, sheet.rear_inset_sigma_m)
@@ -43,11 +49,15 @@ def warning_of(extents: Dict[str, SideExtent], ends: Ends, sheet: DataSheet) -> 
     if ends.front_beyond_m:
         found.append(_end_elsewhere("front", -ends.front_beyond_m))
     found += _ends_that_disagree(extents, ends, sheet)
+    return " ".join(filter(None, found))
+
+
+def _vagueness_of(ends: Ends, sheet: DataSheet) -> str:
     if sheet.known_length_m and max(ends.front_sigma_m, ends.rear_sigma_m) > VAGUE_M:
         vague_cm = 100.0 * max(ends.front_sigma_m, ends.rear_sigma_m)
-        found.append(f"The Car's front and rear are known to {vague_cm:.1f} cm (1 sigma) only; front_overhang_m and "
-                     "wheelbase_m of its data sheet make them more exact.")
-    return " ".join(filter(None, found))
+        return (f"The Car's front and rear are known to {vague_cm:.1f} cm (1 sigma) only; front_overhang_m and "
+                "wheelbase_m of its data sheet make them more exact.")
+    return ""
 
 
 def _disagreement(name: str, pair: List[Optional[SideExtent]], known_m: float, most_m: float) -> str:

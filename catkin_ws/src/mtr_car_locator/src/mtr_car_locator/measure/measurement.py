@@ -16,7 +16,7 @@ from .axles import Axles
 from .belonging import belongs
 from .car_fit import CarFit, PlaneSize, SideSigmas
 from .close_up import CloseUp
-from .data_sheet import warning_of, with_data_sheet
+from .data_sheet import contradiction_of, warning_of, with_data_sheet
 from .ends import EndEvidence, Ends, Estimate, ends_of
 from .incidence import MIN_INCIDENCE_COSINE
 from .outline import outline_of
@@ -74,7 +74,8 @@ def measured(seen: Surfels, found: AlignedCar, sheet: DataSheet, close_up: Optio
                  sides.width_sigma_m, names, mine, 0.0, wheels is not None,
                  PlaneSize() if wheels else _plane_size(extents), side_sigmas=SideSigmas(
                      ends.front_sigma_m, ends.rear_sigma_m, *sides.side_sigmas_m))
-    return with_data_sheet(fit, sheet, warning_of(extents if not wheels else {}, ends, sheet))
+    compared = extents if not wheels else {}
+    return with_data_sheet(fit, sheet, warning_of(compared, ends, sheet), contradiction_of(compared, ends, sheet))
 
 
 def _in_plane(rough: Rectangle, car: Rectangle, ends: Ends, seen: Dict[str, SideExtent]) -> Rectangle:

@@ -59,6 +59,8 @@ class CarFields(Stamped, Protocol):
     correction_x: float
     correction_y: float
     correction_heading: float
+    message: str
+    problems: Sequence[ProblemFields]
 
 
 class ModeFields(Stamped, Protocol):

@@ -4,7 +4,7 @@ import math
 from typing import Dict, Iterator, List, NamedTuple, Tuple
 
 from mtr_core.problems import NO_PROBLEM, Problem, problem_of
-from mtr_core.states import State
+from mtr_core.states import CarState, State
 
 from .. import problems
 from ..parameters import Parameters
@@ -27,6 +27,8 @@ PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
 BORDER_OF_DRIVE = ("drive_control.area_", "drive_control.outside_area")
 # A robot that waits for a test area: the Operator has to act.
 AREA_CODES = (problems.NO_AREA.code, problems.AREA_OF_OTHER_ORIGIN.code, problems.FIXED_AREA_OF_OTHER_ORIGIN.code)
+# Of the Car locator: no test begins with such a data sheet.
+SHEET_CONTRADICTED = "car_locator.sheet_contradicted"
 # Of a motion lock whose owner is silent; these two are missed by name.
 SILENT_LOCKS = ("drive_control.lock_silent", "drive_control.waiting_for_lock")
 MISSED_OTHERWISE = ("dispatcher", "state_machine")
@@ -97,6 +99,7 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
     if fresh.full_disk is not None:
         yield Notice("disk_full", ERROR, problems.DISK_FULL(folder=fresh.full_disk.folder,
                                                             needed_mb=fresh.full_disk.needed_mb))
+    yield from _car_notices(fresh)
     yield from _mode_notices(fresh)
     if fresh.pose is not None and not fresh.pose.valid:
         yield Notice("not_localized", ERROR, problem_of(fresh.pose.problems, fresh.pose.message)
@@ -105,6 +108,12 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
     yield from _peripherals_notices(fresh, parameters.low_battery)
     if parameters.warn_without_emergency_stop and fresh.emergency_stop is EmergencyStop.ABSENT:
         yield Notice("no_emergency_stop", ERROR, problems.NO_EMERGENCY_STOP())
+
+
+def _car_notices(fresh: Inputs) -> Iterator[Notice]:
+    car = fresh.car
+    if car is not None and car.state == CarState.LOCATED and car.problems and car.problems[0].code == SHEET_CONTRADICTED:
+        yield Notice("sheet_contradicted", ERROR, problem_of(car.problems, car.message))
 
 
 def _mode_notices(fresh: Inputs) -> Iterator[Notice]:

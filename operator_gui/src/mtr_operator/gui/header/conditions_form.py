@@ -9,9 +9,9 @@ from mtr_operator.domain.scenario import AnyScenario
 from mtr_operator.domain.supervision.conditions import CONDITIONS
 
 from ..fitting.prose import Prose
-from ..header.check_texts import condition_text, condition_title
 from ..sentences import translated
 from ..theme.scale import M, S
+from .check_texts import condition_text, condition_title
 
 
 class ConditionsForm(QWidget):
