@@ -105,8 +105,8 @@ def test_application_reads_ignition_and_speed_of_every_simulated_car(name):
                 watch.frame(CanFrame(frame.can_id, False, frame.data, frame.time_ns * 1e-9))
             port.frames.clear()
         return {signal.kind: signal.state for signal in watch.signals}
-    assert states(50) == {IGNITION: SignalState.SAFE, SPEED: SignalState.SAFE}
+    assert states(50) == {IGNITION: SignalState.CLEAR, SPEED: SignalState.CLEAR}
     car.vehicle.ignition_on = True
-    assert states(150) == {IGNITION: SignalState.ACTIVE, SPEED: SignalState.SAFE}
+    assert states(150) == {IGNITION: SignalState.ACTIVE, SPEED: SignalState.CLEAR}
     car.vehicle.ignition_on, car.vehicle.speed_kmh = False, 0.01
-    assert states(250) == {IGNITION: SignalState.SAFE, SPEED: SignalState.ACTIVE}
+    assert states(250) == {IGNITION: SignalState.CLEAR, SPEED: SignalState.ACTIVE}

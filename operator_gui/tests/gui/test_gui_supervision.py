@@ -119,7 +119,7 @@ def test_question_makes_a_sound():
 
 
 def test_ignition_pauses_the_test_and_hinders_its_resumption(operator, monkeypatch):
-    state = [SignalState.SAFE]
+    state = [SignalState.CLEAR]
     link = operator.application.flow.connecting.worker._links.car._link
     monkeypatch.setattr(type(link), "signals", property(
         lambda _: (CarSignal(IGNITION, "Terminal of Power", state[0]),)))
@@ -130,7 +130,7 @@ def test_ignition_pauses_the_test_and_hinders_its_resumption(operator, monkeypat
     assert screen.trouble.text() == ("The robot was stopped. The Car's ignition is on (signal Terminal of Power). "
                                      "Secure the Car, then continue the test.")
     operator.wait(lambda: not screen.resume.isEnabled())
-    state[0] = SignalState.SAFE
+    state[0] = SignalState.CLEAR
     operator.wait(screen.resume.isEnabled)
 
 

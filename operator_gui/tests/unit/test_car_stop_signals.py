@@ -15,9 +15,9 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.supervision.car_signals import DOOR, GEAR, IGNITION, SPEED, SignalState, unknown_unless_active
 from mtr_operator.robot_link.fake import FakeRobotLink
 
-SAFE, ACTIVE, UNKNOWN = SignalState.SAFE, SignalState.ACTIVE, SignalState.UNKNOWN
+CLEAR, ACTIVE, UNKNOWN = SignalState.CLEAR, SignalState.ACTIVE, SignalState.UNKNOWN
 # The signals of the message of causes stand for others.
-GEARS = "stop_signals: {gear: {message: Cause, signal: Key, safe: [3], unknown: [15]}}\n"
+GEARS = "stop_signals: {gear: {message: Cause, signal: Key, parked: [3], unknown: [15]}}\n"
 
 
 def states(bench):
@@ -25,7 +25,7 @@ def states(bench):
     return {signal.kind + signal.name: signal.state for signal in bench.watch.signals}
 
 
-@pytest.mark.parametrize("raw, state", [(3, SAFE), (0, ACTIVE), (4, ACTIVE), (14, ACTIVE), (15, UNKNOWN)])
+@pytest.mark.parametrize("raw, state", [(3, CLEAR), (0, ACTIVE), (4, ACTIVE), (14, ACTIVE), (15, UNKNOWN)])
 def test_value_that_is_not_listed_as_safe_stops(tmp_path, raw, state):
     bench = Bench(written(tmp_path, GEARS))
     bench.key = raw
@@ -37,13 +37,13 @@ def test_value_that_is_not_listed_as_safe_stops(tmp_path, raw, state):
 
 def test_doors_of_the_profile_are_signals_too(tmp_path):
     bench = Bench(written(tmp_path, DOORS))
-    assert states(bench) == {DOOR + "driver": SAFE, DOOR + "passenger": SAFE}
+    assert states(bench) == {DOOR + "driver": CLEAR, DOOR + "passenger": CLEAR}
     bench.doors = 2
     bench.run(0.1)
-    assert states(bench) == {DOOR + "driver": SAFE, DOOR + "passenger": ACTIVE}
+    assert states(bench) == {DOOR + "driver": CLEAR, DOOR + "passenger": ACTIVE}
 
 
-@pytest.mark.parametrize("silence_s, state", [(1.9, SAFE), (2.2, UNKNOWN)])
+@pytest.mark.parametrize("silence_s, state", [(1.9, CLEAR), (2.2, UNKNOWN)])
 def test_safe_signal_that_falls_silent_is_unknown(tmp_path, silence_s, state):
     bench = Bench(written(tmp_path, DOORS))
     send = bench.send
@@ -68,7 +68,7 @@ def test_reopened_adapter_knows_nothing_until_the_next_frames(tmp_path):
     bench.watch.restart()
     assert set(states(bench).values()) == {UNKNOWN}
     bench.run(0.1)
-    assert set(states(bench).values()) == {SAFE}
+    assert set(states(bench).values()) == {CLEAR}
 
 
 def test_frame_too_short_for_the_signal_reports_nothing(tmp_path):
@@ -80,16 +80,16 @@ def test_frame_too_short_for_the_signal_reports_nothing(tmp_path):
 
 @pytest.mark.parametrize("lines, words", [
     ("stop_signals: [gear]\n", "stop_signals must be a table of ignition, gear, speed"),
-    ("stop_signals: {brake: {message: Cause, signal: Key, safe: [0]}}\n", "must be a table of ignition, gear, speed"),
-    ("stop_signals: {gear: {signal: Key, safe: [0]}}\n", "gear of stop_signals must be a table of message, signal and"),
-    ("stop_signals: {gear: {message: Cause, signal: Key, safe: [0], on: [1]}}\n", "bus and unknown are optional"),
-    ("stop_signals: {gear: {message: Cause, signal: Key, safe: []}}\n", "gear of stop_signals has no safe value"),
-    ("stop_signals: {gear: {message: Cause, signal: Key, safe: [16]}}\n", "no safe value that the signal Key can"),
-    ("stop_signals: {gear: {message: Cause, signal: Key, safe: 3}}\n", "has safe: 3; allowed is a list of whole"),
-    ("stop_signals: {gear: {message: Cause, signal: Key, safe: [yes]}}\n", "allowed is a list of whole numbers"),
-    ("stop_signals: {gear: {message: Cause, signal: Key, safe: [1], unknown: [1]}}\n", "lists 1 as safe and as"),
-    ("stop_signals: {gear: {message: Cause, signal: What, safe: [1]}}\n", "has no signal"),
-    ("stop_signals: {gear: {bus: body, message: Cause, signal: Key, safe: [1]}}\n", "the bus body, which is not in")])
+    ("stop_signals: {brake: {message: Cause, signal: Key, parked: [0]}}\n", "must be a table of ignition, gear, speed"),
+    ("stop_signals: {gear: {signal: Key, parked: [0]}}\n", "gear of stop_signals must be a table of message, signal"),
+    ("stop_signals: {gear: {message: Cause, signal: Key, parked: [0], on: [1]}}\n", "bus and unknown are optional"),
+    ("stop_signals: {gear: {message: Cause, signal: Key, parked: []}}\n", "gear of stop_signals has no parked value"),
+    ("stop_signals: {gear: {message: Cause, signal: Key, parked: [16]}}\n", "no parked value that the signal Key can"),
+    ("stop_signals: {gear: {message: Cause, signal: Key, parked: 3}}\n", "has parked: 3; allowed is a list of whole"),
+    ("stop_signals: {gear: {message: Cause, signal: Key, parked: [yes]}}\n", "allowed is a list of whole numbers"),
+    ("stop_signals: {gear: {message: Cause, signal: Key, parked: [1], unknown: [1]}}\n", "lists 1 as parked and as"),
+    ("stop_signals: {gear: {message: Cause, signal: What, parked: [1]}}\n", "has no signal"),
+    ("stop_signals: {gear: {bus: body, message: Cause, signal: Key, parked: [1]}}\n", "the bus body, which is not in")])
 def test_wrong_entry_is_a_sentence(tmp_path, lines, words):
     with pytest.raises(ConnectionFailed, match=words):
         load_profile(written(tmp_path, lines))

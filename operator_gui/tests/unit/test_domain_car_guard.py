@@ -10,7 +10,7 @@ from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.supervision.car_guard import DOOR_CLOSING_S, CarGuard
 from mtr_operator.domain.supervision.car_signals import DOOR, GEAR, IGNITION, SPEED, CarSignal, SignalState
 
-SAFE, ACTIVE, UNKNOWN = SignalState.SAFE, SignalState.ACTIVE, SignalState.UNKNOWN
+CLEAR, ACTIVE, UNKNOWN = SignalState.CLEAR, SignalState.ACTIVE, SignalState.UNKNOWN
 AUTOLOCK = SCENARIOS["autolock"]
 ONE_A_SIDE = {"measurements_distance_m": 10.0, "self_check": False}
 
@@ -36,7 +36,7 @@ def run_until_active(run_scenario, world, kind, scenario=AUTOLOCK, *, parameters
     """A test in which the signal becomes active 2 s after a line has begun; the error that ends it."""
     moments = Moments(world)
     world.signals = lambda time_s: signals(
-        kind, ACTIVE if time_s >= moments.begun.get(line, math.inf) + 2.0 else SAFE)
+        kind, ACTIVE if time_s >= moments.begun.get(line, math.inf) + 2.0 else CLEAR)
     with pytest.raises(CarActive) as error:
         run_scenario(scenario, scenario.parameters_type.from_mapping(parameters), skipping=moments)
     return error.value, moments
@@ -89,7 +89,7 @@ def test_no_test_begins_while_a_signal_is_active(run_scenario, world, robot_link
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
 
 
-@pytest.mark.parametrize("told", [(), signals(IGNITION, UNKNOWN), signals(IGNITION, SAFE), signals(DOOR, ACTIVE)],
+@pytest.mark.parametrize("told", [(), signals(IGNITION, UNKNOWN), signals(IGNITION, CLEAR), signals(DOOR, ACTIVE)],
                          ids=["not named", "silent", "off", "door open from the start"])
 def test_what_is_unknown_or_was_open_before_stops_nothing(run_scenario, world, told):
     world.signals = lambda time_s: told
@@ -111,23 +111,23 @@ def test_door_that_was_open_counts_once_it_was_closed():
     assert not guard.learn(signals(DOOR, ACTIVE), 1.0)
     # Silence is no closing.
     assert not guard.learn(signals(DOOR, UNKNOWN), 2.0) and not guard.learn(signals(DOOR, ACTIVE), 3.0)
-    assert not guard.learn(signals(DOOR, SAFE), 4.0) and guard.learn(signals(DOOR, ACTIVE), 5.0)
+    assert not guard.learn(signals(DOOR, CLEAR), 4.0) and guard.learn(signals(DOOR, ACTIVE), 5.0)
 
 
 def test_door_may_open_while_its_handle_is_pulled_and_is_closed_soon():
     guard = CarGuard()
-    guard.begin(signals(DOOR, SAFE))
+    guard.begin(signals(DOOR, CLEAR))
     with guard.handle_pulled():
         assert not guard.learn(signals(DOOR, ACTIVE), 100.0)
     assert not guard.learn(signals(DOOR, ACTIVE), 101.0)
-    assert not guard.learn(signals(DOOR, SAFE), 102.0)
+    assert not guard.learn(signals(DOOR, CLEAR), 102.0)
     assert not guard.learn(signals(DOOR, ACTIVE), 101.0 + DOOR_CLOSING_S - 0.1)
     assert guard.learn(signals(DOOR, ACTIVE), 101.0 + DOOR_CLOSING_S)
 
 
 def test_robot_clock_that_is_set_back_gives_a_door_no_more_time():
     guard = CarGuard()
-    guard.begin(signals(DOOR, SAFE))
+    guard.begin(signals(DOOR, CLEAR))
     with guard.handle_pulled():
         guard.learn(signals(DOOR, ACTIVE), 5000.0)
     assert not guard.learn(signals(DOOR, ACTIVE), 5001.0)
@@ -137,6 +137,6 @@ def test_robot_clock_that_is_set_back_gives_a_door_no_more_time():
 
 def test_ignition_stops_the_robot_while_a_handle_is_pulled():
     guard = CarGuard()
-    guard.begin(signals(IGNITION, SAFE))
+    guard.begin(signals(IGNITION, CLEAR))
     with guard.handle_pulled():
         assert guard.learn(signals(IGNITION, ACTIVE), 100.0)

@@ -99,14 +99,14 @@ def test_operating_conditions_are_items_and_good_once_a_person_has_confirmed_the
 
 IGNITION_ON = CarSignal(IGNITION, "Terminal of Power", SignalState.ACTIVE)
 GEAR_SILENT = CarSignal(GEAR, "Lever of Gear", SignalState.UNKNOWN)
-ALL_SAFE = tuple(CarSignal(kind, "Signal", SignalState.SAFE) for kind in (IGNITION, GEAR, SPEED, DOOR))
+ALL_CLEAR = tuple(CarSignal(kind, "Signal", SignalState.CLEAR) for kind in (IGNITION, GEAR, SPEED, DOOR))
 
 
 @pytest.mark.parametrize("signals, state, finding, words", [
     ((), State.UNKNOWN, Finding.SIGNALS_UNNAMED, "names no signal for: ignition, gear, speed, door. Watch them"),
-    (ALL_SAFE[1:], State.UNKNOWN, Finding.SIGNALS_UNNAMED, "names no signal for: ignition. Watch"),
-    (ALL_SAFE, State.GOOD, Finding.SIGNALS_FINE, "are received"),
-    ((*ALL_SAFE, GEAR_SILENT), State.UNKNOWN, Finding.SIGNALS_SILENT, "Not received from the Car: Lever of Gear."),
+    (ALL_CLEAR[1:], State.UNKNOWN, Finding.SIGNALS_UNNAMED, "names no signal for: ignition. Watch"),
+    (ALL_CLEAR, State.GOOD, Finding.SIGNALS_FINE, "are received"),
+    ((*ALL_CLEAR, GEAR_SILENT), State.UNKNOWN, Finding.SIGNALS_SILENT, "Not received from the Car: Lever of Gear."),
     ((GEAR_SILENT, IGNITION_ON), State.BAD, Finding.SIGNAL_ACTIVE, "ignition is on (signal Terminal of Power).")])
 def test_signals_of_the_car_are_looked_at_before_a_test(signals, state, finding, words):
     robot = dataclasses.replace(snapshot(), signals=signals)

@@ -29,8 +29,8 @@ CORRECTED = Sentence(
 
 SHEET_CONTRADICTED = Sentence(
     "car_locator.sheet_contradicted",
-    "{cause} Its data sheet is contradicted: {details} No test begins like this: enter the measures of the Car that stands "
-    "there (car_file), restart the robot and map again.")
+    "{cause} Its data sheet is contradicted: {details} No test begins like this: enter the measures of the Car that "
+    "stands there (car_file), restart the robot and map again.")
 
 # Not located, or lost
 NOT_FOUND = Sentence("car_locator.not_found",

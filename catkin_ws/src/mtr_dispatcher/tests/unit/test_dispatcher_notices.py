@@ -123,5 +123,6 @@ def test_data_sheet_that_the_car_contradicts_is_told_while_the_car_is_located(st
     car = CarEstimate(state=state, message="Contradicted.", problems=told)
     core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))
     message = link.Status.FromString(core.status(Inputs(1.0, car=car)))
-    notices = [(notice.severity, notice.text) for notice in message.notifications if notice.code == "sheet_contradicted"]
+    notices = [(notice.severity, notice.text) for notice in message.notifications
+               if notice.code == "sheet_contradicted"]
     assert notices == ([(link.SEVERITY_ERROR, "Contradicted.")] if is_told else [])

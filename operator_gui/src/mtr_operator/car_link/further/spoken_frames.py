@@ -37,7 +37,8 @@ class SpokenFrames:
 
     Attributes:
         is_locked, source: what the next cycle says; source: as in CarEvent.
-        stops, open_doors: raw values of stop signals by kind that are not safe, and names of open doors.
+        stops, open_doors: raw values of stop signals by kind, where they are not of a parked Car, and names of open
+            doors.
     """
 
     def __init__(self, profile: CarProfile, is_locked: bool = True):
@@ -133,7 +134,7 @@ class SpokenFrames:
                 yield door.place.signal, min(door.open) if door.name in self.open_doors else _other_than(door.open)
         for stop in self._profile.further.stops:
             if stop.place.message is message:
-                yield stop.place.signal, self.stops.get(stop.kind, min(stop.safe))
+                yield stop.place.signal, self.stops.get(stop.kind, min(stop.parked))
 
     def _state(self, sent: int) -> Iterator[tuple[str, int]]:
         """sent: frames of the message, this one included."""

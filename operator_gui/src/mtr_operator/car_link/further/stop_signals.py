@@ -15,17 +15,17 @@ if TYPE_CHECKING:
 KEY = "stop_signals"
 KINDS = (IGNITION, GEAR, SPEED)
 PLACE_KEYS = {"bus", "message", "signal"}
-_KEYS = PLACE_KEYS | {"safe", "unknown"}
+_KEYS = PLACE_KEYS | {"parked", "unknown"}
 
 
 @dataclass(frozen=True, eq=False)
 class StopSignal:
-    """kind: see domain.supervision.car_signals. safe: raw values with which the robot may move. unknown: values without
-    information. Any other value stops the robot."""
+    """kind: see domain.supervision.car_signals. parked: raw values of a parked Car, with which the robot may move.
+    unknown: values without information. Any other value stops the robot."""
 
     kind: str
     place: Place
-    safe: frozenset[int]
+    parked: frozenset[int]
     unknown: frozenset[int]
 
 
@@ -35,22 +35,22 @@ def stop_tables(entries: Entries) -> dict[str, dict[str, Any]]:
     if not isinstance(table, dict) or not set(table) <= set(KINDS):
         raise entries.wrong(f"{KEY} must be a table of {', '.join(KINDS)}.")
     for kind, each in table.items():
-        if not isinstance(each, dict) or not {"message", "signal", "safe"} <= set(each) <= _KEYS:
-            raise entries.wrong(f"{kind} of {KEY} must be a table of message, signal and safe; bus and unknown are "
+        if not isinstance(each, dict) or not {"message", "signal", "parked"} <= set(each) <= _KEYS:
+            raise entries.wrong(f"{kind} of {KEY} must be a table of message, signal and parked; bus and unknown are "
                                 "optional.")
-        if not each["safe"]:
-            raise entries.wrong(f"{kind} of {KEY} has no safe value: the robot could never move.")
+        if not each["parked"]:
+            raise entries.wrong(f"{kind} of {KEY} has no parked value: the robot could never move.")
     return table
 
 
 def stop_signal(entries: Entries, kind: str, table: dict[str, Any], place: Place) -> StopSignal:
     """One of them; values as they are decoded."""
-    safe, unknown = (_values(entries, kind, name, table.get(name, []), place) for name in ("safe", "unknown"))
-    if not safe:
-        raise entries.wrong(f"{kind} of {KEY} lists no safe value that the signal {place.signal} can carry.")
-    if safe & unknown:
-        raise entries.wrong(f"{kind} of {KEY} lists {min(safe & unknown)} as safe and as unknown.")
-    return StopSignal(kind, place, safe, unknown)
+    parked, unknown = (_values(entries, kind, name, table.get(name, []), place) for name in ("parked", "unknown"))
+    if not parked:
+        raise entries.wrong(f"{kind} of {KEY} lists no parked value that the signal {place.signal} can carry.")
+    if parked & unknown:
+        raise entries.wrong(f"{kind} of {KEY} lists {min(parked & unknown)} as parked and as unknown.")
+    return StopSignal(kind, place, parked, unknown)
 
 
 def _values(entries: Entries, kind: str, name: str, values: Any, place: Place) -> frozenset[int]:

@@ -12,7 +12,7 @@ from mtr_operator.domain.supervision.car_signals import DOOR, CarSignal, SignalS
 from ..database.codec import SignalReader
 from .declared import Further, MessageKey, Place
 
-# A message that was silent for so long, or for three of its own cycles, leaves a safe signal unknown.
+# A message that was silent for so long, or for three of its own cycles, leaves a clear signal unknown.
 SILENCE_LIMIT_S = 2.0
 _CYCLE_LIMIT = 3.0
 _MS_PER_S = 1000.0
@@ -20,7 +20,7 @@ _MS_PER_S = 1000.0
 
 @dataclass
 class _Followed:
-    """limit_s: silence after which a safe state is unknown."""
+    """limit_s: silence after which a clear state is unknown."""
 
     kind: str
     name: str
@@ -32,7 +32,7 @@ class _Followed:
 
     def now(self, local_s: float) -> CarSignal:
         """An active state lasts until the signal takes it back, however silent it is."""
-        is_old = self.state is SignalState.SAFE and not local_s - self.seen_s <= self.limit_s
+        is_old = self.state is SignalState.CLEAR and not local_s - self.seen_s <= self.limit_s
         source = f"{self.place.signal} of {self.place.message.name}"
         return CarSignal(self.kind, source, SignalState.UNKNOWN if is_old else self.state, self.name)
 
@@ -41,7 +41,7 @@ class StopWatch:
     """Fed with every frame in the order of arrival, with local times of the clock that times the first bus."""
 
     def __init__(self, further: Further):
-        stops = [_Followed(each.kind, "", each.place, _judge(each.safe, each.unknown), _limit_s(each.place))
+        stops = [_Followed(each.kind, "", each.place, _judge(each.parked, each.unknown), _limit_s(each.place))
                  for each in further.stops]
         doors = [_Followed(DOOR, each.name, each.place, _door_judge(each.open), _limit_s(each.place))
                  for each in further.doors]
@@ -67,16 +67,16 @@ class StopWatch:
         return tuple(each.now(local_s) for each in self._all)
 
 
-def _judge(safe: frozenset[int], unknown: frozenset[int]) -> Callable[[float], SignalState]:
+def _judge(parked: frozenset[int], unknown: frozenset[int]) -> Callable[[float], SignalState]:
     def judge(value: float) -> SignalState:
         if value in unknown or math.isnan(value):
             return SignalState.UNKNOWN
-        return SignalState.SAFE if value in safe else SignalState.ACTIVE
+        return SignalState.CLEAR if value in parked else SignalState.ACTIVE
     return judge
 
 
 def _door_judge(values: frozenset[int]) -> Callable[[float], SignalState]:
-    return lambda value: SignalState.ACTIVE if value in values else SignalState.SAFE
+    return lambda value: SignalState.ACTIVE if value in values else SignalState.CLEAR
 
 
 def _limit_s(place: Place) -> float:

@@ -59,7 +59,7 @@ class CarGuard:
         # Robot time may be set back.
         self._closed_by_s = min(self._closed_by_s, now_s + DOOR_CLOSING_S)
         opened = _open_doors(signals)
-        closed = {each.name for each in signals if each.kind == DOOR and each.state is SignalState.SAFE}
+        closed = {each.name for each in signals if each.kind == DOOR and each.state is SignalState.CLEAR}
         self._ignored -= closed
         if self._is_handle_pulled or now_s < self._closed_by_s:
             return None

@@ -10,9 +10,9 @@ GEAR, IGNITION, SPEED, DOOR = "gear", "ignition", "speed", "door"
 
 
 class SignalState(enum.Enum):
-    """SAFE: the robot may move. ACTIVE: it may not. UNKNOWN: nothing was received, or a value without information."""
+    """CLEAR: the robot may move. ACTIVE: it may not. UNKNOWN: nothing was received, or a value without information."""
 
-    SAFE = "safe"
+    CLEAR = "clear"
     ACTIVE = "active"
     UNKNOWN = "unknown"
 

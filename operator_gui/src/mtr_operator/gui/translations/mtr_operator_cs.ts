@@ -611,342 +611,342 @@
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="49"/>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
         <source>LiDARs</source>
         <translation>Lidary</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="49"/>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
         <source>Lift and buttons</source>
         <translation>Zdvih a tlačítka</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="50"/>
+        <location filename="../../station/checks/check_texts.py" line="53"/>
         <source>Battery</source>
         <translation>Baterie</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="51"/>
+        <location filename="../../station/checks/check_texts.py" line="54"/>
         <source>CAN bus</source>
         <translation>Sběrnice CAN</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="51"/>
+        <location filename="../../station/checks/check_texts.py" line="54"/>
         <source>Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <location filename="../../station/checks/check_texts.py" line="56"/>
         <source>Clocks</source>
         <translation>Hodiny</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="53"/>
+        <location filename="../../station/checks/check_texts.py" line="57"/>
         <source>Remote key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="54"/>
+        <location filename="../../station/checks/check_texts.py" line="58"/>
         <source>Disk</source>
         <translation>Disk</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="54"/>
+        <location filename="../../station/checks/check_texts.py" line="58"/>
         <source>Limits</source>
         <translation>Meze</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="75"/>
+        <location filename="../../station/checks/check_texts.py" line="80"/>
         <source>Not known while the robot is silent.</source>
         <translation>Dokud robot mlčí, není známo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="76"/>
+        <location filename="../../station/checks/check_texts.py" line="81"/>
         <source>The robot&apos;s newest message is {first} s old.</source>
         <translation>Nejnovější zpráva robotu je stará {first} s.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="77"/>
+        <location filename="../../station/checks/check_texts.py" line="82"/>
         <source>The robot has not answered for {first} s.</source>
         <translation>Robot už {first} s neodpovídá.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="78"/>
+        <location filename="../../station/checks/check_texts.py" line="83"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="79"/>
+        <location filename="../../station/checks/check_texts.py" line="84"/>
         <source>The link is not encrypted: whoever is in its network can listen and send.</source>
         <translation>Spojení není šifrované: kdo je v jeho síti, může poslouchat i vysílat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="87"/>
+        <location filename="../../station/checks/check_texts.py" line="92"/>
         <source>It takes orders, and reports nothing against a test.</source>
         <translation>Přijímá pokyny a nehlásí nic, co by bránilo testu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="88"/>
+        <location filename="../../station/checks/check_texts.py" line="93"/>
         <source>The robot is still starting.</source>
         <translation>Robot se ještě spouští.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="89"/>
+        <location filename="../../station/checks/check_texts.py" line="94"/>
         <source>The robot reports a fault.</source>
         <translation>Robot hlásí poruchu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="90"/>
+        <location filename="../../station/checks/check_texts.py" line="95"/>
         <source>Another application controls the robot.</source>
         <translation>Robot ovládá jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="92"/>
+        <location filename="../../station/checks/check_texts.py" line="97"/>
         <source>The one by hand is heard, and released.</source>
         <translation>Ruční ovladač je slyšet a je uvolněný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="93"/>
+        <location filename="../../station/checks/check_texts.py" line="98"/>
         <source>The one by hand is engaged: the robot stands.</source>
         <translation>Na ručním ovladači je stisknuto: robot stojí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="94"/>
+        <location filename="../../station/checks/check_texts.py" line="99"/>
         <source>The robot has none by hand.</source>
         <translation>Robot nemá ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="95"/>
+        <location filename="../../station/checks/check_texts.py" line="100"/>
         <source>The robot does not say whether it has one by hand.</source>
         <translation>Robot neříká, zda má ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="127"/>
+        <location filename="../../station/checks/check_texts.py" line="133"/>
         <source>Known beside the Car.</source>
         <translation>Vůči autu známa.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="128"/>
+        <location filename="../../station/checks/check_texts.py" line="134"/>
         <source>Not known yet: a test begins with a drive around the Car.</source>
         <translation>Zatím neznámá: test začíná objetím auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="129"/>
+        <location filename="../../station/checks/check_texts.py" line="135"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="100"/>
+        <location filename="../../station/checks/check_texts.py" line="105"/>
         <source>The robot reports nothing against them.</source>
         <translation>Robot nehlásí nic, co by mluvilo proti nim.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="167"/>
+        <location filename="../../station/checks/check_texts.py" line="217"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="168"/>
+        <location filename="../../station/checks/check_texts.py" line="218"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="169"/>
+        <location filename="../../station/checks/check_texts.py" line="219"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="170"/>
+        <location filename="../../station/checks/check_texts.py" line="220"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="171"/>
+        <location filename="../../station/checks/check_texts.py" line="221"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="179"/>
+        <location filename="../../station/checks/check_texts.py" line="229"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="180"/>
+        <location filename="../../station/checks/check_texts.py" line="230"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="181"/>
+        <location filename="../../station/checks/check_texts.py" line="231"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="182"/>
+        <location filename="../../station/checks/check_texts.py" line="232"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="183"/>
+        <location filename="../../station/checks/check_texts.py" line="233"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="184"/>
+        <location filename="../../station/checks/check_texts.py" line="234"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="185"/>
+        <location filename="../../station/checks/check_texts.py" line="235"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="186"/>
+        <location filename="../../station/checks/check_texts.py" line="236"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="187"/>
+        <location filename="../../station/checks/check_texts.py" line="237"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="188"/>
+        <location filename="../../station/checks/check_texts.py" line="238"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="189"/>
+        <location filename="../../station/checks/check_texts.py" line="239"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="190"/>
+        <location filename="../../station/checks/check_texts.py" line="240"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="197"/>
+        <location filename="../../station/checks/check_texts.py" line="247"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="198"/>
+        <location filename="../../station/checks/check_texts.py" line="248"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="199"/>
+        <location filename="../../station/checks/check_texts.py" line="249"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="200"/>
+        <location filename="../../station/checks/check_texts.py" line="250"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="201"/>
+        <location filename="../../station/checks/check_texts.py" line="251"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="202"/>
+        <location filename="../../station/checks/check_texts.py" line="252"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="210"/>
+        <location filename="../../station/checks/check_texts.py" line="260"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="214"/>
+        <location filename="../../station/checks/check_texts.py" line="264"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="215"/>
+        <location filename="../../station/checks/check_texts.py" line="265"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="217"/>
+        <location filename="../../station/checks/check_texts.py" line="267"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="222"/>
+        <location filename="../../station/checks/check_texts.py" line="277"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="223"/>
+        <location filename="../../station/checks/check_texts.py" line="278"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="232"/>
+        <location filename="../../station/checks/check_texts.py" line="287"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="244"/>
+        <location filename="../../station/checks/check_texts.py" line="299"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="246"/>
+        <location filename="../../station/checks/check_texts.py" line="301"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="247"/>
+        <location filename="../../station/checks/check_texts.py" line="302"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="250"/>
+        <location filename="../../station/checks/check_texts.py" line="305"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="251"/>
+        <location filename="../../station/checks/check_texts.py" line="306"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="252"/>
+        <location filename="../../station/checks/check_texts.py" line="307"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="253"/>
+        <location filename="../../station/checks/check_texts.py" line="308"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="254"/>
+        <location filename="../../station/checks/check_texts.py" line="309"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="255"/>
+        <location filename="../../station/checks/check_texts.py" line="310"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="258"/>
+        <location filename="../../station/checks/check_texts.py" line="313"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="259"/>
+        <location filename="../../station/checks/check_texts.py" line="314"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="260"/>
+        <location filename="../../station/checks/check_texts.py" line="315"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -971,7 +971,7 @@
         <translation>brání testu</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="126"/>
+        <location filename="../../station/checks/check_texts.py" line="132"/>
         <source>Known beside the Car to {first} cm (1 sigma).</source>
         <translation>Vůči autu známa na {first} cm (1 sigma).</translation>
     </message>
@@ -981,37 +981,37 @@
         <translation>Rozměry auta</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="130"/>
+        <location filename="../../station/checks/check_texts.py" line="136"/>
         <source>The robot has it from the data sheet.</source>
         <translation>Robot je zná z technického listu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="131"/>
+        <location filename="../../station/checks/check_texts.py" line="137"/>
         <source>Only as the LiDARs see it at their height: distances from the Car&apos;s outline may be up to {first} cm too long.</source>
         <translation>Jen tak, jak je vidí LiDARy ve své výšce: vzdálenosti od obrysu auta mohou být až o {first} cm delší.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="137"/>
+        <location filename="../../station/checks/check_texts.py" line="143"/>
         <source>Not known before the Car is mapped.</source>
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="234"/>
+        <location filename="../../station/checks/check_texts.py" line="289"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="242"/>
+        <location filename="../../station/checks/check_texts.py" line="297"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="81"/>
+        <location filename="../../station/checks/check_texts.py" line="86"/>
         <source>Not encrypted; it does not leave this computer.</source>
         <translation>Nešifrováno; neopouští tento počítač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="212"/>
+        <location filename="../../station/checks/check_texts.py" line="262"/>
         <source>Pair this laptop with the robot in the connection window, and have the robot encrypt its link.</source>
         <translation>Spárujte tento notebook s robotem v okně připojení a nechte robot šifrovat spojení.</translation>
     </message>
@@ -1021,37 +1021,37 @@
         <translation>Kontrola robotu</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="106"/>
+        <location filename="../../station/checks/check_texts.py" line="111"/>
         <source>{first} of {second} right, {age} ago.</source>
         <translation>{first} z {second} v pořádku, před {age}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="107"/>
+        <location filename="../../station/checks/check_texts.py" line="112"/>
         <source>{first} of {second} right, but {age} ago.</source>
         <translation>{first} z {second} v pořádku, ale už před {age}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="108"/>
+        <location filename="../../station/checks/check_texts.py" line="113"/>
         <source>{first} of {second} wrong, {age} ago.</source>
         <translation>{first} z {second} špatně, před {age}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="109"/>
+        <location filename="../../station/checks/check_texts.py" line="115"/>
         <source>Never made since the robot was started.</source>
         <translation>Od spuštění robotu nebyla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="110"/>
+        <location filename="../../station/checks/check_texts.py" line="116"/>
         <source>The robot does not say whether one was made.</source>
         <translation>Robot neříká, zda byla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="218"/>
+        <location filename="../../station/checks/check_texts.py" line="268"/>
         <source>Make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Proveďte ji na robotu znovu: rosrun mtr_bringup preflight</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="219"/>
+        <location filename="../../station/checks/check_texts.py" line="269"/>
         <source>Then make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Potom ji na robotu proveďte znovu: rosrun mtr_bringup preflight</translation>
     </message>
@@ -1061,57 +1061,57 @@
         <translation>Cesta přímek</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="143"/>
+        <location filename="../../station/checks/check_texts.py" line="149"/>
         <source>As far as the robot has seen, nothing stands on the lines.</source>
         <translation>Pokud robot viděl, na přímkách nic nestojí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="144"/>
+        <location filename="../../station/checks/check_texts.py" line="150"/>
         <source>Something stands in the way of lines {lines}, the nearest {distance} m from the Car.</source>
         <translation>V cestě přímek {lines} něco stojí, nejblíže {distance} m od auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="146"/>
+        <location filename="../../station/checks/check_texts.py" line="152"/>
         <source>The robot has not seen all of the way of lines {lines}.</source>
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="224"/>
+        <location filename="../../station/checks/check_texts.py" line="279"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="148"/>
+        <location filename="../../station/checks/check_texts.py" line="154"/>
         <source>Looked at when the Car is mapped and a test is chosen.</source>
         <translation>Ověřuje se, až bude auto zmapováno a test vybrán.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <location filename="../../station/checks/check_texts.py" line="56"/>
         <source>Robot&apos;s clock</source>
         <translation>Hodiny robotu</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="96"/>
+        <location filename="../../station/checks/check_texts.py" line="101"/>
         <source>Within {first} s of this laptop&apos;s.</source>
         <translation>Od hodin tohoto notebooku se liší nejvýše o {first} s.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="98"/>
+        <location filename="../../station/checks/check_texts.py" line="103"/>
         <source>The robot tells simulated time.</source>
         <translation>Robot udává simulovaný čas.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="133"/>
+        <location filename="../../station/checks/check_texts.py" line="139"/>
         <source>Known to {first} cm (95 %): distances from the Car&apos;s outline may be wrong by as much.</source>
         <translation>Znám na {first} cm (95 %): o tolik mohou být vzdálenosti od obrysu auta chybné.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="135"/>
+        <location filename="../../station/checks/check_texts.py" line="141"/>
         <source>Known to {first} cm only (95 %): the robot may touch the Car nearer than {second} m.</source>
         <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="236"/>
+        <location filename="../../station/checks/check_texts.py" line="291"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1136,57 +1136,57 @@
         <translation>Nástavby</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="154"/>
+        <location filename="../../station/checks/check_texts.py" line="160"/>
         <source>The LiDARs see nothing below their plane: no person lying or kneeling, no child, no wheel chocks.</source>
         <translation>LiDARy nevidí nic pod svou rovinou: nikoho, kdo leží nebo klečí, dítě ani zakládací klíny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="156"/>
+        <location filename="../../station/checks/check_texts.py" line="162"/>
         <source>The robot does not see cables, and drives around the whole Car.</source>
         <translation>Robot kabely nevidí a objíždí celé auto.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="157"/>
+        <location filename="../../station/checks/check_texts.py" line="163"/>
         <source>The robot does not see an open door, lid or tailgate above the LiDARs. A hatch may open by itself for a key behind the Car.</source>
         <translation>Otevřené dveře, víko ani čelo korby nad LiDARy robot nevidí. Víko kufru se může samo otevřít, je-li klíč za autem.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="225"/>
+        <location filename="../../station/checks/check_texts.py" line="280"/>
         <source>Walk around the Car: nobody within 2 m, wheel chocks removed.</source>
         <translation>Obejděte auto: do 2 m nikdo, klíny odstraněny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="226"/>
+        <location filename="../../station/checks/check_texts.py" line="281"/>
         <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
         <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="228"/>
+        <location filename="../../station/checks/check_texts.py" line="283"/>
         <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
         <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="230"/>
+        <location filename="../../station/checks/check_texts.py" line="285"/>
         <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
         <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="239"/>
+        <location filename="../../station/checks/check_texts.py" line="294"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robota (technický list nebo svinovací metr), restartujte s ním robota a zmapujte vozidlo znovu; nebo měřte z větší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="159"/>
+        <location filename="../../station/checks/check_texts.py" line="165"/>
         <source>The robot does not see what stands out above or below the LiDARs, such as a tow bar. It keeps 10 to 25 cm from the Car&apos;s ends.</source>
         <translation>Robot nevidí, co vyčnívá nad rovinou lidarů nebo pod ní, například tažné zařízení. Od konců auta udržuje 10 až 25 cm.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="172"/>
+        <location filename="../../station/checks/check_texts.py" line="222"/>
         <source>The robot does not report its charge.</source>
         <translation>Robot nehlásí stav nabití.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="248"/>
+        <location filename="../../station/checks/check_texts.py" line="303"/>
         <source>Check that the base publishes it on the robot&apos;s topic of the battery (docs/other-bases.md).</source>
         <translation>Ověřte, že jej podvozek publikuje na tématu baterie robotu (docs/other-bases.md).</translation>
     </message>
@@ -1196,39 +1196,154 @@
         <translation>Zkušební prostor</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="116"/>
+        <location filename="../../station/checks/check_texts.py" line="122"/>
         <source>The robot keeps inside an area of {first} m2.</source>
         <translation>Robot neopustí prostor o {first} m2.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="117"/>
+        <location filename="../../station/checks/check_texts.py" line="123"/>
         <source>The robot&apos;s launch file sets an area of {first} m2.</source>
         <translation>Prostor o {first} m2 určuje spouštěcí soubor robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="118"/>
+        <location filename="../../station/checks/check_texts.py" line="124"/>
         <source>The robot has none.</source>
         <translation>Robot žádný nemá.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="119"/>
+        <location filename="../../station/checks/check_texts.py" line="125"/>
         <source>None; a simulated robot needs none.</source>
         <translation>Žádný; simulovaný robot ho nepotřebuje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="120"/>
+        <location filename="../../station/checks/check_texts.py" line="126"/>
         <source>The robot does not say whether it keeps inside one.</source>
         <translation>Robot nesděluje, zda nějaký dodržuje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="220"/>
+        <location filename="../../station/checks/check_texts.py" line="270"/>
         <source>Draw it on the start page under Test area.</source>
         <translation>Nakreslete ho na úvodní stránce pod Zkušební prostor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="221"/>
+        <location filename="../../station/checks/check_texts.py" line="271"/>
         <source>Stay where you can stop the robot before an edge.</source>
         <translation>Zůstaňte tam, kde robot zastavíte dřív než u hrany.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="49"/>
+        <source>Area</source>
+        <translation>Plocha</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="49"/>
+        <source>People</source>
+        <translation>Lidé</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="50"/>
+        <source>Weather</source>
+        <translation>Počasí</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="50"/>
+        <source>Light</source>
+        <translation>Světlo</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="51"/>
+        <source>Car</source>
+        <translation>Auto</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="51"/>
+        <source>Attendance</source>
+        <translation>Dozor</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="55"/>
+        <source>Car&apos;s signals</source>
+        <translation>Signály auta</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="114"/>
+        <source>Made at rest only; a real robot needs one in motion.</source>
+        <translation>Provedena jen vstoje; skutečný robot potřebuje kontrolu za jízdy.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="174"/>
+        <source>Closed or marked, 2 m free around the paths, no edge, stairs, dock or kerb inside?</source>
+        <translation>Uzavřená nebo vyznačená, 2 m volno kolem drah, uvnitř žádná hrana, schody, rampa ani obrubník?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="176"/>
+        <source>Trained adults only, nobody lies, kneels or works at the Car?</source>
+        <translation>Jen poučení dospělí, nikdo u auta neleží, nekleká ani nepracuje?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="177"/>
+        <source>No ice, snow, heavy rain or fog, no low sun into a LiDAR, mean wind below 8 m/s?</source>
+        <translation>Žádný led, sníh, silný déšť ani mlha, žádné nízké slunce do LiDARu, průměrný vítr pod 8 m/s?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="179"/>
+        <source>Is the area lit?</source>
+        <translation>Je plocha osvětlená?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="180"/>
+        <source>Parking brake applied, gear P, chocks placed, cabin empty, windows closed, alarm off or announced?</source>
+        <translation>Ruční brzda zatažená, zařazeno P, klíny založené, kabina prázdná, okna zavřená, alarm vypnutý nebo ohlášený?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="182"/>
+        <source>Is a trained person within 10 m and in sight of the robot, with a hardware emergency stop?</source>
+        <translation>Je do 10 m a na dohled od robotu poučená osoba s hardwarovým nouzovým zastavením?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="184"/>
+        <source>Confirmed by a person.</source>
+        <translation>Potvrzeno osobou.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="197"/>
+        <source>Dry or wet asphalt or concrete, steps and cables below 15 mm, slope at most 2 degrees?</source>
+        <translation>Suchý nebo mokrý asfalt či beton, schůdky a kabely pod 15 mm, sklon nejvýše 2 stupně?</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="207"/>
+        <source>Ignition, gear, speed and doors are received, and do not forbid motion.</source>
+        <translation>Zapalování, řazení, rychlost a dveře se přijímají a jízdě nebrání.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="209"/>
+        <source>Not received from the Car: {signals}.</source>
+        <translation>Z auta nepřicházejí: {signals}.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="210"/>
+        <source>The car profile names no signal for: {signals}.</source>
+        <translation>Profil auta neuvádí signál pro: {signals}.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="272"/>
+        <source>Make it on the robot: rosrun mtr_bringup preflight --drive</source>
+        <translation>Proveďte ji na robotu: rosrun mtr_bringup preflight --drive</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="274"/>
+        <source>Close it.</source>
+        <translation>Zavřete je.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="275"/>
+        <source>Wake the Car; watch ignition, gear and doors yourself meanwhile.</source>
+        <translation>Probuďte auto; zatím sami sledujte zapalování, řazení a dveře.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="276"/>
+        <source>Watch them yourself: the robot does not stop for them.</source>
+        <translation>Sledujte je sami: robot kvůli nim nezastaví.</translation>
     </message>
 </context>
 <context>
@@ -1336,6 +1451,14 @@
         <location filename="../history/comparison_window.py" line="51"/>
         <source>{count} {change}</source>
         <translation>{count}krát {change}</translation>
+    </message>
+</context>
+<context>
+    <name>ConditionsForm</name>
+    <message>
+        <location filename="../header/conditions_form.py" line="34"/>
+        <source>Confirm each operating condition:</source>
+        <translation>Potvrďte každou provozní podmínku:</translation>
     </message>
 </context>
 <context>
@@ -1866,32 +1989,32 @@
 <context>
     <name>HeaderBar</name>
     <message>
-        <location filename="../header/header_bar.py" line="40"/>
+        <location filename="../header/header_bar.py" line="42"/>
         <source>Welcome</source>
         <translation>Úvod</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="40"/>
+        <location filename="../header/header_bar.py" line="42"/>
         <source>Measurement type</source>
         <translation>Typ měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="40"/>
+        <location filename="../header/header_bar.py" line="42"/>
         <source>Measurement</source>
         <translation>Měření</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="40"/>
+        <location filename="../header/header_bar.py" line="42"/>
         <source>Protocol</source>
         <translation>Protokol</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="56"/>
+        <location filename="../header/header_bar.py" line="59"/>
         <source>The link is not encrypted: whoever is in its network can move the robot.</source>
         <translation>Spojení není šifrované: kdokoli v jeho síti může s robotem pohnout.</translation>
     </message>
     <message>
-        <location filename="../header/header_bar.py" line="54"/>
+        <location filename="../header/header_bar.py" line="57"/>
         <source>Another application controls the robot: Stop in this window does not reach it. Stop it there, or by the emergency stop.</source>
         <translation>Robota řídí jiná aplikace: zastavení z tohoto okna k němu nedojde. Zastavte ho v ní, nebo nouzovým zastavením.</translation>
     </message>
@@ -2183,6 +2306,11 @@
         <source>Photos</source>
         <translation>Fotografie</translation>
     </message>
+    <message>
+        <location filename="../texts/identity.py" line="5"/>
+        <source>Person in charge</source>
+        <translation>Odpovědná osoba</translation>
+    </message>
 </context>
 <context>
     <name>IdentityForm</name>
@@ -2395,37 +2523,37 @@
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="246"/>
+        <location filename="../windows/main_window.py" line="248"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="249"/>
+        <location filename="../windows/main_window.py" line="251"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="251"/>
+        <location filename="../windows/main_window.py" line="253"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="266"/>
+        <location filename="../windows/main_window.py" line="268"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="270"/>
+        <location filename="../windows/main_window.py" line="272"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="270"/>
+        <location filename="../windows/main_window.py" line="272"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="231"/>
+        <location filename="../windows/main_window.py" line="233"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -2511,64 +2639,69 @@
 <context>
     <name>MeasurementScreen</name>
     <message>
-        <location filename="../screens/measurement.py" line="86"/>
+        <location filename="../screens/measurement.py" line="93"/>
         <source>Save progress</source>
         <translation>Uložit průběh</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="88"/>
+        <location filename="../screens/measurement.py" line="95"/>
         <source>Back to the beginning</source>
         <translation>Zpět na začátek</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="189"/>
+        <location filename="../screens/measurement.py" line="199"/>
         <source>Handle taken</source>
         <translation>Klika uchopena</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="202"/>
+        <location filename="../screens/measurement.py" line="212"/>
         <source>Take the Car&apos;s handle now, with the Remote key at {distance} m, and then say so here, by Enter or the button. When the Car unlocks, nothing more is to be done.</source>
         <translation>Uchopte nyní kliku auta, klíč je ve vzdálenosti {distance} m, a pak to zde potvrďte klávesou Enter nebo tlačítkem. Když se auto odemkne, není třeba nic dalšího.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="76"/>
+        <location filename="../screens/measurement.py" line="83"/>
         <source>Hold to resume</source>
         <translation>Podržením pokračovat</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="87"/>
+        <location filename="../screens/measurement.py" line="94"/>
         <source>Events</source>
         <translation>Události</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="189"/>
+        <location filename="../screens/measurement.py" line="199"/>
         <source>Extender switched</source>
         <translation>Extender přepnut</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="207"/>
+        <location filename="../screens/measurement.py" line="217"/>
         <source>Switch the extender on now, and then say so here, by Enter or the button.</source>
         <translation>Zapněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="208"/>
+        <location filename="../screens/measurement.py" line="218"/>
         <source>Switch the extender off now, and then say so here, by Enter or the button.</source>
         <translation>Vypněte nyní extender a pak to zde potvrďte klávesou Enter nebo tlačítkem.</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="78"/>
+        <location filename="../screens/measurement.py" line="85"/>
         <source>Leave the line that is being measured and go on with the next one (Ctrl+K); it can be measured again when the test is done</source>
         <translation>Opustit přímku, která se právě měří, a pokračovat další (Ctrl+K); po skončení testu ji lze změřit znovu</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="177"/>
+        <location filename="../screens/measurement.py" line="187"/>
         <source>Skip line {number}</source>
         <translation>Přeskočit přímku {number}</translation>
     </message>
     <message>
-        <location filename="../screens/measurement.py" line="177"/>
+        <location filename="../screens/measurement.py" line="187"/>
         <source>Skip the line</source>
         <translation>Přeskočit přímku</translation>
+    </message>
+    <message>
+        <location filename="../screens/measurement.py" line="79"/>
+        <source>Who resumes is present, in sight of the robot, and confirms that the operating conditions hold.</source>
+        <translation>Kdo pokračuje, je přítomen, má robot na dohled a potvrzuje, že provozní podmínky platí.</translation>
     </message>
 </context>
 <context>
@@ -3598,6 +3731,19 @@
     </message>
 </context>
 <context>
+    <name>PresenceBanner</name>
+    <message>
+        <location filename="../header/presence_banner.py" line="23"/>
+        <source>Are you present and in sight of the robot? Without an answer within a minute it stops and the test pauses.</source>
+        <translation>Jste přítomni a máte robot na dohled? Bez odpovědi do minuty zastaví a zkouška se přeruší.</translation>
+    </message>
+    <message>
+        <location filename="../header/presence_banner.py" line="26"/>
+        <source>I am present (F9)</source>
+        <translation>Jsem přítomen (F9)</translation>
+    </message>
+</context>
+<context>
     <name>Prospect</name>
     <message>
         <location filename="../prospect_text.py" line="15"/>
@@ -3977,667 +4123,667 @@
 <context>
     <name>Sentence</name>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>wait for robot and Car</source>
         <translation>čekám na robot a auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>move the key to {} cm</source>
         <translation>klíč jede do výšky {} cm</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>map the Car</source>
         <translation>robot mapuje auto</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>the robot stands still</source>
         <translation>robot stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>the robot does not confirm that it stands still; without an application it stops by itself</source>
         <translation>robot nepotvrdil, že stojí; bez aplikace se zastaví sám</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>axis {} ({}): go to the start</source>
         <translation>osa {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>approach until the Car unlocks</source>
         <translation>přibližování, dokud se auto neodemkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>retreat until the Car locks</source>
         <translation>couvání, dokud se auto nezamkne</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>radial {} ({}): go to the start</source>
         <translation>paprsek {} ({}): jízda na začátek</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>press at {} m</source>
         <translation>stisk ve vzdálenosti {} m</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car&apos;s lock state is unknown: {}</source>
         <translation>Stav zámků auta není znám: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The bus does not carry it.</source>
         <translation>Sběrnice jej nepřenáší.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car fell silent: {}</source>
         <translation>Auto se odmlčelo: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not start within {} s. {}</source>
         <translation>Robot se do {} s nespustil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not start within {} s.</source>
         <translation>Robot se do {} s nespustil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not find the Car within {} s. {}</source>
         <translation>Robot do {} s nenašel auto. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not find the Car within {} s.</source>
         <translation>Robot do {} s nenašel auto.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot is controlled by another application; end that one, then start again.</source>
         <translation>Robot ovládá jiná aplikace; ukončete ji a začněte znovu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Remote key did not reach the height of {} cm within {} s; it is at {} cm.</source>
         <translation>Klíč nedosáhl výšky {} cm do {} s; je ve výšce {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot refused the waypoint: {}</source>
         <translation>Robot odmítl cílový bod: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not reach the waypoint within {} s. {}</source>
         <translation>Robot nedojel do cílového bodu do {} s. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not reach the waypoint within {} s.</source>
         <translation>Robot nedojel do cílového bodu do {} s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The button could not be pressed: {}</source>
         <translation>Tlačítko nešlo stisknout: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not confirm a button press within {} s.</source>
         <translation>Robot do {} s nepotvrdil stisk tlačítka.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No poses of the robot enclose the instant {} s.</source>
         <translation>Kolem okamžiku {} s nejsou známy polohy robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s pose is unknown for {} s around the instant {} s.</source>
         <translation>Poloha robotu není po dobu {} s kolem okamžiku {} s známa.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The progress file holds {} {}; this test has {}.</source>
         <translation>Soubor průběhu obsahuje číslo {1} ({0}); tento test jich má {2}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car was still unlocked {} s after the robot had reached the starting distance of {} m; lock it with its key, or increase maximum_distance_m if it locks farther away.</source>
         <translation>Auto bylo ještě {} s po dosažení počáteční vzdálenosti {} m odemčené; zamkněte je klíčem, nebo zvětšete počáteční vzdálenost, zamyká-li dále.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs.</source>
         <translation>Robot mlčí {} s; zkontrolujte Wi-Fi a zda běží jeho software.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s. {}</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s ports are open, but no Status has come for {} s; check that both ports are the robot&apos;s.</source>
         <translation>Porty robotu jsou otevřené, ale {} s nepřišla zpráva o stavu; zkontrolujte, zda oba porty patří robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot started anew during the test; the measured lines are kept, go on with a continued test.</source>
         <translation>Robot se během testu spustil znovu; změřené přímky zůstaly uloženy, pokračujte v testu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Another application has taken over the control of the robot.</source>
         <translation>Řízení robotu převzala jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The test was interrupted.</source>
         <translation>Test byl přerušen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The link to the robot was interrupted for {} s.</source>
         <translation>Spojení s robotem bylo na {} s přerušeno.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The link to the robot was interrupted: {}</source>
         <translation>Spojení s robotem bylo přerušeno: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot does not know its position relative to the Car.</source>
         <translation>Robot nezná svou polohu vůči autu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot has restarted; the present order was sent to it again.</source>
         <translation>Robot se spustil znovu; současný příkaz mu byl odeslán ještě jednou.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot is not connected.</source>
         <translation>Robot není připojen.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; it has to be below {}, {}.</source>
         <translation>Parametr {} je {}; musí být menší než {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; allowed is at most {}, {}.</source>
         <translation>Parametr {} je {}; povoleno je nejvýše {}, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; allowed is clearance_m, {}, and more.</source>
         <translation>Parametr {} je {}; povolen je odstup, {}, a více.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; allowed is {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; allowed are {}.</source>
         <translation>Parametr {} je {}; povoleno je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; {}</source>
         <translation>Parametr {} je {}; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is unknown; {}</source>
         <translation>Parametr {} není znám; {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>allowed is a number, {}.</source>
         <translation>povoleno je číslo, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>write a decimal point: {}.</source>
         <translation>pište desetinnou tečku: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>did you mean {}?</source>
         <translation>nemá to být {}?</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>known are {}.</source>
         <translation>známé jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter minimum_distance_m is {} m; on the radial of {} degrees that leaves {} m between Remote key and Car, and clearance_m, {} m, has to remain.</source>
         <translation>Nejmenší vzdálenost je {} m; na paprsku {} stupňů tak mezi klíčem a autem zbude {} m, zůstat ale musí odstup {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The test cannot be continued from {}. {}</source>
         <translation>V testu ze souboru {} nelze pokračovat. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It is not a progress file of this application.</source>
         <translation>Není to soubor průběhu této aplikace.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It is not a progress file of this application, or of a scenario that it does not know.</source>
         <translation>Není to soubor průběhu této aplikace, nebo patří ke scénáři, který aplikace nezná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It has version {}; this application reads version {}.</source>
         <translation>Má verzi {}; tato aplikace čte verzi {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It belongs to the scenario {}, not to {}.</source>
         <translation>Patří ke scénáři {}, ne k {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It is damaged: the parameters are missing.</source>
         <translation>Je poškozený: chybí parametry.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It is damaged: parts of it are missing or of the wrong kind.</source>
         <translation>Je poškozený: části chybí nebo jsou nesprávného druhu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It was measured with other parameters: {} was {}, now it is {}.</source>
         <translation>Byl změřen s jinými parametry: {} bylo {}, nyní je {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It is larger than {} MiB.</source>
         <translation>Je větší než {} MiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It cannot be read: {}.</source>
         <translation>Nelze jej přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>It is truncated or not a JSON file.</source>
         <translation>Je useknutý, nebo to není soubor JSON.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The file {} cannot be written: {}.</source>
         <translation>Soubor {} nelze zapsat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Results cannot be written to the folder {}: {}.</source>
         <translation>Výsledky nelze zapsat do složky {}: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The settings in {} were not used. {}</source>
         <translation>Nastavení v souboru {} nebylo použito. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The settings cannot be kept: {}</source>
         <translation>Nastavení nelze uložit: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>They are of another format or version.</source>
         <translation>Má jiný formát nebo verzi.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>They are damaged.</source>
         <translation>Je poškozené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>They cannot be read.</source>
         <translation>Nelze je přečíst.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The application has a defect: {}: {}</source>
         <translation>Aplikace má chybu: {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Robot address is {}; allowed is an IPv4 address or a host name.</source>
         <translation>Adresa robotu je {}; povolena je adresa IPv4 nebo jméno počítače.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Robot address is {}; an IPv4 address is four numbers from 0 to 255 with dots between them.</source>
         <translation>Adresa robotu je {}; adresa IPv4 jsou čtyři čísla od 0 do 255 oddělená tečkami.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The {} is {}; allowed is a whole number from {} to {}.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo od {} do {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The {} is {}; allowed is a whole number.</source>
         <translation>Pole „{}“ obsahuje {}; povoleno je celé číslo.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Subscriber port and publisher port are both {}; the robot uses two different ones.</source>
         <translation>Port odběratele i vydavatele je {}; robot používá dva různé.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No host of the name {} is known; check the robot&apos;s address.</source>
         <translation>Počítač jménem {} není znám; zkontrolujte adresu robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No answer from {} within {} s; check the address, the Wi-Fi and that the robot is on.</source>
         <translation>{} do {} s neodpovídá; zkontrolujte adresu, Wi-Fi a zda je robot zapnutý.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Nothing listens on {}; check the port and that the robot&apos;s software runs.</source>
         <translation>Na adrese {} nic neposlouchá; zkontrolujte port a zda běží software robotu.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Cannot reach {}: {}.</source>
         <translation>{} není dosažitelný: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN interface is {}; allowed are {}.</source>
         <translation>Rozhraní CAN je {}; povolena jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN channel is empty; give the adapter&apos;s port, e.g. /dev/ttyACM0, can0 or PCAN_USBBUS1.</source>
         <translation>Kanál CAN je prázdný; zadejte port adaptéru, např. /dev/ttyACM0, can0 nebo PCAN_USBBUS1.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN bit rate is {}; allowed is {} to {} bit/s.</source>
         <translation>Přenosová rychlost CAN je {}; povoleno je {} až {} bit/s.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>There is no CAN adapter at {}; check the channel and the USB plug.</source>
         <translation>Na {} není adaptér CAN; zkontrolujte kanál a zástrčku USB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>{} is no serial port; give the CAN adapter&apos;s, e.g. /dev/ttyACM0.</source>
         <translation>{} není sériový port; zadejte port adaptéru CAN, např. /dev/ttyACM0.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Cannot open the {} at {} bit/s: {}.</source>
         <translation>Nelze otevřít {} při {} bit/s: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The {} has gone: {}.</source>
         <translation>Zařízení zmizelo ({}): {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The {} sends something else than the slcan protocol; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neposílá protokol slcan; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The {} does not answer; check the channel, and that the device is a CAN adapter.</source>
         <translation>Zařízení ({}) neodpovídá; zkontrolujte kanál a zda jde o adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN adapter {} ({})</source>
         <translation>adaptér CAN {} ({})</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>another program uses it</source>
         <translation>používá jej jiný program</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The CAN bus has errors ({} error frames); check bit rate, plug and termination.</source>
         <translation>Na sběrnici CAN jsou chyby (chybových rámců: {}); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car&apos;s CAN bus is not connected.</source>
         <translation>Sběrnice CAN auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není vybrán adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No CAN frame for {} s; check the plug, the bit rate and that the Car is awake.</source>
         <translation>Už {} s nepřišel rámec CAN; zkontrolujte zástrčku, rychlost a zda je auto probuzené.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No message {} (id 0x{}) for {} s although the CAN bus is alive; check the car profile.</source>
         <translation>Zpráva {} (id 0x{}) už {} s nepřišla, ačkoli sběrnice CAN žije; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The clock of the CAN frames is not mapped to the robot&apos;s yet; this takes about two seconds.</source>
         <translation>Hodiny rámců CAN ještě nejsou přepočteny na hodiny robotu; trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and termination.</source>
         <translation>Adaptér CAN hlásí chyby na sběrnici, nebo se odpojil (bus-off); zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The CAN adapter is error-passive; check bit rate, plug and termination.</source>
         <translation>Adaptér CAN je ve stavu error-passive; zkontrolujte rychlost, zástrčku a zakončení.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The CAN adapter has failed: {}.</source>
         <translation>Adaptér CAN selhal: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>There is no car profile {}; shipped are: {}; a path to a YAML file works too.</source>
         <translation>Profil auta {} neexistuje; dodávané jsou: {}; lze zadat i cestu k souboru YAML.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {}: states must name a value for locked and one for unlocked.</source>
         <translation>Profil auta {}: states musí uvést hodnotu pro locked a pro unlocked.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {} is no table of names and values.</source>
         <translation>Profil auta {} není tabulka jmen a hodnot.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {}: source_signal and sources belong together; give both or none.</source>
         <translation>Profil auta {}: source_signal a sources patří k sobě; uveďte obojí, nebo nic.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {}: {} must be a table from raw value to {}.</source>
         <translation>Profil auta {}: {} musí být tabulka, která hodnotám přiřadí {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {} cannot be read: {}.</source>
         <translation>Profil auta {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {}: unknown entry {}; allowed are {}.</source>
         <translation>Profil auta {}: neznámá položka {}; povoleny jsou {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {} lacks the entry {}.</source>
         <translation>V profilu auta {} chybí položka {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {}: {} has {}: {}; allowed is a whole number with {}.</source>
         <translation>Profil auta {}: {} obsahuje {}: {}; povoleno je celé číslo a k němu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Message {} of CAN database {} has no signal {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Message {} of CAN database {} has no signal {}; not all of it could be read: {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}; databázi se nepodařilo přečíst celou: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Message {} of CAN database {} has no signal {}; message {}, line {}, could not be read: {}.</source>
         <translation>Zpráva {} databáze CAN {} nemá signál {}; zprávu {} na řádku {} se nepodařilo přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN database {} has no message {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN database {} has no message {}; not all of it could be read: {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}; nepodařilo se ji přečíst celou: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN database {} has no message {}; message {}, line {}, could not be read: {}.</source>
         <translation>Databáze CAN {} nemá zprávu {}; zprávu {} na řádku {} se nepodařilo přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>CAN database {} cannot be read: {}.</source>
         <translation>Databázi CAN {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>A message of {} bytes was ignored; allowed is at most {} bytes.</source>
         <translation>Zpráva o {} bajtech byla ignorována; povoleno je nejvýše {} bajtů.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>A message was ignored: {}</source>
         <translation>Zpráva byla ignorována: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>wait for the robot</source>
         <translation>čekám na robot</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>check where the Car stands</source>
         <translation>robot ověřuje, kde auto stojí</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>warning: the robot&apos;s software is too old to check where the Car stands; it is taken as it is</source>
         <translation>pozor: software robotu je příliš starý na ověření, kde auto stojí; bere se, jak je</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot has not found the Car yet, so there is nothing to check; a test begins with it.</source>
         <translation>Robot ještě nenašel auto, takže není co ověřit; test tím začíná.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s software is too old to check where the Car stands.</source>
         <translation>Software robotu je příliš starý na ověření, kde auto stojí.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not check the Car within {} s. {}</source>
         <translation>Robot auto do {} s neověřil. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot did not check the Car within {} s.</source>
         <translation>Robot auto do {} s neověřil.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The test does not begin. {}</source>
         <translation>Test nezačne. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car coordinate system was corrected during the measurement.</source>
         <translation>Souřadnicová soustava auta byla během měření opravena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car&apos;s bus is not connected.</source>
         <translation>Sběrnice auta není připojena.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The package mtr_proto, the contract with the robot, is not installed; pip install the folder proto of the project.</source>
         <translation>Balíček mtr_proto, rozhraní k robotu, není nainstalován; nainstalujte složku proto projektu příkazem pip install.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s clock was set; the clock of the CAN frames is mapped to it anew, which takes about two seconds.</source>
         <translation>Hodiny robotu byly přestaveny; hodiny rámců CAN se na ně přepočítávají znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The clock of the CAN adapter jumped; it is mapped to the robot&apos;s anew, which takes about two seconds.</source>
         <translation>Hodiny adaptéru CAN poskočily; přepočítávají se na hodiny robotu znovu, trvá to asi dvě sekundy.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Frames or messages of the robot are late, or a clock was set; the time at which the locks changed is not known yet.</source>
         <translation>Rámce nebo zprávy robotu se opožďují, nebo byly přestaveny hodiny; čas změny zámků ještě není znám.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The instant of the event is not known.</source>
         <translation>Okamžik události není znám.</translation>
     </message>
@@ -4797,27 +4943,27 @@
         <translation>Jsou větší než {} KiB.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>the robot stands until you have it go on</source>
         <translation>robot stojí, dokud nedáte pokyn pokračovat</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot has been silent for {} s; check the Wi-Fi and that its software runs. {}</source>
         <translation>Robot mlčí už {} s; zkontrolujte Wi-Fi a zda běží jeho software. {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Status {} was ignored: {}</source>
         <translation>Stav {} byl ignorován: {}</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot no longer takes this application&apos;s Commands: another application has controlled it meanwhile, or goodbye was said in this one&apos;s name; connect again, or go on with a continued test.</source>
         <translation>Robot už nepřijímá příkazy této aplikace: mezitím ho ovládala jiná aplikace, nebo se někdo rozloučil jejím jménem; připojte se znovu, nebo v testu pokračujte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {}: {} is {}; allowed is {} to {} s.</source>
         <translation>Profil auta {}: {} je {}; povoleno je {} až {} s.</translation>
     </message>
@@ -5167,22 +5313,22 @@
         <translation>Parametr {} je {}; dovolen je seznam čísel, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>move the key so that it does not sleep</source>
         <translation>pohyb klíčem, aby neusnul</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The key has answered nowhere on {} radials one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
         <translation>Klíč na {} paprscích za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter minimum_distance_m leaves {} m up to the first press at {} m; the method adaptive needs {} m.</source>
         <translation>Parametr minimum_distance_m nechává {} m k prvnímu stisku na {} m; metoda adaptive potřebuje {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Parameter {} is {}; allowed is {} or {}.</source>
         <translation>Parametr {} je {}; povoleno je {} nebo {}.</translation>
     </message>
@@ -5192,17 +5338,17 @@
         <translation>Žádný stisk nefungoval, ani žádný z {} na {} m: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: allow {} presses (attempts_limit), or ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: dovolte {} stisků (attempts_limit), nebo žádejte {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>{} presses on each radial reach an interval of {} m where the Car&apos;s range ends within {} m; interval_m asks for {} m: ask for {} m.</source>
         <translation>Kde dosah auta končí pozvolna, dá {} stisků na každém paprsku interval {} m (dosah končí během {} m); interval_m žádá {} m: žádejte {} m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>zone {} ({})</source>
         <translation>zóna {} ({})</translation>
     </message>
@@ -5392,22 +5538,22 @@
         <translation>U dosahu mezi dvěma místy je bližší nejvzdálenější stisk, který zabral, a druhé nejbližší vzdálenější, který nezabral; dosah nejméně nějaký zabral hned na prvním místě.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The key has answered nowhere in {} zones one after the other; see whether it sleeps, whether its battery is empty and whether it is the Car&apos;s key, then continue the test, or begin one with a smaller minimum_distance_m.</source>
         <translation>Klíč v {} zónách za sebou nikde neodpověděl; zjistěte, zda nespí, zda nemá vybitou baterii a zda patří k autu, pak v testu pokračujte, nebo začněte nový s menší minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No press worked in this zone, not at its nearest places either: the key sleeps, its battery is empty, or the Car&apos;s range ends nearer; then decrease minimum_distance_m.</source>
         <translation>V této zóně nezabral žádný stisk, ani na jejích nejbližších místech: klíč spí, má vybitou baterii, nebo dosah auta končí blíž; pak zmenšete minimum_distance_m.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: allow {} presses (presses_limit), or ask for {} %.</source>
         <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: povolte {} stisků (presses_limit), nebo žádejte {} %.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>{} presses in each zone reach an interval of the coverage of {} %; coverage_percent asks for {} %: ask for {} %.</source>
         <translation>{} stisků v každé zóně dosáhne intervalu pokrytí {} %; coverage_percent žádá {} %: žádejte {} %.</translation>
     </message>
@@ -5432,142 +5578,142 @@
         <translation>Žádejte {} m a projíždějte rychlostí {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>A test of the scenario {} and one of {} cannot be compared; choose two of one scenario.</source>
         <translation>Test scénáře {} nelze porovnat s testem scénáře {}; vyberte dva téhož scénáře.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>A test that has measured nothing cannot be compared.</source>
         <translation>Test, který nic nezměřil, nelze porovnat.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>It is invalid in test {}.</source>
         <translation>V testu {} je neplatná.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>Test {} does not say how sure this distance is.</source>
         <translation>Test {} neříká, jak jistá tato vzdálenost je.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The test in {} cannot be read: {}: {}</source>
         <translation>Test v {} nelze přečíst: {}: {}</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The test does not start: the laboratory requires {}.</source>
         <translation>Test nezačne: laboratoř vyžaduje {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The test was begun with another {}, {}; now it is {}. Continue it with that one, or begin a new test.</source>
         <translation>Test začal s jiným {}, {}; teď je to {}. Pokračujte s původním, nebo začněte nový test.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The calibration of {} was valid until {}. Calibrate it again, or take another one.</source>
         <translation>Kalibrace {} platila do {}. Zkalibrujte znovu, nebo vezměte jiné měřidlo.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{}{} is unknown; did you mean {}?</source>
         <translation>{}{} není známo; mělo to být {}?</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{} is a number; write it in quotes, so that its zeros are kept.</source>
         <translation>{} je číslo; napište je do uvozovek, aby zůstaly nuly.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{} has to be a text of at most {} characters in one line.</source>
         <translation>{} musí být text nejvýše {} znaků na jednom řádku.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>notes has to be a text of at most {} characters.</source>
         <translation>notes musí být text nejvýše {} znaků.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{} has to be a list of at most {} entries.</source>
         <translation>{} musí být seznam nejvýše {} položek.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{}name is missing.</source>
         <translation>{}chybí name.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{}valid_until, {}, is before calibrated, {}.</source>
         <translation>{}valid_until, {}, je před calibrated, {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{} has to be a day such as 2026-03-01.</source>
         <translation>{} musí být den, např. 2026-03-01.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>photos has to be a list of files with name and sha256.</source>
         <translation>photos musí být seznam souborů s name a sha256.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>photos has to be a list of at most {} paths.</source>
         <translation>photos musí být seznam nejvýše {} cest.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>equipment {}: it has {} parts between semicolons; allowed are name; serial number; calibrated; valid until.</source>
         <translation>měřidlo {}: má {} částí mezi středníky; smí být název; výrobní číslo; kalibrováno; platí do.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>required has to be a list of keys, such as [car_vin, operator].</source>
         <translation>required musí být seznam klíčů, např. [car_vin, operator].</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>key_battery_v is no number; allowed is 0 to 60 V.</source>
         <translation>key_battery_v není číslo; povoleno je 0 až 60 V.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>key_battery_v is {} V; allowed is 0 to 60 V.</source>
         <translation>key_battery_v je {} V; povoleno je 0 až 60 V.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>There are {} photos; at most {} are kept with a test.</source>
         <translation>Fotografií je {}; s testem se jich uchová nejvýše {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The file {} is no photo; kept are {}.</source>
         <translation>Soubor {} není fotografie; uchovávají se {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The photo {} cannot be read: {}.</source>
         <translation>Fotografii {} nelze přečíst: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The photo {} is no file of at most {} MiB.</source>
         <translation>Fotografie {} není soubor nejvýše {} MiB.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The photo {} cannot be copied: {}.</source>
         <translation>Fotografii {} nelze zkopírovat: {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Without length and width of the Car&apos;s data sheet the distances may be up to {} cm too long: the Car may be wider above the height at which the LiDARs see it. Start the robot with car_file, and map the Car again.</source>
         <translation>Bez délky a šířky z technického listu auta mohou být vzdálenosti až o {} cm delší: nad výškou, ve které auto vidí LiDARy, může být širší. Spusťte robot s car_file a zmapujte auto znovu.</translation>
     </message>
@@ -5612,7 +5758,7 @@
         <translation>Výšky jsou od sebe {} cm; zadejte takové, které jsou od sebe alespoň {} cm.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The {} port {} is open, but not the robot&apos;s; subscriber and publisher port may be swapped, the robot&apos;s link may be encrypted, or another program listens there.</source>
         <translation>Port {} {} je otevřený, ale nepatří robotu; porty mohou být prohozené, spojení robotu může být šifrované, nebo tam naslouchá jiný program.</translation>
     </message>
@@ -6472,17 +6618,17 @@
         <translation>Soubory jsou takové, jak byly podepsány, ale zip kolem nich není takový, jak byl zapsán, od bajtu {} dále: byl zabalen znovu, nebo je změněn bajt mezi soubory.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The laptop slept for {} s, and the robot stood meanwhile.</source>
         <translation>Notebook spal {} s a robot mezitím stál.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The application stood still for {} s, and the robot stood meanwhile.</source>
         <translation>Aplikace {} s neběžela a robot mezitím stál.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>{} The line at hand is measured anew when the test goes on.</source>
         <translation>{} Rozpracovaná přímka se změří znovu, až bude test pokračovat.</translation>
     </message>
@@ -6897,7 +7043,7 @@
         <translation>Přeskočit přímku {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The line was skipped by the Operator.</source>
         <translation>Přímku přeskočila obsluha.</translation>
     </message>
@@ -6917,7 +7063,7 @@
         <translation>O {} přímkách není nic zaznamenáno ({}).</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot had a fault: {}</source>
         <translation>Robot měl poruchu: {}</translation>
     </message>
@@ -6987,37 +7133,37 @@
         <translation>Přímka to neuvádí.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{} tests fit; at most {} are looked at together. Narrow the search.</source>
         <translation>Vyhovuje {} testů; společně se hodnotí nejvýše {}. Upřesněte hledání.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>Tests of the scenarios {} cannot be looked at together; choose one.</source>
         <translation>Testy scénářů {} nelze hodnotit společně; vyberte jeden.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>No test measured it.</source>
         <translation>Žádný test ji nezměřil.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>One test that does not say how sure it is.</source>
         <translation>Jediný test, který neříká, jak je jistý.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>{} tests have a value here; {} are the fewest.</source>
         <translation>Hodnotu zde má testů: {}; nejméně musí být {}.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>All tests have the same value.</source>
         <translation>Všechny testy mají stejnou hodnotu.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>No test fits.</source>
         <translation>Žádný test nevyhovuje.</translation>
     </message>
@@ -7137,7 +7283,7 @@
         <translation>taková databáze nebo uživatel na serveru není</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>There is no test in {}.</source>
         <translation>V {} není žádný test.</translation>
     </message>
@@ -7172,22 +7318,22 @@
         <translation>„{title}“</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>Car profile {} has a text of more than {} characters.</source>
         <translation>Profil auta {} obsahuje text delší než {} znaků.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>No test begins, because the robot&apos;s preflight found: {} Mend it, then run `rosrun mtr_bringup preflight` on the robot again.</source>
         <translation>Zkouška nezačne, protože kontrola robotu zjistila: {} Odstraňte to a pak na robotu znovu spusťte `rosrun mtr_bringup preflight`.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s clock is {} ahead of this laptop&apos;s: distances do not depend on it, dates in the robot&apos;s logs do; set the one that is wrong, or have the laptop take the robot&apos;s (docs/robot-setup.md, Clocks).</source>
         <translation>Hodiny robotu jdou o {} napřed před hodinami tohoto notebooku: vzdálenosti na tom nezávisí, data v protokolech robotu ano; seřiďte ty, které jdou špatně, nebo ať notebook převezme čas robotu (docs/robot-setup.md, Clocks).</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s clock is {} behind this laptop&apos;s: distances do not depend on it, dates in the robot&apos;s logs do; set the one that is wrong, or have the laptop take the robot&apos;s (docs/robot-setup.md, Clocks).</source>
         <translation>Hodiny robotu se o {} opožďují za hodinami tohoto notebooku: vzdálenosti na tom nezávisí, data v protokolech robotu ano; seřiďte ty, které jdou špatně, nebo ať notebook převezme čas robotu (docs/robot-setup.md, Clocks).</translation>
     </message>
@@ -7207,7 +7353,7 @@
         <translation>Do {} mohou zapisovat i jiní; spusťte chmod {} {}.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The progress file belongs to another Car: its {} was {} m, now it measures {} m. Continue the test at the Car with which it was begun, or begin a new one.</source>
         <translation>Soubor průběhu patří k jinému autu: {} byla {} m, nyní je {} m. Pokračujte v testu u auta, se kterým začal, nebo začněte nový.</translation>
     </message>
@@ -7267,7 +7413,7 @@
         <translation>Hranice nebyla dosažena a přímka neuvádí, na které straně limitu leží.</translation>
     </message>
     <message>
-        <location filename="../texts/identity.py" line="19"/>
+        <location filename="../texts/identity.py" line="20"/>
         <source>The tests tell different things here, such as a boundary and the place of one event; choose tests that were measured alike.</source>
         <translation>Zkoušky zde udávají různé věci, například hranici a místo jedné události; vyberte zkoušky měřené stejně.</translation>
     </message>
@@ -7297,22 +7443,22 @@
         <translation>Jiná aplikace zapisuje balíček s klíčem této stanice; zapište tento, až skončí.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>A test is being measured: stop it first, then open or begin another one.</source>
         <translation>Probíhá měření testu: nejdříve je zastavte, pak otevřete nebo začněte jiný.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The window did not react for {} s, nor would its Stop have: the robot was stopped.</source>
         <translation>Okno {} s nereagovalo a jeho Stop by nezabral: robot byl zastaven.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car&apos;s sides are known to (95 %): {}; distances from them may be wrong by that much. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
         <translation>Strany auta jsou známy na (95 %): {}; o tolik mohou být vzdálenosti od nich chybné. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The Car&apos;s {} is known to {} cm only (95 %); the robot may touch it nearer than {} m. Fill in {} (data sheet or tape measure) in the robot&apos;s car_file, restart the robot with it, and map the Car again.</source>
         <translation>Strana auta ({}) je známa jen na {} cm (95 %); blíže než {} m se jí robot může dotknout. Doplňte {} (z technických údajů nebo změřte pásmem) do souboru car_file robotu, spusťte s ním robot znovu a auto znovu zmapujte.</translation>
     </message>
@@ -7662,7 +7808,7 @@
         <translation>asammdf havaruje</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s battery is nearly empty ({} %); charge it, then begin the test.</source>
         <translation>Baterie robota je téměř vybitá ({} %); nabijte ji a pak zahajte test.</translation>
     </message>
@@ -7682,32 +7828,32 @@
         <translation>několik zpráv odkazuje příliš často na tytéž signály</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot does not report the charge of its battery; check the topic of its battery, then begin the test.</source>
         <translation>Robot nehlásí stav nabití baterie; zkontrolujte téma jeho baterie, pak zahajte test.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>The robot&apos;s battery is critical; charge the robot, then continue.</source>
         <translation>Baterie robotu je kriticky vybitá; nabijte robot, pak pokračujte.</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>the battery is critical: lower the key</source>
         <translation>baterie je kriticky vybitá: spouští se klíč</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>return to the start place</source>
         <translation>návrat na výchozí místo</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>the robot stays here: its start place is not known</source>
         <translation>robot zůstává zde: jeho výchozí místo není známo</translation>
     </message>
     <message>
-        <location filename="../texts/application.py" line="10"/>
+        <location filename="../texts/application.py" line="11"/>
         <source>the robot stays here: {}</source>
         <translation>robot zůstává zde: {}</translation>
     </message>
@@ -7776,53 +7922,183 @@
         <source>No test begins. {}</source>
         <translation>Test nezačne. {}</translation>
     </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>The Car&apos;s ignition is on (signal {}).</source>
+        <translation>Zapalování auta je zapnuté (signál {}).</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>The Car&apos;s gear is not P (signal {}).</source>
+        <translation>Auto nemá zařazeno P (signál {}).</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>The Car moves (signal {}).</source>
+        <translation>Auto se pohybuje (signál {}).</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>A door or lid of the Car is open: {} (signal {}).</source>
+        <translation>Auto má otevřené dveře nebo víko: {} (signál {}).</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>The robot was stopped. {}</source>
+        <translation>Robot byl zastaven. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>The robot was stopped. {} Secure the Car, then continue the test.</source>
+        <translation>Robot byl zastaven. {} Zajistěte auto a pak pokračujte ve zkoušce.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No output at the Car is switched. {}</source>
+        <translation>U auta se nesepne žádný výstup. {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Car profile {}: {} of {} must be a table of message, signal and parked; bus and unknown are optional.</source>
+        <translation>Profil auta {}: {} v {} musí být tabulka s message, signal a parked; bus a unknown jsou volitelné.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Car profile {}: {} of {} has no parked value: the robot could never move.</source>
+        <translation>Profil auta {}: {} v {} nemá žádnou hodnotu parked: robot by se nikdy nemohl pohnout.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Car profile {}: {} of {} lists no parked value that the signal {} can carry.</source>
+        <translation>Profil auta {}: {} v {} neuvádí v parked žádnou hodnotu, kterou signál {} může přenést.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Car profile {}: {} of {} lists {} as parked and as unknown.</source>
+        <translation>Profil auta {}: {} v {} uvádí {} jako parked i jako unknown.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Car profile {}: {} of {} has {}: {}; allowed is a list of whole numbers.</source>
+        <translation>Profil auta {}: {} v {} má {}: {}; přípustný je seznam celých čísel.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Nobody confirmed within {} s to be present: the robot was stopped. The test is kept; resume it in sight of the robot.</source>
+        <translation>Nikdo do {} s nepotvrdil přítomnost: robot byl zastaven. Zkouška je uložena; pokračujte v ní s robotem na dohled.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>Presence confirmed.</source>
+        <translation>Přítomnost potvrzena.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot without a person: nobody can be asked here, and the configuration declares no unattended_stop (laboratory.yaml), the name of a rated stop.</source>
+        <translation>Na skutečném robotu nezačne zkouška bez osoby: zde se není koho ptát a nastavení neuvádí unattended_stop (laboratory.yaml), název certifikovaného zastavení.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot without a person in charge: name one under Car, key and operator, or as person_in_charge of the identity file.</source>
+        <translation>Na skutečném robotu nezačne zkouška bez odpovědné osoby: uveďte ji v části Auto, klíč a operátor nebo jako person_in_charge v souboru identity.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot before its operating conditions are confirmed: {}.</source>
+        <translation>Na skutečném robotu nezačne zkouška, dokud nejsou potvrzeny provozní podmínky: {}.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot that does not report its preflight; update its software, then run `rosrun mtr_bringup preflight --drive` on it.</source>
+        <translation>Na skutečném robotu, který nehlásí svou kontrolu, nezačne zkouška; aktualizujte jeho program a pak na něm spusťte `rosrun mtr_bringup preflight --drive`.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot before a preflight in motion, since its start or its last update: run `rosrun mtr_bringup preflight --drive` on it.</source>
+        <translation>Na skutečném robotu nezačne zkouška bez kontroly za jízdy od jeho spuštění nebo poslední aktualizace: spusťte na něm `rosrun mtr_bringup preflight --drive`.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot before a preflight in motion; the last one was made at rest: run `rosrun mtr_bringup preflight --drive` on it.</source>
+        <translation>Na skutečném robotu nezačne zkouška bez kontroly za jízdy; poslední byla provedena vstoje: spusťte na něm `rosrun mtr_bringup preflight --drive`.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>No test begins on a real robot whose preflight in motion was made {} ago; allowed are {}: run `rosrun mtr_bringup preflight --drive` on it.</source>
+        <translation>Na skutečném robotu nezačne zkouška, když je kontrola za jízdy stará {}; přípustné je {}: spusťte na něm `rosrun mtr_bringup preflight --drive`.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>A press may sound the horn or the alarm, or open the tailgate. Announce the test; people next to the Car wear ear protection.</source>
+        <translation>Stisk může spustit klakson nebo alarm nebo otevřít páté dveře. Zkoušku ohlaste; lidé u auta nosí chrániče sluchu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>A pull at the handle of a locked Car may set off its alarm. Announce the test; people next to the Car wear ear protection.</source>
+        <translation>Zatažení za kliku zamčeného auta může spustit alarm. Zkoušku ohlaste; lidé u auta nosí chrániče sluchu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/supervision.py" line="5"/>
+        <source>The Car may sound its horn when it locks or unlocks. Announce the test; people next to the Car wear ear protection.</source>
+        <translation>Auto může při zamčení nebo odemčení zatroubit. Zkoušku ohlaste; lidé u auta nosí chrániče sluchu.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
     <message>
-        <location filename="../screens/settings.py" line="97"/>
+        <location filename="../screens/settings.py" line="102"/>
         <source>Back</source>
         <translation>Zpět</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="206"/>
+        <location filename="../screens/settings.py" line="213"/>
         <source>{count} lines ({word}), about {time}.</source>
         <translation>Počet přímek ({word}): {count}, asi {time}.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="210"/>
+        <location filename="../screens/settings.py" line="217"/>
         <source>The Car is not measured yet; its size is a guess.</source>
         <translation>Auto ještě není změřeno; jeho rozměry jsou odhad.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="215"/>
+        <location filename="../screens/settings.py" line="222"/>
         <source>The battery, at {percent} %, suffices.</source>
         <translation>Baterie ({percent} %) stačí.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="216"/>
+        <location filename="../screens/settings.py" line="223"/>
         <source>The battery, at {percent} %, may not suffice: the test takes about {need} %.</source>
         <translation>Baterie ({percent} %) nemusí stačit: test spotřebuje asi {need} %.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="78"/>
+        <location filename="../screens/settings.py" line="81"/>
         <source>Hold to start</source>
         <translation>Podržením spustit</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="175"/>
+        <location filename="../screens/settings.py" line="180"/>
         <source>Something stands in the way of {lines}: grey squares, the nearest {distance} m from the Car. Move it, or measure from nearer.</source>
         <translation>V cestě stojí překážka ({lines}): šedé čtverce, nejbližší {distance} m od auta. Odstraňte ji, nebo měřte z menší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="205"/>
+        <location filename="../screens/settings.py" line="212"/>
         <source>No preview of the lines while the parameters are not right.</source>
         <translation>Dokud nejsou parametry v pořádku, není náhled přímek.</translation>
     </message>
     <message>
-        <location filename="../screens/settings.py" line="183"/>
+        <location filename="../screens/settings.py" line="188"/>
         <source>Not all seen by the robot yet: {lines}.</source>
         <translation>Robot ještě celé neviděl: {lines}.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="253"/>
+        <source>Name the person in charge under Car, key and operator.</source>
+        <translation>Uveďte odpovědnou osobu v části Auto, klíč a operátor.</translation>
+    </message>
+    <message>
+        <location filename="../screens/settings.py" line="254"/>
+        <source>Confirm each operating condition below the parameters.</source>
+        <translation>Potvrďte pod parametry každou provozní podmínku.</translation>
     </message>
 </context>
 <context>
@@ -8090,7 +8366,7 @@
         <translation>Auto nesděluje, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="45"/>
+        <location filename="../header/reasons.py" line="46"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
@@ -8125,22 +8401,22 @@
         <translation>Robotu něco stojí v cestě.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="59"/>
+        <location filename="../header/reasons.py" line="60"/>
         <source>Look at the cause; then have the robot go on.</source>
         <translation>Prohlédněte příčinu a pak dejte robotu pokyn pokračovat.</translation>
     </message>
     <message>
-        <location filename="../header/reasons.py" line="60"/>
+        <location filename="../header/reasons.py" line="61"/>
         <source>Clear its way; it goes on by itself, or stands until you have it go on.</source>
         <translation>Uvolněte mu cestu; pokračuje sám, nebo stojí, dokud mu nedáte pokyn.</translation>
     </message>
     <message>
-        <location filename="../alerts/sounds.py" line="63"/>
+        <location filename="../alerts/sounds.py" line="64"/>
         <source>The test is done.</source>
         <translation>Test je hotov.</translation>
     </message>
     <message>
-        <location filename="../alerts/sounds.py" line="65"/>
+        <location filename="../alerts/sounds.py" line="66"/>
         <source>The robot moves.</source>
         <translation>Robot se pohybuje.</translation>
     </message>
@@ -8153,6 +8429,11 @@
         <location filename="../header/reasons.py" line="38"/>
         <source>The robot does not report its charge.</source>
         <translation>Robot nehlásí stav nabití.</translation>
+    </message>
+    <message>
+        <location filename="../alerts/sounds.py" line="68"/>
+        <source>Confirm that you are present.</source>
+        <translation>Potvrďte svou přítomnost.</translation>
     </message>
 </context>
 <context>
@@ -8872,6 +9153,26 @@
         <location filename="../texts/words.py" line="7"/>
         <source>wider intervals</source>
         <translation>širší intervaly</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>ignition</source>
+        <translation>zapalování</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>gear</source>
+        <translation>řazení</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>speed</source>
+        <translation>rychlost</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>door</source>
+        <translation>dveře</translation>
     </message>
 </context>
 </TS>

@@ -112,7 +112,9 @@ def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameter
 
 def _car_notices(fresh: Inputs) -> Iterator[Notice]:
     car = fresh.car
-    if car is not None and car.state == CarState.LOCATED and car.problems and car.problems[0].code == SHEET_CONTRADICTED:
+    if car is None or car.state != CarState.LOCATED or not car.problems:
+        return
+    if car.problems[0].code == SHEET_CONTRADICTED:
         yield Notice("sheet_contradicted", ERROR, problem_of(car.problems, car.message))
 
 

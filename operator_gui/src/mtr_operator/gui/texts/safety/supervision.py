@@ -10,11 +10,11 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The robot was stopped. {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot was stopped. {} Secure the Car, then continue the test."),
     QT_TRANSLATE_NOOP("Sentence", "No output at the Car is switched. {}"),
-    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} must be a table of message, signal and safe; bus and "
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} must be a table of message, signal and parked; bus and "
                                   "unknown are optional."),
-    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} has no safe value: the robot could never move."),
-    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} lists no safe value that the signal {} can carry."),
-    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} lists {} as safe and as unknown."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} has no parked value: the robot could never move."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} lists no parked value that the signal {} can carry."),
+    QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} lists {} as parked and as unknown."),
     QT_TRANSLATE_NOOP("Sentence", "Car profile {}: {} of {} has {}: {}; allowed is a list of whole numbers."),
     QT_TRANSLATE_NOOP("Sentence", "Nobody confirmed within {} s to be present: the robot was stopped. The test is "
                                   "kept; resume it in sight of the robot."),
