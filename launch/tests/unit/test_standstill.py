@@ -42,6 +42,15 @@ def test_robot_that_stands_with_a_stop_engaged_may_be_stopped():
     assert judged(measured=noise).verdict is Verdict.MAY_STOP
 
 
+def test_limits_of_rest_are_rest():
+    assert judged(measured=(STANDING_MPS, 0.0)).verdict is Verdict.MAY_STOP
+    assert judged(measured=(0.0, -STANDING_RADPS)).verdict is Verdict.MAY_STOP
+
+
+def test_newest_report_counts():
+    assert judged(until_s=NOW_S - VELOCITY_AGE_S + 0.5 * PERIOD_S).verdict is Verdict.MAY_STOP
+
+
 @pytest.mark.parametrize("velocity", [
     (0.02, 0.0), (-0.02, 0.0), (0.0, 0.03), (0.0, -0.03), (math.nan, 0.0), (0.0, math.nan), (math.inf, 0.0)])
 def test_robot_that_moves_or_whose_velocity_is_no_number_is_refused(velocity):

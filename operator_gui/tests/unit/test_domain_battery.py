@@ -17,6 +17,8 @@ from mtr_operator.domain.scenarios.autolock_parameters import AutolockParameters
 
 PARAMETERS = AutolockParameters(measurements_distance_m=10.0, self_check=False)
 FALLS_AT_S = 20.0
+# Sums of it are exact.
+TICK_S = 0.25
 
 
 class Actions(RunObserver):
@@ -44,19 +46,19 @@ def test_levels(percent, low, critical):
 
 def due_times(*charges):
     """Times at which the watch reports, of (charge, duration) one after the other."""
-    watch, now_s, due = BatteryWatch(), 0.0, []
+    watch, ticks, due = BatteryWatch(), 0, []
     for percent, duration_s in charges:
-        for _ in range(round(duration_s / 0.1)):
-            if watch.is_due(percent, now_s):
-                due.append(round(now_s, 1))
-            now_s += 0.1
+        for _ in range(round(duration_s / TICK_S)):
+            if watch.is_due(percent, ticks * TICK_S):
+                due.append(ticks * TICK_S)
+            ticks += 1
     return due
 
 
 @pytest.mark.parametrize(("charges", "expected"), [
     ([(9, 30.0)], [CRITICAL_FOR_S]),
     ([(10, 60.0)], []),
-    ([(9, 9.9), (10, 0.1), (9, 9.9)], []),
+    ([(9, 10.0), (10, 0.25), (9, 10.0)], []),
     ([(9, 5.0), (None, 30.0)], [CRITICAL_FOR_S]),
     ([(None, 60.0)], []),
     ([(9, 11.0), (10 + RECHARGED_PERCENT - 1, 5.0), (9, 60.0)], [CRITICAL_FOR_S]),
@@ -65,7 +67,7 @@ def due_times(*charges):
 ], ids=["stays critical", "at the level", "load steps", "falls silent", "unknown", "recovers under no load", "charged",
         "silent afterwards"])
 def test_critical_charge_is_reported_once(charges, expected):
-    assert due_times(*charges) == pytest.approx(expected, abs=0.11)
+    assert due_times(*charges) == expected
 
 
 def test_robot_at_a_critical_charge_lowers_the_key_returns_and_the_test_is_kept(world, robot_link, run_scenario):

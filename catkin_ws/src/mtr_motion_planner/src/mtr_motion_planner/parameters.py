@@ -106,6 +106,9 @@ class MotionParameters(ParameterSet):
         rear_lidar: the robot has one; else it drives half a metre straight ahead before it turns after a rest, as drive
             control lets it turn on ground only that was seen free.
         degenerate_speed_mps: speed limit while localization says that its surroundings do not hold the pose.
+        pose_margin_m: stopping distance and 2 sigma of the robot's own position stay within it by a lower speed; at the
+            usual sigma of up to 5 cm it does not slow the robot.
+        creep_mps: speed that uncertainty of the position always leaves.
         input_age_limit_s: older inputs stop the robot.
         accept_nav_goal: for developers: goals from rviz are taken while the robot follows waypoints and the Operator
             wants none.
@@ -120,6 +123,8 @@ class MotionParameters(ParameterSet):
     longest_reverse_m: float = number(50.0, 0.0, 50.0, "m")
     rear_lidar: bool = True
     degenerate_speed_mps: float = number(0.3, 0.05, 2.0, "m/s")
+    pose_margin_m: float = number(0.5, 0.1, 2.0, "m")
+    creep_mps: float = number(0.1, 0.05, 0.3, "m/s")
     input_age_limit_s: float = number(0.3, 0.1, 2.0, "s")
     accept_nav_goal: bool = False
     nav_goal_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")

@@ -14,10 +14,12 @@ from mtr_description.mounts import Footprint
 from . import problems
 from .following.follower import Follower, FollowerOutput
 from .following.ground_behind import GroundBehind
+from .following.pose_speed import PoseSpeed
 from .following.ramp import Ramp
 from .following.tolerance import miss_of, problem_of_miss, was_displaced
 from .following.tracking import Velocity
 from .following.watch import StallWatch, is_heading_into, problem_of_drive
+from .geometry.growth import own_sigma_of
 from .geometry.robot_outline import RobotOutline
 from .inputs import Inputs, InputsUnusable, Situation, Zone, situation_of
 from .outputs import PlannerOutput
@@ -47,6 +49,7 @@ class MotionPlanner:
         self._replanning = Replanning(parameters, executor)
         self._ramp = Ramp(parameters.limits)
         self._stall = StallWatch()
+        self._pose_speed = PoseSpeed(parameters.limits, parameters.pose_margin_m, parameters.creep_mps)
         self._behind = None if parameters.rear_lidar else GroundBehind()
         # Once for each goal: where that does not help, drive control reports what does.
         self._may_uncover = True
@@ -142,7 +145,8 @@ class MotionPlanner:
         return self._output(self._result, message=self._message)
 
     def _speed(self, now: Situation) -> float:
-        speed = min(now.desired.max_speed_mps, self._parameters.limits.max_linear_mps)
+        speed = min(now.desired.max_speed_mps, self._parameters.limits.max_linear_mps,
+                    self._pose_speed.limit(own_sigma_of(now.robot, self._outline.front_m)))
         return min(speed, self._parameters.degenerate_speed_mps) if now.robot.is_degenerate else speed
 
     def _keep_planned(self, site: Site, pose: Pose2, now: Situation, speed: float) -> None:
