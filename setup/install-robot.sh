@@ -103,7 +103,7 @@ require_standstill() {
     0) ;;
     4) fail "$sentence The release in use stays." ;;
     *)
-      [[ $force ]] || fail "The robot's software does not answer, so the release in use stays; see that the robot stands, then" \
+      [[ $force ]] || fail "The software of the robot does not answer, so the release in use stays; see that the robot stands, then" \
         "repeat this with --force."
       ;;
   esac

@@ -102,7 +102,9 @@ def _is_watched(velocities: List[Velocity], now_s: float) -> bool:
 
 def _fastest_moving(velocities: List[Velocity]) -> Optional[Velocity]:
     moving = [velocity for velocity in velocities if not velocity.is_rest]
-    return max(moving, key=lambda velocity: math.hypot(velocity.linear_mps, velocity.angular_radps), default=None)
+    if not moving:
+        return None
+    return max(moving, key=lambda velocity: math.hypot(velocity.linear_mps, velocity.angular_radps))
 
 
 def _is_engaged(lock: Lock, now_s: float) -> bool:

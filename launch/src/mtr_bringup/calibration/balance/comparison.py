@@ -30,7 +30,7 @@ def optimistic(balance: Balance, described: Mapping[str, float], key_heights_m: 
         for key_height_m in key_heights_m:
             true_mps2 = limit_mps2(measured, lever, key_height_m)
             said_mps2 = limit_mps2(dict(described), lever, key_height_m)
-            sigma_mps2 = true_mps2 * _relative_sigma(balance, lever, key_height_m)
+            sigma_mps2 = true_mps2 * relative_sigma(balance, lever, key_height_m)
             if said_mps2 > true_mps2 + sigma_mps2:
                 sentences.append(
                     f"WARNING: with the key at {key_height_m:.2f} m the robot tips {direction} at {true_mps2:.2f} m/s2 "
@@ -38,7 +38,8 @@ def optimistic(balance: Balance, described: Mapping[str, float], key_heights_m: 
     return sentences
 
 
-def _relative_sigma(balance: Balance, lever: str, key_height_m: float) -> float:
+def relative_sigma(balance: Balance, lever: str, key_height_m: float) -> float:
+    """1 sigma of the measured limit, as a share of it."""
     parameters = balance.parameters()
     height_m = balance.low.value + balance.rise.value * key_height_m
     # An upper bound: height at zero and slope are taken as independent.

@@ -57,12 +57,12 @@ def balance_of(chassis: Chassis, levels: Sequence[Level], raised: Sequence[Raise
     left = mean_of([level.left_m(chassis) for level in levels], 0.5 * chassis.track_m * step_kg / mass.value)
     heights = [each.height(chassis, mass.value, ahead.value, step_kg) for each in raised]
     heights += [each.height(chassis, ahead.value, left.value) for each in tilts]
-    low, rise = _line(heights)
+    low, rise = line_through(heights)
     return Balance(chassis, mass, ahead, left, low, rise)
 
 
-def _line(heights: List[Height]) -> List[Estimate]:
-    """Height of the centre with the key at zero, and its slope, by weighted least squares."""
+def line_through(heights: List[Height]) -> List[Estimate]:
+    """Height of the centre with the key at zero, and its slope, by weighted least squares; ReadingsUnusable."""
     if len(heights) < LEAST_HEIGHTS:
         raise ReadingsUnusable(f"The height was read {len(heights)} times; at least {LEAST_HEIGHTS} are needed.")
     keys = np.array([each.key_height_m for each in heights])

@@ -8,12 +8,14 @@ from ..readings import ReadingsUnusable
 
 # A smaller rise changes the loads by less than scales resolve.
 LEAST_RISE_M = 0.015
-# Sums of the loads that differ by more than this share of the mass contradict each other.
-SUM_SHARE = 0.02
+# Sums of the loads that differ by more than this percentage of the mass contradict each other.
+SUM_PERCENT = 2.0
+SUM_SHARE = SUM_PERCENT / 100.0
 # A robot that loses more of the load of its raised axle is near to tipping backwards.
 LEAST_LOAD_SHARE = 0.25
 # 1 sigma of a block's height and of the angle of a tilt table.
 BLOCK_SIGMA_M, TILT_SIGMA_DEG = 0.0005, 0.3
+MM_PER_M = 1000.0
 
 
 class Chassis(NamedTuple):
@@ -77,8 +79,8 @@ class Raised:
         """
         _refuse_contradiction(self.front_kg + self.rear_kg, mass_kg)
         if not LEAST_RISE_M <= self.rise_m < chassis.base_m:
-            raise ReadingsUnusable(f"The front wheels were {1000.0 * self.rise_m:.0f} mm higher; at least "
-                                   f"{1000.0 * LEAST_RISE_M:.0f} mm and less than the wheels' base are needed.")
+            raise ReadingsUnusable(f"The front wheels were {MM_PER_M * self.rise_m:.0f} mm higher; at least "
+                                   f"{MM_PER_M * LEAST_RISE_M:.0f} mm and less than the wheels' base are needed.")
         level_kg = mass_kg * (0.5 + ahead_m / chassis.base_m)
         if self.front_kg < LEAST_LOAD_SHARE * level_kg:
             raise ReadingsUnusable(f"The front wheels carry {self.front_kg:.1f} kg of {level_kg:.1f} kg: the robot is "
@@ -117,6 +119,6 @@ class Tilt:
 
 
 def _refuse_contradiction(sum_kg: float, other_kg: float) -> None:
-    if not (sum_kg > 0.0 and other_kg > 0.0 and abs(sum_kg - other_kg) <= SUM_SHARE * max(sum_kg, other_kg)):
+    if not (min(sum_kg, other_kg) > 0.0 and abs(sum_kg - other_kg) <= SUM_SHARE * max(sum_kg, other_kg)):
         raise ReadingsUnusable(f"The loads add up to {sum_kg:.2f} kg and to {other_kg:.2f} kg; they may differ by "
-                               f"{100.0 * SUM_SHARE:.0f} %. Level the scales, set them to zero, and weigh again.")
+                               f"{SUM_PERCENT:.0f} %. Level the scales, set them to zero, and weigh again.")
