@@ -6,7 +6,7 @@ import pytest
 from PyQt5.QtCore import Qt, QTimer
 from PyQt5.QtWidgets import QShortcut
 
-from mtr_operator.domain.robot_status import Notification
+from mtr_operator.domain.robot_status import Notification, Problem
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.gui.flow import Step
 from mtr_operator.gui.forms.hold_button import HoldButton
@@ -87,6 +87,27 @@ def test_hold_whose_cause_changes_is_not_released_by_the_button_held_for_the_for
     operator.bot.mouseRelease(screen.go_on, Qt.LeftButton)
     operator.hold(screen.go_on)
     operator.wait(lambda: opener.sent[-1].resume_hold_id == 6)
+    operator.click(operator.window.header.stop)
+
+
+def on_hold(hold_id, code):
+    """Changes of a Status of a robot that is on hold for this reason."""
+    return {"hold_id": hold_id, "notifications": (Notification("held", 3, "On hold.", (Problem(code, (), "On hold."),)),)}
+
+
+@pytest.mark.parametrize(("code", "resumed"), [("state_machine.held_stop", 7), ("state_machine.held_fault", 0),
+                                               ("state_machine.held_link", 0), ("", 0)])
+def test_held_resume_ends_the_hold_of_the_operators_stop_and_no_other(operator, opener, code, resumed):
+    screen = operator.begin()
+    operator.wait(lambda: operator.model.done >= 1)
+    operator.click(operator.window.header.stop)
+    operator.wait(screen.resume.isEnabled)
+    opener.spoil_with(**on_hold(7, code))
+    operator.wait(lambda: operator.model.robot.status.hold_id == 7)
+    assert all(desired.resume_hold_id == 0 for desired in opener.sent)
+    operator.hold(screen.resume)
+    operator.wait(lambda: operator.model.phase is Phase.MEASURING and opener.sent[-1].resume_hold_id == resumed
+                  and not opener.sent[-1].stop)
     operator.click(operator.window.header.stop)
 
 

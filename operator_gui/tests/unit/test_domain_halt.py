@@ -7,6 +7,7 @@ import pytest
 from mtr_operator.domain.absent_car import AbsentCarLink
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.pose_history import STANDING_MPS
+from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.robot_link.fake import FakeRobotLink
@@ -73,3 +74,31 @@ def test_stop_that_the_robot_never_takes_is_not_confirmed(loop_behind, behind):
     loop.step()
     link.is_deaf = True
     assert loop.halt() is False
+
+
+@pytest.mark.parametrize(("is_cancelled", "is_kept"), [(False, False), (True, True)], ids=["by itself", "Operator"])
+def test_end_of_a_run_withdraws_its_orders_and_the_operators_stop_does_not(is_cancelled, is_kept):
+    link = FakeRobotLink(1, world=VirtualWorld(starting_s=0.0, mapping_s=0.0))
+    link.connect()
+    wish = [False]
+    loop = ControlLoop(link, AbsentCarLink(), is_cancelled=lambda: wish[0])
+    loop.step()
+    loop.change(**DRIVE, map_car_id=3, check_car_id=2)
+    loop.step()
+    wish[0] = is_cancelled
+    assert loop.halt() is True
+    orders = (loop.desired.waypoint, loop.desired.map_car_id, loop.desired.check_car_id)
+    assert loop.desired.stop and orders == ((DRIVE["waypoint"], 3, 2) if is_kept else (None, 0, 0))
+
+
+def test_stop_of_a_scenario_withdraws_its_waypoint_and_the_next_one_counts():
+    link = FakeRobotLink(1, world=VirtualWorld(starting_s=0.0, mapping_s=0.0))
+    link.connect()
+    loop = ControlLoop(link, AbsentCarLink())
+    robot = Robot(loop)
+    robot.drive_to(Pose(-8.0, 6.0, 0.0))
+    loop.step()
+    robot.stop()
+    assert loop.desired.stop and loop.desired.waypoint is None
+    robot.drive_to(Pose(-7.0, 6.0, 0.0))
+    assert not loop.desired.stop and loop.desired.waypoint.id == 2

@@ -30,7 +30,7 @@ from mtr_operator.station.events import (
     StationEvent,
 )
 from mtr_operator.station.links.idle_loop import CalibrationRequest, CarRequest
-from mtr_operator.station.readiness import RUNNING, Phase
+from mtr_operator.station.readiness import RUNNING, Phase, is_held_by_stop
 from mtr_operator.station.settings_file import SettingsStore
 from mtr_operator.station.test import NOTHING_SAID, Test, go_on, open_test
 from mtr_operator.storage.given_files import GivenPaths
@@ -160,6 +160,7 @@ class Flow(QObject):
             test.again = ()
             self.failed.emit(str(error))
             return False
+        self._release_stop()
         self.model.begin()
         self.connecting.links.run_test(test, confirmed)
         return True
@@ -196,6 +197,12 @@ class Flow(QObject):
         """Have a robot go on that is held."""
         if self.model.robot is not None:
             self.connecting.links.release_hold(self.model.robot.status.hold_id)
+
+    def _release_stop(self) -> None:
+        """Start, Resume, Check and Map are buttons that are held, by the Operator who has stopped the robot. Any other
+        cause of a hold is resumed on its own."""
+        if self.model.robot is not None and is_held_by_stop(self.model.robot.status):
+            self.release_hold()
 
     def answer_prompt(self) -> None:
         """The Operator has taken the Car's handle, or switched the extender."""
@@ -256,6 +263,7 @@ class Flow(QObject):
         if request is CarRequest.STOP:
             self.stop()
             return
+        self._release_stop()
         self.model.order_motion()
         self.connecting.links.request_car(request)
 

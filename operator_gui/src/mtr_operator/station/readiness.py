@@ -78,6 +78,8 @@ class Cause(enum.Enum):
 
 
 HELD_CODE = "held"
+# Of the robot's sentence on a hold after a stop by the Operator.
+STOPPED_CODE = "state_machine.held_stop"
 # Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
 NOT_BLOCKING = ("no_emergency_stop", "unencrypted", HELD_CODE)
 # Red, and no reason to stop what runs: the lines of the test are written on the laptop.
@@ -148,6 +150,12 @@ def _hindrances(status: RobotStatus) -> list[Reason]:
     if status.waypoint_result is WaypointResult.BLOCKED:
         return [Reason(Cause.WAY_BLOCKED, True, status.waypoint_message)]
     return []
+
+
+def is_held_by_stop(status: RobotStatus) -> bool:
+    """True for a robot on hold for nothing but a stop by the Operator."""
+    return bool(status.hold_id) and any(each.code == HELD_CODE and problem.code == STOPPED_CODE
+                                        for each in status.notifications for problem in each.problems[:1])
 
 
 def can_resume(readiness: Readiness) -> bool:

@@ -54,7 +54,7 @@ class StateMachine:
         self._table = StateTable()
         self._goals = Goals()
         self._waypoint = WaypointResult()
-        self._hold = Hold(parameters.resume_by_operator, parameters.silent_after_s, parameters.empty_battery)
+        self._hold = Hold(parameters)
         self._map_car_id = 0
         self._check_car_id = 0
         self._map_revision = 0

@@ -1,19 +1,24 @@
-"""Holds: after a fault, an emergency stop, an obstacle, manual driving or a pause the robot stands until told."""
+"""Holds: after a fault, a stop, an obstacle, manual driving or a silence the robot stands until the Operator resumes."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+from mtr_core.liveness import NS
 from mtr_core.problems import NO_PROBLEM, Problem
 from mtr_core.requests import Goal
+from mtr_core.schedule import STATE_MACHINE
 from mtr_core.states import Result
 
 from . import problems
 from .observation import Observation
+from .parameters import Parameters
 
 MICROSECONDS_PER_S = 1e6
 # A battery under load recovers a little when the robot stops; only a charged one is empty for the first time again.
 RECHARGED = 0.05
 # A load step or a corrupt message is shorter.
 EMPTY_FOR_S = 10.0
+# Times of ticks are compared half a period apart, so that rounding decides nothing.
+HALF_TICK_S = 0.5 * STATE_MACHINE.period_ns * NS
 
 
 class Hold:
@@ -24,15 +29,14 @@ class Hold:
         reason: its sentence.
     """
 
-    def __init__(self, is_wanted: bool, longest_pause_s: float, empty_battery: float):
-        """is_wanted: false for a robot near which nobody comes, such as a simulated one. longest_pause_s: between two
-        updates; after a longer one nobody knows what happened meanwhile. empty_battery: charge below which the robot
-        is held once.
+    def __init__(self, parameters: Parameters):
+        """resume_by_operator is false for a robot near which nobody comes, such as a simulated one: it is never held.
         """
-        self._empty_battery, self._was_held_empty = empty_battery, False
+        self._parameters = parameters
+        self._was_held_empty = False
         self._empty_since_s = math.inf
-        self._is_wanted, self._longest_pause_s = is_wanted, longest_pause_s
         self._updated_s = math.nan
+        self._silent_since_s, self._was_held_silent = math.inf, False
         self._newest_id = self.id = 0
         self.reason = NO_PROBLEM
         self._seen_drives = self._seen_blockages = self._seen_resets = self._seen_stops = -1
@@ -43,6 +47,7 @@ class Hold:
             self.id, self.reason = 0, NO_PROBLEM
         drive, pause_s = seen.drive, seen.now_s - self._updated_s
         self._updated_s = seen.now_s
+        self._note_silence(seen)
         was_blocked = 0 <= self._seen_blockages < drive.blockages
         was_driven = 0 <= self._seen_drives < drive.manual_drives
         was_reset = 0 <= self._seen_resets < seen.firmware_resets
@@ -60,16 +65,36 @@ class Hold:
             self.begin(problems.HELD_BLOCKED(), seen)
         elif was_reset:
             self.begin(problems.HELD_BOARD(), seen)
-        elif pause_s > self._longest_pause_s:
+        elif pause_s > self._parameters.silent_after_s:
             self.begin(problems.HELD_PAUSE(pause_s=pause_s), seen)
         else:
+            self._watch_orders(seen)
             self._watch_battery(seen)
+
+    def _watch_orders(self, seen: Observation) -> None:
+        """Neither replaces another reason: its cause has to be looked at all the same."""
+        if seen.desired.link_alive:
+            if seen.desired.stop and not self.id:
+                self.begin(problems.HELD_STOP(), seen)
+        elif not self._was_held_silent and self._is_long_silent(seen):
+            self._was_held_silent = True
+            # A new number also for a robot on hold: an order to resume from before the silence no longer counts.
+            self.begin(self.reason or problems.HELD_LINK(), seen)
+
+    def _note_silence(self, seen: Observation) -> None:
+        if seen.desired.link_alive:
+            self._silent_since_s, self._was_held_silent = math.inf, False
+        else:
+            self._silent_since_s = min(self._silent_since_s, seen.now_s)
+
+    def _is_long_silent(self, seen: Observation) -> bool:
+        return seen.now_s - self._silent_since_s > self._parameters.hold_after_lost_s + HALF_TICK_S
 
     def _watch_battery(self, seen: Observation) -> None:
         # An unknown charge is no reason: it is NaN, which is below nothing.
-        is_empty = seen.battery < self._empty_battery
+        is_empty = seen.battery < self._parameters.empty_battery
         self._empty_since_s = min(self._empty_since_s, seen.now_s) if is_empty else math.inf
-        if seen.battery >= self._empty_battery + RECHARGED:
+        if seen.battery >= self._parameters.empty_battery + RECHARGED:
             self._was_held_empty = False
         if seen.now_s - self._empty_since_s >= EMPTY_FOR_S and not self._was_held_empty and is_ordered(seen):
             self._was_held_empty = True
@@ -77,7 +102,7 @@ class Hold:
 
     def begin(self, reason: Problem, seen: Observation, was_ordered: bool = False) -> None:
         """Hold the robot from now on, when an order could move it. was_ordered: one will be there again by itself."""
-        if not (self._is_wanted and (was_ordered or is_ordered(seen))):
+        if not (self._parameters.resume_by_operator and (was_ordered or is_ordered(seen))):
             return
         # The steady time, so that no hold of before has the id, not even one from before a restart of this node.
         self._newest_id = self.id = max(self._newest_id + 1, round(seen.now_s * MICROSECONDS_PER_S))

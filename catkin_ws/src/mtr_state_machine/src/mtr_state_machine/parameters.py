@@ -15,13 +15,16 @@ class Parameters(ParameterSet):
         silent_after_s: age of a part's newest message at which the part has failed at the latest; one tick earlier it
             may.
         resume_by_operator: after a fault, an emergency stop, an obstacle or manual driving the robot stands until the
-            Operator has it go on.
+            Operator has it go on; so it does after a stop by the Operator and after a longer silence of the link.
+        hold_after_lost_s: time that the link may be lost without a hold. The dispatcher reports it as lost after its
+            link_timeout_s, 1.0 s, so the robot is held after a silence of 2 s.
         empty_battery: charge below which the robot stops and is held once: near it a computer ends without warning.
             The application has lowered the key and ended its test at 10 %.
     """
 
     silent_after_s: float = number(0.5, 0.4, 5.0, "s")
     resume_by_operator: bool = True
+    hold_after_lost_s: float = number(1.0, 0.2, 10.0, "s")
     empty_battery: float = number(0.05, 0.0, 0.5)
 
     @property

@@ -31,6 +31,11 @@ HELD_MANUAL = Sentence("state_machine.held_manual",
                        "The robot was driven by hand; it stands until the Operator has it go on.")
 HELD_EMERGENCY = Sentence("state_machine.held_emergency",
                           "The robot stands after an emergency stop until the Operator has it go on.")
+HELD_STOP = Sentence("state_machine.held_stop",
+                     "The Operator has stopped the robot; it is on hold until the Operator resumes.")
+HELD_LINK = Sentence("state_machine.held_link",
+                     "The Operator's application was silent for too long; the robot is on hold until the Operator "
+                     "resumes.")
 HELD_BOARD = Sentence("state_machine.held_board",
                       "The board of lift and servos started again; the robot stands until the Operator has it go on.")
 HELD_BATTERY = Sentence("state_machine.held_battery",

@@ -17,6 +17,7 @@ from mtr_state_machine.parameters import Parameters
 SILENT = {**ALL_WELL, Part.LOCALIZATION: 0.6}
 IDLE = replace(WANTS, waypoint=Waypoint())
 STOPPED = replace(WANTS, stop=True)
+SILENT_LINK = replace(WANTS, link_alive=False, stop=True)
 OBSTACLE = Problem("motion_planner.obstacle", "The robot is blocked by an obstacle.")
 
 
@@ -106,13 +107,34 @@ def emergency_stop_for_a_moment(robot):
     robot.step(emergency=Emergency(is_engaged=False, stops=robot.seen.emergency.stops + 1))
 
 
+def stopped_by_operator(robot):
+    for _ in range(5):
+        robot.step(desired=STOPPED)
+    robot.step(desired=WANTS)
+
+
+def stopped_for_a_tick(robot):
+    robot.step(desired=STOPPED)
+    robot.step(desired=WANTS)
+
+
+def silent_link(robot, lost_s=1.1):
+    """The dispatcher reports the link as lost for this long, from the first tick to the last."""
+    for _ in range(round(10.0 * lost_s) + 1):
+        robot.step(desired=SILENT_LINK)
+    robot.step(desired=WANTS)
+
+
 CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "state_machine.held_manual"),
           "manual-between-ticks": (manual_for_a_moment, "state_machine.held_manual"),
           "blocked": (Robot.block, "state_machine.held_blocked_because"),
           "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked"),
           "emergency": (emergency_stop, "state_machine.held_emergency"),
           "emergency-between-ticks": (emergency_stop_for_a_moment, "state_machine.held_emergency"),
-          "board": (board_restarted, "state_machine.held_board")}
+          "board": (board_restarted, "state_machine.held_board"),
+          "stop": (stopped_by_operator, "state_machine.held_stop"),
+          "stop-for-a-tick": (stopped_for_a_tick, "state_machine.held_stop"),
+          "link": (silent_link, "state_machine.held_link")}
 every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=list(CAUSES))
 
 
@@ -151,6 +173,80 @@ def test_neither_stop_nor_silence_nor_another_waypoint_is_the_operators_word(rob
     robot.step(desired=between)
     assert robot.step(desired=replace(between, stop=False, link_alive=True)).hold_id == hold_id
     assert robot.decision.goal == NO_GOAL
+
+
+@pytest.mark.parametrize("lost_s", [0.0, 0.1, 0.9, 1.0])
+def test_short_silence_of_the_link_resumes_by_itself(robot, lost_s):
+    first = robot.decision.goal
+    silent_link(robot, lost_s)
+    assert not robot.decision.hold_id and robot.decision.goal.waypoint == WAYPOINT
+    assert robot.decision.goal.attempt > first.attempt
+
+
+def test_several_short_silences_are_no_long_one(robot):
+    for _ in range(10):
+        silent_link(robot, 0.9)
+    assert not robot.decision.hold_id and robot.decision.goal.waypoint == WAYPOINT
+
+
+def test_long_silence_makes_one_hold_and_the_next_silence_another(robot):
+    silent_link(robot, 30.0)
+    first = robot.decision.hold_id
+    robot.step(desired=replace(WANTS, resume_hold_id=first))
+    assert not robot.decision.hold_id
+    numbers = set()
+    for _ in range(300):
+        numbers.add(robot.step(desired=replace(SILENT_LINK, resume_hold_id=first)).hold_id)
+    assert len(numbers - {0}) == 1 and max(numbers) > first
+
+
+@every_cause
+def test_order_to_resume_from_before_a_long_silence_does_not_count(robot, cause, code):
+    cause(robot)
+    before = robot.decision.hold_id
+    silent_link(robot)
+    resumed = robot.step(desired=replace(WANTS, resume_hold_id=before))
+    assert resumed.hold_id > before and resumed.goal == NO_GOAL and resumed.message.code == code
+    assert robot.step(desired=replace(WANTS, resume_hold_id=resumed.hold_id)).goal.waypoint == WAYPOINT
+
+
+def test_hold_does_not_end_while_the_operators_stop_lasts(robot):
+    hold_id = robot.step(desired=STOPPED).hold_id
+    assert hold_id and robot.step().hold_id == hold_id
+    assert robot.step(desired=replace(STOPPED, resume_hold_id=hold_id)).hold_id > hold_id
+    assert robot.decision.goal == NO_GOAL
+
+
+@pytest.mark.parametrize("silence", [IDLE, DesiredState()], ids=["idle", "no-session"])
+def test_neither_stop_nor_silence_without_an_order_holds(silence):
+    robot = Robot()
+    robot.step()
+    for _ in range(50):
+        robot.step(desired=replace(silence, link_alive=False, stop=True))
+    robot.step(desired=replace(silence, link_alive=True, stop=True))
+    robot.step(desired=replace(silence, link_alive=True, stop=False))
+    assert not robot.decision.hold_id
+    robot.follow()
+
+
+def test_stop_hold_outlives_the_session_that_was_stopped(robot):
+    robot.step(desired=STOPPED)
+    hold_id = robot.decision.hold_id
+    robot.step(desired=DesiredState())
+    other = replace(WANTS, session_id=10)
+    assert robot.step(desired=other).hold_id == hold_id and robot.decision.goal == NO_GOAL
+    assert robot.step(desired=replace(other, resume_hold_id=hold_id)).goal.waypoint == WAYPOINT
+
+
+@pytest.mark.parametrize("duration_s", [0.2, 2.0, 10.0])
+def test_longest_silence_without_a_hold_is_a_parameter(duration_s):
+    robot = Robot()
+    robot.machine = StateMachine(Parameters(hold_after_lost_s=duration_s))
+    robot.follow()
+    silent_link(robot, duration_s)
+    assert not robot.decision.hold_id
+    silent_link(robot, duration_s + 0.1)
+    assert robot.decision.hold_id
 
 
 def test_word_of_a_silent_application_does_not_count(robot):

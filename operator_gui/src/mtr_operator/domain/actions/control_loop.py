@@ -215,9 +215,12 @@ class ControlLoop:
     def halt(self) -> bool | None:
         """Stop the robot and wait a while; True when it says that it stands, None when it is not ours to stop.
 
-        Never raises for want of an answer.
+        A run that ends by itself withdraws its orders. One that the Operator has ended does not: the robot is then on
+        hold until the Operator resumes. Never raises for want of an answer.
         """
         self.change(stop=True, press=None)
+        if not self._is_cancelled():
+            self.change(waypoint=None, map_car_id=0, check_car_id=0)
         if self._status is None or self._status.controlled_by_other:
             return None
         until_s = self.waited_s + _TAKEN_LIMIT_S

@@ -79,8 +79,9 @@ class Robot:
         self._loop.change(stop=False, waypoint=Waypoint(self._waypoint_id, pose, direction))
 
     def stop(self) -> None:
-        """Have the robot stand still. Does not wait."""
-        self._loop.change(stop=True)
+        """Have the robot stand still, and withdraw its waypoint. Does not wait. A stop that keeps the waypoint is the
+        Operator's, and puts the robot on hold."""
+        self._loop.change(stop=True, waypoint=None)
 
     def is_at_waypoint(self) -> bool:
         """True when the robot has reached the newest waypoint; LineInvalid when it refuses to go there."""
