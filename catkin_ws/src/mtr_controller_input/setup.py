@@ -4,5 +4,6 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-setup(**generate_distutils_setup(packages=["mtr_controller_input", "mtr_controller_input.evdev_joy"],
+setup(**generate_distutils_setup(packages=["mtr_controller_input", "mtr_controller_input.evdev_joy",
+                                           "mtr_controller_input.presence"],
                                  package_dir={"": "src"}))

@@ -1,7 +1,7 @@
 """The manual controller's node: sensor_msgs/Joy in; velocity, motion lock and way of the lift out."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
-import os
+import time
 from typing import Deque, List, NamedTuple, Optional
 
 import rospy
@@ -18,6 +18,7 @@ from mtr_msgs.msg import Problem as ProblemMessage
 from . import problems
 from .core import RELEASED, UNKNOWN_AGE_S, Controller, Joy, Outcome
 from .parameters import Parameters
+from .presence.presence import Presence
 
 OWNER = "controller_input"
 KEPT = 100
@@ -94,6 +95,8 @@ class ControllerInputNode:
         self._lift = publisher(names.MANUAL_LIFT, LiftCommand)
         self._lock = publisher(names.MOTION_LOCK, MotionLock)
         self._watch = PublisherWatch({names.JOY: parameters.driver})
+        self._presence = Presence(parameters.device, parameters.heartbeat_after_s)
+        self._newest, self._is_unwatched = Joy((), ()), False
         self._joys = DueJoys() if clock.is_lockstep() else ArrivedJoys(self._watch)
         self._ticker = Ticker(schedule.CONTROLLER_INPUT)
 
@@ -103,10 +106,12 @@ class ControllerInputNode:
             self._step(self._ticker.sleep())
 
     def _step(self, tick: int) -> None:
+        before = self._newest
         for received_ns, age_s, joy in self._joys.take(tick):
-            self._core.take(Joy(tuple(joy.axes), tuple(joy.buttons)), received_ns * NS, age_s)
-        device = self._parameters.device
-        outcome = self._core.step(clock.steady_at(tick) * NS, not device or os.path.exists(device), self._intrusion())
+            self._newest = Joy(tuple(joy.axes), tuple(joy.buttons))
+            self._core.take(self._newest, received_ns * NS, age_s)
+        is_present = self._presence.update(time.monotonic(), is_idle=self._newest == before)
+        outcome = self._core.step(clock.steady_at(tick) * NS, is_present, self._intrusion())
         self._publish(outcome, tick)
         self._log(outcome)
         self._before = outcome
@@ -132,6 +137,9 @@ class ControllerInputNode:
             self._lift.publish(lift)
 
     def _log(self, outcome: Outcome) -> None:
+        if self._presence.is_unwatched and not self._is_unwatched:
+            rospy.logwarn("%s", problems.UNWATCHED())
+        self._is_unwatched = self._presence.is_unwatched
         warns = self._start.warns(clock.steady_ns() * NS, is_good=not outcome.lock_reason)
         said = (outcome.lock_reason, warns and bool(outcome.lock_reason))
         if said != self._said:

@@ -32,6 +32,8 @@ class Parameters(ParameterSet):
             0.04 s. With the time of a stop it makes the half second of docs/robot.md.
         frozen_after_s: a controller that drives and has not changed for so long is lost: no hand is that still, but a
             driver that repeats the last message of a lost controller is (joystick_drivers issue 92).
+        heartbeat_after_s: age of the newest report, of motion sensors or raw, at which a controller that reports while
+            it is idle is lost; see presence/.
         release_after_s: see release_buttons.
         driver: name of the node that publishes /joy; empty: whichever node does, as long as it is the only one.
         device: path of the controller's device, e.g. /dev/input/js0; when it disappears the controller is lost. Empty:
@@ -53,6 +55,7 @@ class Parameters(ParameterSet):
     dead_zone: float = number(0.05, 0.0, 0.5)
     silent_after_s: float = number(0.1, 0.08, 2.0, "s")
     frozen_after_s: float = number(2.0, 0.2, 60.0, "s")
+    heartbeat_after_s: float = number(0.3, 0.1, 2.0, "s")
     release_after_s: float = number(1.0, 0.2, 10.0, "s")
     driver: str = ""
     device: str = ""

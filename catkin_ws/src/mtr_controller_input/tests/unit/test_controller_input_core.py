@@ -149,7 +149,8 @@ def test_drive_that_never_changes_is_a_lost_controller():
     assert hand.hold(IDLE) == Outcome()
 
 
-def test_idle_controller_may_be_still_for_hours():
+def test_idle_controller_that_is_present_may_be_still():
+    """Whether it is present is found by its reports, see test_controller_input_presence.py."""
     assert Hand().hold(IDLE, 60.0, still=True) == Outcome()
 
 

@@ -1,6 +1,7 @@
 """Publishes sensor_msgs/Joy from a Linux input device: on each change, and as a sign of life while it is there."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
+import time
 from dataclasses import dataclass
 
 import evdev
@@ -11,6 +12,7 @@ from mtr_core import names
 from mtr_core.lockstep import run_node
 from mtr_core.parameters import ParameterSet, number
 
+from ..presence.presence import Presence
 from .device import State, find, states
 
 SEARCH_AGAIN_S = 1.0
@@ -23,10 +25,12 @@ class Parameters(ParameterSet):
     Attributes:
         device: path of the controller, e.g. /dev/input/event5; empty: the first gamepad that is found.
         alive_period_s: a controller that is there and still is published again after so long.
+        heartbeat_after_s: age of the newest report at which a controller that reports while it is idle is lost.
     """
 
     device: str = ""
     alive_period_s: float = number(0.04, 0.01, 0.1, "s")
+    heartbeat_after_s: float = number(0.3, 0.1, 2.0, "s")
 
 
 class EvdevJoyNode:
@@ -52,10 +56,15 @@ class EvdevJoyNode:
 
     def _read(self, device: evdev.InputDevice) -> None:
         """Publish until the device is gone."""
-        for state in states(device, self._parameters.alive_period_s):
-            if rospy.is_shutdown():
-                return
-            self._publish(state)
+        before: State = ([], [])
+        with contextlib.closing(Presence(device.path, self._parameters.heartbeat_after_s)) as presence:
+            for state in states(device, self._parameters.alive_period_s):
+                if rospy.is_shutdown():
+                    return
+                # Silence is how the manual controller notices the loss.
+                if presence.update(time.monotonic(), is_idle=state == before):
+                    self._publish(state)
+                before = state
 
     def _publish(self, state: State) -> None:
         message = Joy()
