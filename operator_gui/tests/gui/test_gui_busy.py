@@ -92,7 +92,8 @@ def test_hold_whose_cause_changes_is_not_released_by_the_button_held_for_the_for
 
 def on_hold(hold_id, code):
     """Changes of a Status of a robot that is on hold for this reason."""
-    return {"hold_id": hold_id, "notifications": (Notification("held", 3, "On hold.", (Problem(code, (), "On hold."),)),)}
+    held = Notification("held", 3, "On hold.", (Problem(code, (), "On hold."),))
+    return {"hold_id": hold_id, "notifications": (held,)}
 
 
 @pytest.mark.parametrize(("code", "resumed"), [("state_machine.held_stop", 7), ("state_machine.held_fault", 0),

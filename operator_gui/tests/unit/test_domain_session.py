@@ -138,6 +138,13 @@ def test_no_test_begins_on_a_robot_whose_preflight_found_something_wrong(session
     assert not any(desired.waypoint or desired.key_height_m for _, desired in robot_link.answers)
 
 
+def test_no_test_begins_on_a_real_robot_without_an_emergency_stop_by_hand(session, spoil, robot_link):
+    spoil(lambda status: True, notifications=(Notification("no_emergency_stop", 3, "None."),))
+    with pytest.raises(RobotFailed, match="no hand-held emergency stop, so no test begins"):
+        prepare(session, Robot(session), Car(session), 1.0, 1.0)
+    assert all(answer.waypoint is None and answer.key_height_m is None for _, answer in robot_link.answers)
+
+
 def test_no_test_begins_on_a_robot_whose_disk_is_full(session, spoil, robot_link):
     full = Notification("disk_full", 3, "The robot's disk is full.")
     spoil(lambda status: True, notifications=(full,))

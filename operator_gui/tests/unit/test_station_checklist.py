@@ -75,6 +75,7 @@ def test_each_thing_is_looked_at_in_its_order():
 
 @pytest.mark.parametrize("silent_s", [0.1, 9.0])
 @pytest.mark.parametrize(("check", "words"), [
+    (Check.STOP_TRIAL, ("lost controller", "receiver", "Press the stop button", "release")),
     (Check.GROUND, ("lying", "chocks", "Walk around")), (Check.CABLES, ("CAN cable", "charging cable")),
     (Check.OPENINGS, ("hatch", "by itself", "boot")), (Check.FITTINGS, ("tow bar", "rear_fitting_m")),
     (Check.AREA, ("2 m free", "stairs", "dock", "kerb")), (Check.PEOPLE, ("adults", "kneels")),
@@ -167,6 +168,8 @@ def test_way_of_the_lines_is_told_and_hinders_no_test(ways, state, finding, said
     (snapshot(notifications=(Notification("held", 3, "Held."),)), Check.ROBOT, State.NOTE, Finding.ROBOT_SAYS),
     (snapshot(emergency_stop=EmergencyStop.ENGAGED), Check.EMERGENCY_STOP, State.NOTE, Finding.STOP_ENGAGED),
     (snapshot(emergency_stop=EmergencyStop.ABSENT), Check.EMERGENCY_STOP, State.NOTE, Finding.STOP_ABSENT),
+    (snapshot(emergency_stop=EmergencyStop.ABSENT, notifications=(Notification("no_emergency_stop", 3, "None."),)),
+     Check.EMERGENCY_STOP, State.BAD, Finding.STOP_MISSING),
     (snapshot(emergency_stop=EmergencyStop.UNKNOWN), Check.EMERGENCY_STOP, State.UNKNOWN, Finding.STOP_UNKNOWN),
     (snapshot(pose_valid=False), Check.POSITION, State.BAD, Finding.POSITION_LOST),
     (snapshot(pose_valid=False, mode=Mode.READY_TO_MAP_CAR), Check.POSITION, State.GOOD, Finding.POSITION_TO_COME),

@@ -169,6 +169,8 @@ class CarCheck:
 DISK_FULL_CODE = "disk_full"
 # Code of the notification with which no test begins: the scans contradict the Car's data sheet.
 SHEET_CONTRADICTED_CODE = "sheet_contradicted"
+# Code of the notification of a real robot that has no emergency stop by hand; a simulated one does not send it.
+NO_STOP_CODE = "no_emergency_stop"
 # The application in control has fallen silent.
 LINK_LOST_CODE = "link_lost"
 

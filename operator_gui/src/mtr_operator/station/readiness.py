@@ -80,8 +80,8 @@ class Cause(enum.Enum):
 HELD_CODE = "held"
 # Of the robot's sentence on a hold after a stop by the Operator.
 STOPPED_CODE = "state_machine.held_stop"
-# Red, and no reason not to start: a robot may have no emergency stop, and one that is held is released during the test.
-NOT_BLOCKING = ("no_emergency_stop", "unencrypted", HELD_CODE)
+# Red, and no reason not to start: a robot on hold is resumed during the test.
+NOT_BLOCKING = ("unencrypted", HELD_CODE)
 # Red, and no reason to stop what runs: the lines of the test are written on the laptop.
 NOT_BLOCKING_A_RUN = (DISK_FULL_CODE,)
 # In these the robot itself says what is the matter.

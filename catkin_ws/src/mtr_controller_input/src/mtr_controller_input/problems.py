@@ -17,5 +17,5 @@ SECOND_PUBLISHER = Sentence("controller_input.second_publisher",
                             "Node {node} also publishes on {topic}; the robot is locked. End that node; "
                             "rosnode cleanup removes one that has died.")
 UNWATCHED = Sentence("controller_input.unwatched",
-                     "The manual controller reports nothing while it is idle, so its loss would not be noticed. Try its "
-                     "stop button before each test.")
+                     "The manual controller reports nothing while it is idle, so its loss would not be noticed. Try "
+                     "its stop button before each test.")

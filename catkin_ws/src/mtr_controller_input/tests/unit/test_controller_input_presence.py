@@ -125,7 +125,8 @@ def test_loss_of_an_idle_controller_locks_the_robot_until_it_is_back_and_release
     assert hold(RELEASED, 1.0) == Outcome()
 
 
-@pytest.mark.parametrize("kind", [{"bus": "1-1:1.0"}, {"inputs": (TOUCH, PLAIN)}], ids=["2.4 GHz receiver", "no sensor"])
+@pytest.mark.parametrize("kind", [{"bus": "1-1:1.0"}, {"inputs": (TOUCH, PLAIN)}],
+                         ids=["2.4 GHz receiver", "no sensor"])
 def test_loss_behind_a_receiver_that_stays_is_not_noticed_and_the_operator_is_told(system, kind):
     clock = Clock(system(**kind))
     clock.ticks(UNWATCHED_AFTER_S - 1.0, reports=False)
@@ -188,7 +189,8 @@ def beats(heartbeat, duration_s, period_s=TICK_S, is_idle=True, start_s=0.0):
     return now_s
 
 
-@pytest.mark.parametrize("period_s, is_regular", [(0.01, True), (0.09, True), (REGULAR_GAP_S + 0.01, False), (0.5, False)])
+@pytest.mark.parametrize("period_s, is_regular", [(0.01, True), (0.09, True), (REGULAR_GAP_S + 0.01, False),
+                                                  (0.5, False)])
 def test_only_regular_reports_are_a_heartbeat(period_s, is_regular):
     heartbeat = Heartbeat(LOST_AFTER_S)
     beats(heartbeat, 2.0 * REGULAR_FOR_S, period_s)

@@ -1,4 +1,4 @@
-"""Holds: after a fault, a stop, an obstacle, manual driving or a silence the robot stands until the Operator resumes."""
+"""Holds: after a fault, a stop, an obstacle, manual driving or a silence the robot waits for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

@@ -9,6 +9,7 @@ from ..errors import CarActive, RobotFailed
 from ..geometry.ray import Ray
 from ..robot_status import (
     DISK_FULL_CODE,
+    NO_STOP_CODE,
     SHEET_CONTRADICTED_CODE,
     CarCheck,
     Mode,
@@ -44,6 +45,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _refuse_active_car(loop)
     _refuse_with_full_disk(loop.status)
     _refuse_with_bad_charge(loop)
+    _refuse_without_emergency_stop(loop.status)
     await_area(loop)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
@@ -129,6 +131,12 @@ def _refuse_contradicted_sheet(status: RobotStatus) -> None:
     for notification in status.notifications:
         if notification.code == SHEET_CONTRADICTED_CODE:
             raise RobotFailed(notification.text)
+
+
+def _refuse_without_emergency_stop(status: RobotStatus) -> None:
+    if any(notification.code == NO_STOP_CODE for notification in status.notifications):
+        raise RobotFailed("The robot has no hand-held emergency stop, so no test begins. Start it with its controller "
+                          "(controller:=true).")
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:

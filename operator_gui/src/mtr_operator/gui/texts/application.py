@@ -62,6 +62,8 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "return to the start place"),
     QT_TRANSLATE_NOOP("Sentence", "the robot stays here: its start place is not known"),
     QT_TRANSLATE_NOOP("Sentence", "the robot stays here: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The robot has no hand-held emergency stop, so no test begins. Start it with its "
+                                  "controller (controller:=true)."),
     QT_TRANSLATE_NOOP("Sentence", "The Remote key did not reach the height of {} cm within {} s; it is at {} cm."),
     QT_TRANSLATE_NOOP("Sentence", "The robot refused the waypoint: {}"),
     QT_TRANSLATE_NOOP("Sentence", "The robot did not reach the waypoint within {} s. {}"),

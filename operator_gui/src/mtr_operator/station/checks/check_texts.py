@@ -44,6 +44,7 @@ def check_title(check: Check, speech: Speech = ENGLISH) -> str:
         Check.POSITION: translate("Check", "Position"), Check.TEST_AREA: translate("Check", "Test area"),
         Check.SIZE: translate("Check", "Car's size"),
         Check.WAY: translate("Check", "Way of the lines"),
+        Check.STOP_TRIAL: translate("Check", "Stop trial"),
         Check.GROUND: translate("Check", "Ground next to the Car"), Check.CABLES: translate("Check", "Cables"),
         Check.OPENINGS: translate("Check", "Doors and lids"), Check.FITTINGS: translate("Check", "Fittings"),
         Check.AREA: translate("Check", "Area"), Check.PEOPLE: translate("Check", "People"),
@@ -97,6 +98,7 @@ def _of_robot(translate: Translate, said: str) -> dict[Finding, str]:
         Finding.STOP_RELEASED: translate("Check", "The one by hand is heard, and released."),
         Finding.STOP_ENGAGED: translate("Check", "The one by hand is engaged: the robot stands."),
         Finding.STOP_ABSENT: translate("Check", "The robot has none by hand."),
+        Finding.STOP_MISSING: translate("Check", "The robot has none by hand, so no test begins."),
         Finding.STOP_UNKNOWN: translate("Check", "The robot does not say whether it has one by hand."),
         Finding.ROBOT_CLOCK_FINE: translate("Check", "Within {first} s of this laptop's."),
         Finding.ROBOT_CLOCK_APART: said,
@@ -157,6 +159,8 @@ def _of_way(translate: Translate, lines: str) -> dict[Finding, str]:
 
 def _of_unseen(translate: Translate) -> dict[Finding, str]:
     return {
+        Finding.STOP_UNTRIED: translate("Check", "The robot may not notice a lost controller while its receiver stays "
+                                                 "plugged in."),
         Finding.GROUND_UNSEEN: translate("Check", "The LiDARs see nothing below their plane: no person lying or "
                                                   "kneeling, no child, no wheel chocks."),
         Finding.CABLES_UNSEEN: translate("Check", "The robot does not see cables, and drives around the whole Car."),
@@ -276,6 +280,9 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
         Finding.SIGNALS_UNNAMED: translate("Check", "Watch them yourself: the robot does not stop for them."),
         Finding.STOP_ENGAGED: translate("Check", "Release it when the area is clear."),
         Finding.STOP_ABSENT: translate("Check", "Stay where you reach the button on the robot."),
+        Finding.STOP_MISSING: translate("Check", "Start the robot with its controller (controller:=true)."),
+        Finding.STOP_UNTRIED: translate("Check", "Press the stop button in your hand: the robot reports it here. "
+                                                 "Then release it."),
         Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),
         Finding.GROUND_UNSEEN: translate("Check", "Walk around the Car: nobody within 2 m, wheel chocks removed."),
         Finding.CABLES_UNSEEN: translate("Check", "Put the laptop into the Car, or tape the CAN cable flat to the "

@@ -20,7 +20,7 @@ from .preflight_check import preflight
 LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
 _BYTES_PER_MB = 1e6
 # No sensor of the robot shows these, so a person has to check them before it drives around the Car.
-UNSEEN = {Check.GROUND: Finding.GROUND_UNSEEN, Check.CABLES: Finding.CABLES_UNSEEN,
+UNSEEN = {Check.STOP_TRIAL: Finding.STOP_UNTRIED, Check.GROUND: Finding.GROUND_UNSEEN, Check.CABLES: Finding.CABLES_UNSEEN,
           Check.OPENINGS: Finding.OPENINGS_UNSEEN, Check.FITTINGS: Finding.FITTINGS_UNSEEN,
           Check.AREA: Finding.AREA_UNSEEN, Check.PEOPLE: Finding.PEOPLE_UNSEEN, Check.WEATHER: Finding.WEATHER_UNSEEN,
           Check.LIGHT: Finding.LIGHT_UNSEEN, Check.CAR: Finding.CAR_UNSEEN,
@@ -94,7 +94,7 @@ def _of_robot(robot: RobotSnapshot, facts: Facts) -> Iterator[Item]:
     yield _encryption(robot)
     yield from robot_checks.condition(status)
     yield preflight(robot)
-    yield robot_checks.emergency_stop(status.emergency_stop)
+    yield robot_checks.emergency_stop(status)
     yield robot_checks.position(status)
     yield area_check.test_area(status.area)
     yield robot_checks.size(status.car, facts.wanted.plan)

@@ -9,6 +9,7 @@ from mtr_operator.domain.actions.car_size import missing_measures, size_excess
 from mtr_operator.domain.battery.levels import is_critical, is_low
 from mtr_operator.domain.clocks.clock_offset import MAX_OFFSET_S, offset_sentence
 from mtr_operator.domain.robot_status import (
+    NO_STOP_CODE,
     CarDimensions,
     EmergencyStop,
     Mode,
@@ -21,7 +22,6 @@ from ..readiness import ERROR, MODE_CODES, NOT_BLOCKING, WARNING
 from .finding import Check, Finding, Item, State
 
 _BOARD_CODES = ("peripherals", "peripherals_silent")
-_NO_EMERGENCY_STOP = "no_emergency_stop"
 # Part of the codes of the robot's sentences on them.
 _LIDAR = "lidar"
 
@@ -37,7 +37,7 @@ def condition(status: RobotStatus) -> Iterator[Item]:
     if status.mode is Mode.FAULT:
         troubles.append(Item(Check.ROBOT, State.BAD, Finding.ROBOT_FAULT, said.get("fault", "")))
     troubles += [Item(Check.ROBOT, _severity(each), Finding.ROBOT_SAYS, each.text) for each in _warnings(status)
-                 if not _is_of_lidar(each) and each.code not in (*_BOARD_CODES, _NO_EMERGENCY_STOP)]
+                 if not _is_of_lidar(each) and each.code not in (*_BOARD_CODES, NO_STOP_CODE)]
     yield from troubles or [Item(Check.ROBOT, State.GOOD, Finding.ROBOT_READY)]
 
 
@@ -52,8 +52,12 @@ def _severity(notification: Notification) -> State:
     return State.BAD if is_blocking else State.NOTE
 
 
-def emergency_stop(stop: EmergencyStop) -> Item:
-    """The one by hand; while it is engaged the robot says itself what that hinders."""
+def emergency_stop(status: RobotStatus) -> Item:
+    """The one by hand, without which no test begins on a real robot; while it is engaged the robot says itself what
+    that hinders."""
+    stop = status.emergency_stop
+    if any(each.code == NO_STOP_CODE for each in status.notifications):
+        return Item(Check.EMERGENCY_STOP, State.BAD, Finding.STOP_MISSING)
     state, finding = {
         EmergencyStop.RELEASED: (State.GOOD, Finding.STOP_RELEASED),
         EmergencyStop.ENGAGED: (State.NOTE, Finding.STOP_ENGAGED),
