@@ -99,8 +99,15 @@ def graph_watch_files() -> Iterator[pathlib.Path]:
     yield from (path for path in sorted(files) if path.name != "node.py")
 
 
+def base_stop_files() -> Iterator[pathlib.Path]:
+    """The relay of the base's hardware stop, without its node."""
+    files = (TOP / "launch" / "src" / "mtr_bringup" / "base_stop").rglob("*.py")
+    yield from (path for path in sorted(files) if path.name != "node.py")
+
+
 def test_checks_calibration_and_recording_import_no_ros():
-    files = [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files(), *graph_watch_files()]
+    files = [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files(), *graph_watch_files(),
+             *base_stop_files()]
     assert violations(files, ROS | ROS_MESSAGES | ROS_OF_CORE) == {}
 
 

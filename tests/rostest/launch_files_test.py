@@ -28,7 +28,7 @@ NODES = {"robot.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "
          "view.launch": {"/rviz"},
          "description.launch": {"/rviz", "/robot_state_publisher", "/joint_state_publisher"},
          "jackal.launch": ROBOT | {"/controller_input", "/graph_watch", "/joy", "/serial_bridge",
-                                   "/battery_of_voltage"}}
+                                   "/battery_of_voltage", "/base_stop"}}
 
 
 def load(name, arguments):

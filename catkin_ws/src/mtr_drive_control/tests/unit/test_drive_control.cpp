@@ -88,6 +88,25 @@ TEST_F(DriveControlTest, LockAtFullSpeedIsZeroAfterHalfASecond) {
   EXPECT_EQ(decision.velocity.linear_mps, 0.0);
 }
 
+TEST_F(DriveControlTest, ReleasedStopRampsFromStandstillWhateverTheHardwareDidToTheWheels) {
+  for (const bool hardware_stops : {true, false}) {
+    drive_at_full_speed();
+    for (int tick = 0; tick < 200; ++tick) {
+      const Decision decision =
+          step({{"/base_stop", mtr_core::problem_with_text("Stop.")}}, std::nullopt, command(1.5));
+      sent = hardware_stops ? Velocity{} : decision.velocity;
+      EXPECT_TRUE(tick < 25 || decision.velocity.is_zero());
+    }
+    double before_mps = 0.0;
+    for (int tick = 0; tick < 100; ++tick) {
+      const double now_mps = step({}, std::nullopt, command(1.5)).velocity.linear_mps;
+      EXPECT_LE(now_mps - before_mps, limits.linear_acceleration_mps2 * 0.02 + 1e-9) << tick;
+      before_mps = now_mps;
+    }
+    EXPECT_GT(before_mps, 0.5);
+  }
+}
+
 TEST_F(DriveControlTest, LateLockSlowsTheRobotBeforeItCountsAsSilentAndItStandsHalfASecondAfterTheLastWord) {
   double speed_mps = drive_at_full_speed().velocity.linear_mps;
   const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
