@@ -82,8 +82,8 @@ def stopping_distances(_file: HazardFile) -> List[str]:
     words = {stopping.LOW_M: "low", stopping.RAISED_M: "raised"}
     head = [f"{speed_mps:.2f} m/s, {words[height_m]}" for speed_mps, height_m in columns]
     return _table(("Stop after", *head), (
-        (name, *(f"{stopping.distance_m(speed_mps, delay_s, height_m):.2f} m" for speed_mps, height_m in columns))
-        for name, delay_s in stopping.delays_s().items()))
+        (name, *(f"{stopping.distance_m(speed_mps, stopping.delays_s(speed_mps)[name], height_m):.2f} m"
+                 for speed_mps, height_m in columns)) for name in stopping.delays_s(0.0)))
 
 
 def hazards(file: HazardFile) -> List[str]:

@@ -28,10 +28,11 @@ def fastest_mps(key_height_m: float) -> float:
     return deceleration_mps2(key_height_m) * value("kStopWithinS")
 
 
-def delays_s() -> Dict[str, float]:
-    """Time from an event to the decision to stop."""
+def delays_s(speed_mps: float) -> Dict[str, float]:
+    """Time from an event to the decision to stop, at a speed."""
+    is_fast = speed_mps > value("fast_mps", "mtr_dispatcher")
     return {"Decision": 0.0, "Silent LiDAR": value("lidar_timeout_s"),
-            "Lost link": value("link_timeout_s", "mtr_dispatcher"),
+            "Lost link": value("fast_link_timeout_s" if is_fast else "link_timeout_s", "mtr_dispatcher"),
             "Controller that repeats its last message": value("frozen_after_s", "mtr_controller_input")}
 
 

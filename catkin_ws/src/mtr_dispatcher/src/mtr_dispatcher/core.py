@@ -22,6 +22,9 @@ from .status.interventions import Interventions
 from .status.log_buffer import LogBuffer
 from .status.notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
 
+# Word of DriveStatus.
+PLANNER = "planner"
+
 
 class Dispatcher:
     """Judges Commands, says what the robot shall do, and writes Status.
@@ -104,6 +107,7 @@ class Dispatcher:
         self.status_id += 1
         is_one_map = self._car_map.is_map_of(inputs.pose, inputs.car)
         self._sent.add(self.status_id, inputs.now_s, inputs.steady_s)
+        self.session.note_speed(_planned_mps(inputs), inputs.steady_s)
         desired = self.session.desired(inputs.steady_s)
         standing = standing_notices(desired, inputs, self._parameters)
         return status_bytes(self._identity, Report(
@@ -149,3 +153,9 @@ class Dispatcher:
             return f"Application {command.session_id:x}{owner} controls the robot now."
         # What the robot did, and for whom, is to be found in the log afterwards.
         return f"Command {command.id}{owner} was taken." if owner and result is CommandResult.TAKEN else ""
+
+
+def _planned_mps(inputs: Inputs) -> float:
+    """Speed without a person at the robot; a drive control that is silent drives nobody."""
+    drive = inputs.drive
+    return abs(drive.linear_mps) if drive is not None and drive.source == PLANNER else 0.0

@@ -22,6 +22,11 @@ class Parameters(ParameterSet):
         lockstep_operator: in lock-step time waits for the application's answer to each Status.
         operator_lost_after_wall_s: wall time after which it stops waiting.
         link_timeout_s: silence after which the robot stops at the latest; one turn earlier it may.
+        fast_link_timeout_s: the same while the planner drives faster than fast_mps.
+        fast_mps: see there; above slow_link_mps, by what the speed may exceed its limit.
+        slow_after_s: silence after which the maximum speed is lowered to slow_link_mps, until the application has
+            answered a newer Status.
+        slow_link_mps: maximum speed then.
         command_lifetime_s: age of the answered Status at which a Command has expired.
         takeover_after_s: silence of the application in control after which another may take over.
         default_speed_mps: maximum speed when a Command names none; not above platform_speed_mps.
@@ -49,6 +54,10 @@ class Parameters(ParameterSet):
     lockstep_operator: bool = False
     operator_lost_after_wall_s: float = number(5.0, 0.1, 60.0, "s")
     link_timeout_s: float = number(1.0, 0.4, 5.0, "s")
+    fast_link_timeout_s: float = number(0.8, 0.4, 5.0, "s")
+    fast_mps: float = number(0.35, 0.05, 2.0, "m/s")
+    slow_after_s: float = number(0.4, 0.2, 5.0, "s")
+    slow_link_mps: float = number(0.3, 0.05, 2.0, "m/s")
     command_lifetime_s: float = number(1.0, 0.2, 5.0, "s")
     takeover_after_s: float = number(3.0, 1.0, 60.0, "s")
     default_speed_mps: float = number(0.5, 0.05, 2.0, "m/s")

@@ -3,7 +3,7 @@
 import enum
 import math
 from dataclasses import dataclass
-from typing import Dict, Optional
+from typing import Dict, Optional, Tuple
 
 from mtr_core.liveness import NS, is_fresh
 from mtr_core.problems import NO_PROBLEM, Problem
@@ -44,7 +44,10 @@ REJECTIONS = (CommandResult.EXPIRED, CommandResult.FOREIGN, CommandResult.REFUSE
 
 @dataclass(frozen=True)
 class SessionState:
-    """What the robot shall do now. stop_reason is no problem when it may move, without a session by hand only."""
+    """What the robot shall do now. stop_reason is no problem when it may move, without a session by hand only.
+
+    speed_limit_mps: of a link that is silent for a while, infinite for one that is not.
+    """
 
     session_id: int
     command: Command
@@ -52,6 +55,7 @@ class SessionState:
     check_order: int
     link_alive: bool
     stop_reason: Problem
+    speed_limit_mps: float = math.inf
 
 
 class ControlSession:
@@ -74,6 +78,7 @@ class ControlSession:
         self.command = Command()
         self.refusal = NO_PROBLEM
         self.answered_status_id = 0
+        self._is_fast = False
         self.map_orders, self.check_orders = OrderNumbers(), OrderNumbers()
         self._newest_id = 0
         self._seen_s = self._watched_s = -math.inf
@@ -107,17 +112,29 @@ class ControlSession:
         return self._take_in_time(command, answered_s)
 
     def link_alive(self, now_s: float) -> bool:
-        """True while the application in control has seen the robot of less than link_timeout_s ago, also at the next
+        """True while the application in control has seen the robot of less than the time-out ago, also at the next
         turn: nobody looks in between.
         """
-        return bool(self.session_id) and self._is_recent(now_s, self._seen_s)
+        return bool(self.session_id) and self._is_recent(now_s, self._seen_s, self._timeout_s)
+
+    def note_speed(self, planned_mps: float, now_s: float) -> None:
+        """Take the planner's speed. A link that was silent too long for it stays so while the robot brakes."""
+        is_fast = not planned_mps <= self._parameters.fast_mps
+        if is_fast or self.link_alive(now_s):
+            self._is_fast = is_fast
+
+    @property
+    def _timeout_s(self) -> float:
+        timeout_s = self._parameters.link_timeout_s
+        return min(timeout_s, self._parameters.fast_link_timeout_s) if self._is_fast else timeout_s
 
     def is_watched(self, now_s: float) -> bool:
         """True while an application watches, whose Stop takes control: a person may drive the robot by hand."""
-        return self._is_recent(now_s, self._watched_s)
+        return self._is_recent(now_s, self._watched_s, self._parameters.link_timeout_s)
 
-    def _is_recent(self, now_s: float, seen_s: float) -> bool:
-        return is_fresh(now_s - seen_s, self._parameters.link_timeout_s - DISPATCHER.period_ns * NS)
+    @staticmethod
+    def _is_recent(now_s: float, seen_s: float, timeout_s: float) -> bool:
+        return is_fresh(now_s - seen_s, timeout_s - DISPATCHER.period_ns * NS)
 
     def desired(self, now_s: float) -> SessionState:
         """What the robot shall do at now_s."""
@@ -125,13 +142,17 @@ class ControlSession:
         map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
         check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
         return SessionState(self.session_id, self.command, map_order, check_order, alive,
-                            self._stop_reason(alive, now_s))
+                            self._stop_reason(alive, now_s), self._speed_limit_mps(now_s))
+
+    def _speed_limit_mps(self, now_s: float) -> float:
+        is_slow = not is_fresh(now_s - self._seen_s, self._parameters.slow_after_s)
+        return self._parameters.slow_link_mps if self.session_id and is_slow else math.inf
 
     def _stop_reason(self, alive: bool, now_s: float) -> Problem:
         if not self.session_id:
             return NO_PROBLEM if self.is_watched(now_s) else problems.NO_APPLICATION()
         if not alive:
-            return problems.APPLICATION_SILENT(limit_s=self._parameters.link_timeout_s)
+            return problems.APPLICATION_SILENT(limit_s=self._timeout_s)
         if self.refusal:
             return problems.COMMAND_REFUSED(cause=self.refusal)
         return problems.STOPPED_BY_OPERATOR() if self.command.stop else NO_PROBLEM
@@ -204,10 +225,11 @@ def desired_state(desired: SessionState, default_speed_mps: float, area_problem:
                   ) -> DesiredState:
     """The same for the other nodes; where the Command leaves a choice it is made here."""
     command = desired.command
+    speed_mps = default_speed_mps if command.max_speed_mps is None else command.max_speed_mps
     return DesiredState(
         session_id=desired.session_id, command_id=command.id, link_alive=desired.link_alive,
         stop=bool(desired.stop_reason) or not desired.link_alive, waypoint=command.waypoint or NO_WAYPOINT,
-        max_speed_mps=default_speed_mps if command.max_speed_mps is None else command.max_speed_mps,
+        max_speed_mps=min(speed_mps, desired.speed_limit_mps),
         key_height_m=math.nan if command.key_height_m is None else command.key_height_m,
         press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order,
         resume_hold_id=command.resume_hold_id, area_problem=area_problem)
@@ -215,5 +237,8 @@ def desired_state(desired: SessionState, default_speed_mps: float, area_problem:
 
 def is_same(one: Optional[SessionState], other: SessionState) -> bool:
     """True when both ask for the same; a repetition of a Command changes nothing."""
-    return one is not None and (one.session_id, one.link_alive, one.stop_reason, one.command.id) == (
-        other.session_id, other.link_alive, other.stop_reason, other.command.id)
+    return one is not None and _order(one) == _order(other)
+
+
+def _order(state: SessionState) -> Tuple[int, bool, Problem, int, float]:
+    return state.session_id, state.link_alive, state.stop_reason, state.command.id, state.speed_limit_mps

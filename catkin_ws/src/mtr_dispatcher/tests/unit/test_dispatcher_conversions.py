@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 import math
 
+import pytest
 import rospy
 
 from mtr_core.problems import NO_PROBLEM, Problem
@@ -34,6 +35,13 @@ def test_what_the_command_leaves_open_becomes_the_default():
     message = desired_message(SessionState(0, Command(), 0, 0, False, NOBODY), STAMP, 0.5)
     assert (message.waypoint.id, message.press.id, message.map_car_id, message.max_speed_mps) == (0, 0, 0, 0.5)
     assert math.isnan(message.key_height_m) and message.stop
+
+
+@pytest.mark.parametrize("limit_mps, asked_mps, given_mps", [(0.3, 0.7, 0.3), (0.3, 0.2, 0.2), (0.3, None, 0.3),
+                                                              (math.inf, 0.7, 0.7), (math.inf, None, 0.5)])
+def test_slow_link_lowers_the_maximum_speed_and_never_raises_it(limit_mps, asked_mps, given_mps):
+    state = SessionState(5, Command(5, 6, max_speed_mps=asked_mps), 0, 0, True, NO_PROBLEM, limit_mps)
+    assert desired_message(state, STAMP, 0.5).max_speed_mps == given_mps
 
 
 def test_lock_carries_the_reason():

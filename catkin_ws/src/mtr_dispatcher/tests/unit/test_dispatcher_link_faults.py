@@ -1,6 +1,7 @@
 """What the link does while messages are lost, clocks are set and strangers send."""
 # SPDX-License-Identifier: Apache-2.0
 import math
+import random
 
 import pytest
 from dispatcher_link import START_S, Link
@@ -46,6 +47,103 @@ def test_moving_order_ends_one_second_after_the_status_that_it_answers_whatever_
         if robot.moves():
             moved_until_s = robot.steady_s
     assert moved_until_s - START_S <= 1.0 + 1e-6
+
+
+@pytest.mark.parametrize("silence_s, limit_mps, moves", [
+    (0.0, math.inf, True), (0.39, math.inf, True), (0.41, 0.3, True), (0.89, 0.3, True), (1.01, 0.3, False)])
+def test_silent_link_slows_the_robot_before_it_stops_it(silence_s, limit_mps, moves):
+    robot = Link()
+    robot.command(robot.status(), waypoint=drive_order())
+    robot.steady_s += silence_s
+    assert robot.core.desired(robot.steady_s).speed_limit_mps == limit_mps and robot.moves() is moves
+    robot.command(robot.status(), waypoint=drive_order())
+    assert robot.core.desired(robot.steady_s).speed_limit_mps == math.inf and robot.moves()
+
+
+def driving(speed_mps, source="planner"):
+    return DriveStatus(source=source, linear_mps=speed_mps)
+
+
+@pytest.mark.parametrize("drive, silence_s, moves", [
+    (driving(0.71), 0.69, True), (driving(0.71), 0.71, False), (driving(-0.71), 0.71, False),
+    (driving(0.36), 0.71, False), (driving(math.nan), 0.71, False), (driving(0.35), 0.89, True),
+    (driving(0.30), 0.89, True), (driving(0.30), 0.91, False), (driving(0.71, "manual"), 0.89, True),
+    (None, 0.89, True), (None, 0.91, False)])
+def test_silence_that_stops_the_robot_is_shorter_while_the_planner_drives_fast(drive, silence_s, moves):
+    robot = Link()
+    robot.command(robot.status(drive=drive), waypoint=drive_order())
+    robot.steady_s += silence_s
+    assert robot.moves() is moves
+
+
+def test_robot_that_was_too_fast_for_its_link_stays_stopped_while_it_brakes():
+    robot = Link()
+    robot.command(robot.status(drive=driving(0.71)), waypoint=drive_order())
+    for _ in range(5):
+        robot.steady_s += 0.15
+        robot.status(drive=driving(0.71))
+    assert not robot.moves()
+    robot.steady_s += 0.1
+    newest = robot.status(drive=driving(0.0, "locked"))
+    assert not robot.moves()
+    robot.command(newest, waypoint=drive_order())
+    assert robot.moves()
+    robot.steady_s += 0.1
+    robot.command(robot.status(drive=driving(0.2)), waypoint=drive_order())
+    robot.steady_s += 0.89
+    assert robot.moves()
+
+
+def test_robot_without_a_session_has_no_speed_limit_of_the_link():
+    robot = Link()
+    robot.steady_s += 100.0
+    assert robot.core.desired(robot.steady_s).speed_limit_mps == math.inf
+
+
+class Air:
+    """A TCP connection over Wi-Fi: each loss costs the time until it is repeated, and what follows waits for it."""
+
+    def __init__(self, loss, delay_s, pause_s=0.0):
+        self._random, self._loss, self._delay_s, self._pause_s = random.Random(1), loss, delay_s, pause_s
+        self._waiting, self._newest_s = [], 0.0
+
+    def send(self, now_s, message):
+        arrival_s, repeat_s = now_s + self._delay_s * self._random.uniform(0.2, 1.0), 0.2
+        while self._random.random() < self._loss:
+            arrival_s, repeat_s = arrival_s + repeat_s, 2.0 * repeat_s
+        # Once in half a minute the laptop changes the access point.
+        if now_s % 30.0 < self._pause_s:
+            arrival_s += self._pause_s
+        self._newest_s = max(self._newest_s, arrival_s)
+        self._waiting.append((self._newest_s, message))
+
+    def arrived(self, now_s):
+        arrived = [message for time_s, message in self._waiting if time_s <= now_s]
+        self._waiting = [each for each in self._waiting if each[0] > now_s]
+        return arrived
+
+
+@pytest.mark.parametrize("loss, delay_s, pause_s, slow_share, stops", [
+    (0.001, 0.015, 0.0, 0.005, 0), (0.01, 0.04, 0.0, 0.03, 0), (0.02, 0.06, 0.0, 0.08, 3), (0.0, 0.1, 0.0, 0.0, 0)],
+    ids=["good", "ordinary", "unreliable", "late"])
+def test_ordinary_wifi_neither_slows_the_robot_for_long_nor_stops_it(loss, delay_s, pause_s, slow_share, stops):
+    robot, down, up = Link(), Air(loss, delay_s, pause_s), Air(loss, delay_s, pause_s)
+    slow = stopped = steps = 0
+    was_moving = True
+    while robot.steady_s < START_S + 120.0:
+        steps += 1
+        if steps % 5 == 0:
+            down.send(robot.steady_s, robot.status(drive=driving(0.71)))
+        for answered in down.arrived(robot.steady_s):
+            up.send(robot.steady_s, answered)
+        for answered in up.arrived(robot.steady_s):
+            robot.command(answered, waypoint=drive_order())
+        slow += robot.core.desired(robot.steady_s).speed_limit_mps < math.inf
+        stopped += was_moving and not robot.moves()
+        was_moving = robot.moves()
+        robot.steady_s = START_S + 0.02 * steps
+    # The robot waits for the first answer. A stop instead of the limit would be one at each slow phase.
+    assert slow / steps <= slow_share and stopped <= stops + 1
 
 
 def test_command_at_the_end_of_its_life_does_not_prolong_the_link():  # A5

@@ -119,6 +119,7 @@ class DriveFields(Stamped, Protocol):
     """Of DriveStatus: who moves the wheels, what is wrong, and counts since drive control's start."""
 
     source: str
+    linear_mps: float
     message: str
     problems: Sequence[ProblemFields]
     manual_drives: int
