@@ -22,6 +22,7 @@ Emulator::Emulator(const std::string& elf, const std::string& mcu, const LiftPar
     : mcu_(elf, wiring_of(mcu)),
       line_(&mcu_, seed),
       lift_(lift, seed),
+      stop_contact_(&mcu_),
       lock_servo_(&mcu_, 'A'),
       unlock_servo_(&mcu_, 'B'),
       sensor_(avr_io_getirq(mcu_.core(), AVR_IOCTL_ADC_GETIRQ, ADC_IRQ_ADC0)) {
@@ -51,6 +52,8 @@ Probe Emulator::probe() const {
   for (int led = 0; led < 3; ++led) {
     seen.leds[led] = mcu_.pin(mcu_.wiring().leds[led]);
   }
+  seen.buzzer = mcu_.pin(mcu_.wiring().buzzer);
+  seen.beacon = mcu_.pin(mcu_.wiring().beacon);
   seen.lift_m = lift_.height_m();
   seen.lift_duty = duty();
   seen.untouched_ram = mcu_.untouched_ram();

@@ -9,6 +9,7 @@
 #include "lift_plant.hpp"
 #include "mcu.hpp"
 #include "pulse_probe.hpp"
+#include "stop_contact.hpp"
 #include "uart_line.hpp"
 
 namespace emulator {
@@ -18,6 +19,8 @@ struct Probe {
   std::uint64_t time_us;
   double servo_us[2];
   bool leds[3];
+  bool buzzer;
+  bool beacon;
   double lift_m;
   double lift_duty;
   int untouched_ram;
@@ -35,6 +38,9 @@ class Emulator {
 
   Probe probe() const;
 
+  /// State of the stop chain's contact. Throws std::invalid_argument.
+  void set_stop_contact(const std::string& state) { stop_contact_.set(state); }
+
   /// Begins or ends a fault; one_in: bytes for drop and corrupt. Throws std::invalid_argument.
   void fault(const std::string& name, std::uint32_t one_in);
 
@@ -45,6 +51,7 @@ class Emulator {
   Mcu mcu_;
   UartLine line_;
   LiftPlant lift_;
+  StopContact stop_contact_;
   PulseProbe lock_servo_, unlock_servo_;
   avr_irq_t* sensor_;
 };

@@ -108,6 +108,9 @@ std::string Session::answer(const std::string& line) {
     if (command == "probe") {
       return probe();
     }
+    if (command == "stop_contact") {
+      return stop_contact(words);
+    }
     if (command == "fault") {
       return fault(words);
     }
@@ -157,15 +160,23 @@ std::string Session::fault(std::istream& arguments) {
   return "{\"ok\": true}";
 }
 
+std::string Session::stop_contact(std::istream& arguments) {
+  std::string state;
+  arguments >> state;
+  emulator_.set_stop_contact(state);
+  return "{\"ok\": true}";
+}
+
 std::string Session::probe() const {
   const Probe seen = emulator_.probe();
   std::ostringstream text;
   text.precision(9);
   text << std::boolalpha << "{\"ok\": true, " << totals() << ", \"servo_us\": [" << seen.servo_us[0] << ", "
        << seen.servo_us[1] << "], \"led\": [" << seen.leds[0] << ", " << seen.leds[1] << ", " << seen.leds[2]
-       << "], \"lift_m\": " << seen.lift_m << ", \"lift_duty\": " << seen.lift_duty
-       << ", \"untouched_ram\": " << seen.untouched_ram << ", \"resets\": " << seen.resets
-       << ", \"overruns\": " << seen.overruns << ", \"worst_lag_s\": " << worst_lag_s_ << "}";
+       << "], \"buzzer\": " << seen.buzzer << ", \"beacon\": " << seen.beacon << ", \"lift_m\": " << seen.lift_m
+       << ", \"lift_duty\": " << seen.lift_duty << ", \"untouched_ram\": " << seen.untouched_ram
+       << ", \"resets\": " << seen.resets << ", \"overruns\": " << seen.overruns
+       << ", \"worst_lag_s\": " << worst_lag_s_ << "}";
   return text.str();
 }
 

@@ -26,6 +26,7 @@ class Session {
   std::string answer(const std::string& line);
   std::string step(std::istream& arguments);
   std::string fault(std::istream& arguments);
+  std::string stop_contact(std::istream& arguments);
   std::string probe() const;
   std::string totals() const;
   bool await_bytes(std::uint64_t total);

@@ -19,6 +19,11 @@ struct Wiring {
   Pin motor_pwm;
   Pin motor_up;
   Pin leds[3];
+  Pin buzzer;
+  Pin beacon;
+  /// Port letter and bit of the stop input, as simavr names them.
+  char stop_port;
+  std::uint8_t stop_bit;
   /// Highest data address of I/O registers; RAM begins behind it.
   std::uint16_t last_register;
 };

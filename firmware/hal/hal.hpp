@@ -39,6 +39,12 @@ void servo_write(uint8_t servo, uint16_t width_us);
 /// Lights LEDs: bit 0 green, 1 yellow, 2 red.
 void leds_write(uint8_t bits);
 
+/// True while the contact at the stop input is open; also when nothing is connected.
+bool stop_input_open();
+/// Switches the outputs of buzzer and beacon.
+void buzzer_write(bool is_on);
+void beacon_write(bool is_on);
+
 // Memory that outlives power
 uint8_t eeprom_read(uint8_t address);
 /// False while an earlier byte is still being written.

@@ -67,6 +67,9 @@ bool servo_turn(std::uint32_t* next_period_us) {
 
 void servo_write(std::uint8_t servo, std::uint16_t width_us) { hardware().servo_us.at(servo) = width_us; }
 void leds_write(std::uint8_t bits) { hardware().leds = bits; }
+bool stop_input_open() { return hardware().is_stop_open; }
+void buzzer_write(bool is_on) { hardware().buzzer = is_on; }
+void beacon_write(bool is_on) { hardware().beacon = is_on; }
 
 std::uint8_t eeprom_read(std::uint8_t address) { return hardware().eeprom.at(address); }
 bool eeprom_ready() { return true; }

@@ -27,6 +27,10 @@ struct Hardware {
   std::uint32_t period_us = mtr::kClockStartUs;
   bool is_servo_turn = false;
   std::uint8_t leds = 0;
+  /// Contact at the stop input; nothing is connected at first.
+  bool is_stop_open = true;
+  bool buzzer = false;
+  bool beacon = false;
   std::array<std::uint8_t, 64> eeprom{};
   std::uint8_t reset_cause = 1;
 

@@ -15,23 +15,13 @@ constexpr uint8_t kLedSlots = 16;
 /// A pass takes at most so many bytes, so that a flood of them starves nothing.
 constexpr uint8_t kBytesPerPass = 64;
 
-/// True once per period; periods that were missed are not made up for.
-bool is_due(uint32_t now_us, uint32_t period_us, uint32_t* last_us) {
-  const uint32_t late_us = now_us - *last_us;
-  if (late_us < period_us) {
-    return false;
-  }
-  *last_us = late_us < 2 * period_us ? *last_us + period_us : now_us;
-  return true;
-}
-
 int32_t to_um(float metres) { return static_cast<int32_t>(metres * 1e6f + 0.5f); }
 
 }  // namespace
 
 void Board::start() {
   now_us_ = heard_us_ = hal::clock_us();
-  state_us_ = health_us_ = now_us_;
+  state_us_ = health_us_ = inputs_us_ = now_us_;
   memory_.load();
   presses_.start();
   for (uint8_t servo = 0; servo < kServoCount; ++servo) {
@@ -74,6 +64,7 @@ void Board::take(void* self, uint16_t topic, const uint8_t* payload, uint8_t len
   Command command;
   Press press;
   Calibrate calibrate;
+  SignalOrder signals;
   if (topic == kTopicStop) {
     board->lose_link();
   } else if (topic == kTopicCommand && read(payload, length, &command)) {
@@ -82,6 +73,8 @@ void Board::take(void* self, uint16_t topic, const uint8_t* payload, uint8_t len
     board->on_press(press);
   } else if (topic == kTopicCalibrate && read(payload, length, &calibrate)) {
     board->on_calibrate(calibrate);
+  } else if (topic == kTopicSignals && read(payload, length, &signals)) {
+    board->on_signals(signals);
   } else {
     count(&board->counters_.checksum_errors);
   }
@@ -103,10 +96,16 @@ void Board::on_command(const Command& command) {
     counters_.refuse(Refusal::kLedPattern);
   }
   is_stopped_ = command.stop != 0;
-  if (is_stopped_) {
-    presses_.abort();
+  if (is_stopped()) {
+    stop();
+  } else {
+    move_lift(command.lift_height_m);
   }
-  move_lift(is_stopped_ ? NAN : command.lift_height_m);
+}
+
+void Board::stop() {
+  presses_.abort();
+  move_lift(NAN);
 }
 
 void Board::move_lift(float height_m) {
@@ -126,7 +125,7 @@ void Board::move_lift(float height_m) {
 }
 
 void Board::on_press(const Press& press) {
-  Refusal impediment = is_stopped_ ? Refusal::kStopped : Refusal::kNone;
+  Refusal impediment = is_stopped() ? Refusal::kStopped : Refusal::kNone;
   if (is_late(press.latest_us)) {
     impediment = Refusal::kLate;
   } else {
@@ -152,7 +151,7 @@ void Board::on_calibrate(const Calibrate& calibrate) {
     counters_.refuse(Refusal::kCalibration);
     return;
   }
-  if (is_stopped_) {
+  if (is_stopped()) {
     counters_.refuse(Refusal::kStopped);
     return;
   }
@@ -167,6 +166,24 @@ void Board::on_calibrate(const Calibrate& calibrate) {
   calibration_state_ = CalibrationState::kUnderWay;
 }
 
+void Board::on_signals(const SignalOrder& order) {
+  if (is_late(order.latest_us)) {
+    counters_.refuse(Refusal::kLate);
+    return;
+  }
+  if (order.stop_input != 0 && !stop_input_.is_used()) {
+    stop_input_.use();
+    is_input_new_ = true;
+    if (stop_input_.is_open()) {
+      stop();
+    }
+  }
+  if (!signals_.order(order.signal, order.beacon != 0, now_us_)) {
+    counters_.refuse(Refusal::kSignal);
+  }
+  show();
+}
+
 void Board::hear() {
   heard_us_ = now_us_;
   link_lost_ = false;
@@ -177,10 +194,16 @@ void Board::lose_link() {
   lift_.cut();
   calibrator_.abort();
   presses_.abort();
+  signals_.end();
   hal::motor_drive(0);
 }
 
 void Board::tick() {
+  const bool was_open = stop_input_.is_open();
+  if (stop_input_.step(hal::stop_input_open())) {
+    stop();
+  }
+  is_input_new_ = is_input_new_ || stop_input_.is_open() != was_open;
   if (sensor_.add(hal::position_take())) {
     step_lift();
   }
@@ -212,71 +235,14 @@ void Board::step_lift() {
 
 void Board::step_leds() {
   led_slot_ = static_cast<uint8_t>((led_slot_ + 1) % kLedSlots);
+  signals_.step(now_us_);
+  show();
+}
+
+void Board::show() {
   hal::leds_write(leds_of(shown_pattern(), led_slot_));
-}
-
-void Board::report(uint32_t now_us) {
-  if (is_due(now_us, kStatePeriodUs, &state_us_)) {
-    send_state();
-  } else if (is_due(now_us, kHealthPeriodUs, &health_us_)) {
-    send_health();
-  }
-}
-
-void Board::send_state() {
-  const bool is_broken = sensor_.is_broken();
-  State state;
-  state.time_us = hal::clock_us();
-  state.lift_height_m = is_broken ? NAN : memory_.calibration().height_um(sensor_.counts()) * 1e-6f;
-  for (uint8_t servo = 0; servo < kServoCount; ++servo) {
-    state.servo_us[servo] = presses_.width_us(servo);
-  }
-  state.press = presses_.report();
-  state.led_pattern = shown_pattern();
-  state.fault = fault();
-  state.lift_state = calibrator_.is_running() ? LiftState::kCalibrating
-                     : lift_.is_moving()      ? LiftState::kMoving
-                                              : LiftState::kStill;
-  state.calibration_id = calibration_id_;
-  state.calibration_state = calibration_state_;
-  if (!send(state)) {
-    count(&counters_.dropped_reports);
-  }
-}
-
-void Board::send_health() {
-  Health health;
-  health.reset_cause = hal::reset_cause();
-  health.resets = memory_.resets();
-  health.uart_overruns = hal::uart_overruns();
-  health.dropped_bytes = hal::uart_dropped();
-  health.counters = counters_;
-  health.worst_loop_us = worst_loop_us_;
-  health.free_ram = hal::free_ram();
-  health.calibration_copies = memory_.copies();
-  health.stroke_mm = memory_.calibration().stroke_mm;
-  if (send(health)) {
-    worst_loop_us_ = 0;
-  } else {
-    count(&counters_.dropped_reports);
-  }
-}
-
-uint8_t Board::shown_pattern() const {
-  if (link_lost_) {
-    return kLedLinkLost;
-  }
-  return sensor_.is_broken() || lift_.is_jammed() ? static_cast<uint8_t>(kLedError) : led_pattern_;
-}
-
-Fault Board::fault() const {
-  if (sensor_.is_broken()) {
-    return Fault::kSensorBroken;
-  }
-  if (lift_.is_jammed()) {
-    return Fault::kLiftJammed;
-  }
-  return link_lost_ ? Fault::kLinkLost : Fault::kNone;
+  hal::buzzer_write(buzzer_of(signals_.signal(), led_slot_));
+  hal::beacon_write(signals_.has_beacon());
 }
 
 }  // namespace mtr

@@ -14,12 +14,15 @@
 #include "link/rosserial_client.hpp"
 #include "memory.hpp"
 #include "presses.hpp"
+#include "signals.hpp"
+#include "stop_input.hpp"
 
 namespace mtr {
 
 class Board {
  public:
-  explicit Board(PressMemory* press_memory) : client_(take, this, &counters_), presses_(press_memory) {}
+  Board(PressMemory* press_memory, StopMemory* stop_memory)
+      : client_(take, this, &counters_), presses_(press_memory), stop_input_(stop_memory) {}
 
   void start();
 
@@ -31,6 +34,11 @@ class Board {
   void on_command(const Command& command);
   void on_press(const Press& press);
   void on_calibrate(const Calibrate& calibrate);
+  void on_signals(const SignalOrder& order);
+  /// True while the host or the stop input stops lift and servos.
+  bool is_stopped() const { return is_stopped_ || stop_input_.is_open(); }
+  /// Holds the lift, ends a calibration, releases the servos.
+  void stop();
   /// True when an order of the host has been under way for too long, or was meant for another clock.
   bool is_late(uint32_t latest_us) const { return latest_us - now_us_ > kMaxLeadUs; }
   /// The host lives.
@@ -41,8 +49,11 @@ class Board {
   void move_lift(float height_m);
   void step_lift();
   void step_leds();
+  /// Writes LEDs, buzzer and beacon.
+  void show();
   void report(uint32_t now_us);
   void send_state();
+  void send_inputs();
   void send_health();
   uint8_t shown_pattern() const;
   Fault fault() const;
@@ -54,10 +65,13 @@ class Board {
   PositionSensor sensor_;
   Lift lift_;
   LiftCalibrator calibrator_;
+  StopInput stop_input_;
+  Signals signals_;
   uint32_t now_us_ = 0;
   uint32_t heard_us_ = 0;
   uint32_t state_us_ = 0;
   uint32_t health_us_ = 0;
+  uint32_t inputs_us_ = 0;
   uint32_t worst_loop_us_ = 0;
   uint32_t calibration_id_ = 0;
   CalibrationState calibration_state_ = CalibrationState::kNone;
@@ -65,7 +79,10 @@ class Board {
   uint8_t led_slot_ = 0;
   uint8_t led_ms_ = 0;
   bool link_lost_ = false;
+  /// By the newest command of the host.
   bool is_stopped_ = false;
+  /// A change of the stop input has not been reported yet.
+  bool is_input_new_ = false;
 };
 
 }  // namespace mtr

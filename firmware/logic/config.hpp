@@ -36,7 +36,7 @@ constexpr int16_t kFullDuty = 254;                 ///< of 255; a constant level
 constexpr int32_t kStallUm = 1500;
 constexpr uint8_t kStallSteps = 40;
 constexpr uint8_t kJamRestSteps = 100;  ///< motor off between two tries
-constexpr uint8_t kJamTries = 5;        ///< then only another height, or a renewed link, is tried
+constexpr uint8_t kJamTries = 2;  ///< then the motor stays off until an order to hold still, and a height after it
 
 // Position sensor: potentiometer between 0 and 5 V, kSamplesPerStep readings of 10 bits added
 constexpr uint8_t kSamplesPerStep = 10;
@@ -53,6 +53,11 @@ constexpr int16_t kCalibrationDuty = 100;
 constexpr int32_t kCalibrationStallCounts = 4;
 constexpr uint16_t kCalibrationSteps = 9000;  ///< 90 s for one way
 constexpr uint16_t kSmallestSpan = 3000;      ///< of kFullScale between the stops
+
+// Stop input and signals
+constexpr uint8_t kStopCloseMs = 100;           ///< closed without a bounce for so long before a stop ends
+constexpr uint32_t kInputsPeriodUs = 80000;     ///< FirmwareInputs
+constexpr uint32_t kSignalSilenceUs = 1000000;  ///< without an order for so long no signal is given
 
 // Presses
 constexpr uint8_t kServoCount = 2;

@@ -20,6 +20,7 @@ enum class Refusal : uint8_t {
   kCalibration = 8,
   kLate = 9,
   kStopped = 10,
+  kSignal = 11,
 };
 
 struct Counters {

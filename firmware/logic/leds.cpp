@@ -22,6 +22,7 @@ const uint16_t kPatterns[kLedPatternCount][kLedCount] PROGMEM = {
     {0x0000, 0x0000, 0xFFFF},  // error: red
     {0x0000, 0x0000, 0x3333},  // link lost: red, fast
     {0x0000, 0x0505, 0x0000},  // warning: yellow, two flashes per second
+    {0xAAAA, 0x5555, 0x0000},  // about to set off: green and yellow in turn, very fast
 };
 
 }  // namespace

@@ -19,7 +19,8 @@ enum LedPattern : uint8_t {
   kLedError = 7,
   kLedLinkLost = 8,
   kLedWarning = 9,
-  kLedPatternCount = 10,
+  kLedSetsOff = 10,
+  kLedPatternCount = 11,
 };
 
 constexpr uint16_t kLedSlotMs = 125;

@@ -9,6 +9,7 @@ void start_timers();
 void start_uart();
 void start_lift();
 void start_leds();
+void start_signals();
 
 /// Sleeps until an interrupt, unless there is work.
 void idle();

@@ -11,7 +11,8 @@
 namespace {
 
 mtr::PressMemory press_memory __attribute__((section(".noinit")));
-mtr::Board board(&press_memory);
+mtr::StopMemory stop_memory __attribute__((section(".noinit")));
+mtr::Board board(&press_memory, &stop_memory);
 
 }  // namespace
 
@@ -32,6 +33,7 @@ void hal::idle() {
 int main() {
   hal::start_lift();
   hal::start_leds();
+  hal::start_signals();
   hal::start_uart();
   hal::start_timers();
   set_sleep_mode(SLEEP_MODE_IDLE);

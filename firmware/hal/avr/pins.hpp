@@ -20,6 +20,12 @@ constexpr uint8_t kMotorUp = PG5;  // 4
 constexpr uint8_t kFirstLed = PA0;
 #define LED_PORT PORTA
 #define LED_DDR DDRA
+constexpr uint8_t kStopInput = PA3;  // 25
+constexpr uint8_t kBuzzer = PA4;     // 26
+constexpr uint8_t kBeacon = PA5;     // 27
+#define SIGNAL_PORT PORTA
+#define SIGNAL_DDR DDRA
+#define SIGNAL_PIN PINA
 
 #elif defined(__AVR_ATmega328P__)
 
@@ -35,6 +41,12 @@ constexpr uint8_t kMotorUp = PD4;                    // 4
 constexpr uint8_t kFirstLed = PD5;
 #define LED_PORT PORTD
 #define LED_DDR DDRD
+constexpr uint8_t kStopInput = PC1;  // A1
+constexpr uint8_t kBuzzer = PC2;     // A2
+constexpr uint8_t kBeacon = PC3;     // A3
+#define SIGNAL_PORT PORTC
+#define SIGNAL_DDR DDRC
+#define SIGNAL_PIN PINC
 
 #else
 #error "There is no pin table for this microcontroller."

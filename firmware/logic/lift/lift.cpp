@@ -18,7 +18,7 @@ void Lift::go_to(int32_t target_um) {
   if (mode_ == Mode::kGoTo && target_um == target_um_) {
     return;
   }
-  if (mode_ == Mode::kOff || arrived_ || is_jammed()) {
+  if (mode_ == Mode::kOff || arrived_) {
     begin();
   }
   mode_ = Mode::kGoTo;
@@ -27,12 +27,16 @@ void Lift::go_to(int32_t target_um) {
 }
 
 void Lift::hold() {
+  if (is_jammed()) {
+    tries_ = rest_steps_ = 0;
+    cut();
+  }
   if (mode_ == Mode::kOff || mode_ == Mode::kHold) {
     return;
   }
   mode_ = Mode::kHold;
   target_um_ = profile_.stopping_point_um();
-  if (at_rest_ || arrived_ || is_jammed()) {
+  if (at_rest_ || arrived_) {
     cut();
   }
 }
@@ -46,11 +50,10 @@ void Lift::begin() {
   // The profile begins at the next measured height.
   at_rest_ = true;
   arrived_ = false;
-  tries_ = rest_steps_ = 0;
 }
 
 int16_t Lift::step(int32_t measured_um, int32_t stroke_um) {
-  if (mode_ == Mode::kOff || tries_ >= kJamTries) {
+  if (mode_ == Mode::kOff || has_given_up()) {
     return 0;
   }
   if (rest_steps_ > 0) {

@@ -5,29 +5,32 @@
 
 #include <stdint.h>
 
+#include "../config.hpp"
 #include "motion_profile.hpp"
 #include "stall_detector.hpp"
 
 namespace mtr {
 
-/// The host repeats its order; only another height is a new one. After a jam the motor rests and tries again, a few
-/// times.
+/// The host repeats its order; only another height is a new one. After a jam the motor rests and tries again once. Then it
+/// stays off, whatever the height: only hold(), which is a decision of the host, permits another attempt.
 class Lift {
  public:
   Lift() : stall_(kStallUm) {}
 
   /// Goes to a height, which must lie within the stroke.
   void go_to(int32_t target_um);
-  /// Brakes and stands still.
+  /// Brakes and stands still; a jam is over, and the next height gets all tries.
   void hold();
-  /// Motor off at once, until the next order.
+  /// Motor off at once, until the next order. Tries remain counted.
   void cut();
 
   /// One step of kLiftPeriodMs at a measured height; returns the motor's duty, positive up.
   int16_t step(int32_t measured_um, int32_t stroke_um);
 
   bool is_jammed() const { return tries_ > 0; }
-  bool is_moving() const { return mode_ != Mode::kOff && !arrived_ && rest_steps_ == 0 && tries_ < kJamTries; }
+  /// True when no try is left.
+  bool has_given_up() const { return tries_ >= kJamTries; }
+  bool is_moving() const { return mode_ != Mode::kOff && !arrived_ && rest_steps_ == 0 && !has_given_up(); }
 
  private:
   enum class Mode : uint8_t { kOff, kGoTo, kHold };

@@ -14,7 +14,7 @@ namespace {
 constexpr int16_t kTimeBytes = 8;
 
 static_assert(MTR_FIRMWARECOMMAND_BYTES <= kLongestPayload && MTR_FIRMWAREPRESS_BYTES <= kLongestPayload &&
-                  MTR_FIRMWARECALIBRATE_BYTES <= kLongestPayload,
+                  MTR_FIRMWARECALIBRATE_BYTES <= kLongestPayload && MTR_FIRMWARESIGNALS_BYTES <= kLongestPayload,
               "the reader's buffer must hold each message");
 
 }  // namespace
@@ -26,12 +26,16 @@ const Endpoint kEndpoints[kEndpointCount] PROGMEM = {
      MTR_FIRMWAREHEALTH_MD5},
     {kTopicEcho, kTopicNegotiate, MTR_FIRMWAREECHO_BYTES, "/firmware/echo", MTR_FIRMWAREECHO_TYPE,
      MTR_FIRMWAREECHO_MD5},
+    {kTopicInputs, kTopicNegotiate, MTR_FIRMWAREINPUTS_BYTES, "/firmware/inputs", MTR_FIRMWAREINPUTS_TYPE,
+     MTR_FIRMWAREINPUTS_MD5},
     {kTopicCommand, kTopicSubscriber, MTR_FIRMWARECOMMAND_BYTES, "/firmware/command", MTR_FIRMWARECOMMAND_TYPE,
      MTR_FIRMWARECOMMAND_MD5},
     {kTopicPress, kTopicSubscriber, MTR_FIRMWAREPRESS_BYTES, "/firmware/press", MTR_FIRMWAREPRESS_TYPE,
      MTR_FIRMWAREPRESS_MD5},
     {kTopicCalibrate, kTopicSubscriber, MTR_FIRMWARECALIBRATE_BYTES, "/firmware/calibrate", MTR_FIRMWARECALIBRATE_TYPE,
      MTR_FIRMWARECALIBRATE_MD5},
+    {kTopicSignals, kTopicSubscriber, MTR_FIRMWARESIGNALS_BYTES, "/firmware/signals", MTR_FIRMWARESIGNALS_TYPE,
+     MTR_FIRMWARESIGNALS_MD5},
 };
 
 int16_t host_payload_bytes(uint16_t topic) {
@@ -47,6 +51,8 @@ int16_t host_payload_bytes(uint16_t topic) {
       return MTR_FIRMWAREPRESS_BYTES;
     case kTopicCalibrate:
       return MTR_FIRMWARECALIBRATE_BYTES;
+    case kTopicSignals:
+      return MTR_FIRMWARESIGNALS_BYTES;
     default:
       return kUnknownTopic;
   }

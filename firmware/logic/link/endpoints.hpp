@@ -20,9 +20,11 @@ enum : uint16_t {
   kTopicCommand = 100,
   kTopicPress = 101,
   kTopicCalibrate = 102,
+  kTopicSignals = 103,
   kTopicState = 125,
   kTopicHealth = 126,
   kTopicEcho = 127,
+  kTopicInputs = 128,
 };
 
 constexpr uint8_t kMd5Bytes = 32;
@@ -36,7 +38,7 @@ struct Endpoint {
   char md5[kMd5Bytes + 1];
 };
 
-constexpr uint8_t kEndpointCount = 6;
+constexpr uint8_t kEndpointCount = 8;
 
 /// In flash: read it with pgm_read_*. Publishers first: the host takes a message that it knows nothing of for a lost
 /// negotiation.

@@ -86,6 +86,15 @@ bool read(const uint8_t* payload, uint8_t length, Calibrate* message) {
   return is_sealed(payload, length, MTR_FIRMWARECALIBRATE_BYTES);
 }
 
+bool read(const uint8_t* payload, uint8_t length, SignalOrder* message) {
+  Reader reader(payload, length);
+  message->signal = reader.u8();
+  message->beacon = reader.u8();
+  message->stop_input = reader.u8();
+  message->latest_us = reader.u32();
+  return is_sealed(payload, length, MTR_FIRMWARESIGNALS_BYTES);
+}
+
 bool send(const State& message) {
   FrameWriter frame;
   if (!frame.begin(kTopicState, MTR_FIRMWARESTATE_BYTES)) {
@@ -128,6 +137,21 @@ bool send(const Health& message) {
   frame.u8(static_cast<uint8_t>(message.counters.last_refusal));
   frame.u8(message.calibration_copies);
   frame.u16(message.stroke_mm);
+  frame.end();
+  return true;
+}
+
+bool send(const InputReport& message) {
+  FrameWriter frame;
+  if (!frame.begin(kTopicInputs, MTR_FIRMWAREINPUTS_BYTES)) {
+    return false;
+  }
+  frame.u32(message.time_us);
+  frame.u8(static_cast<uint8_t>(message.stop));
+  frame.u16(message.stops);
+  frame.u8(message.signal);
+  frame.u8(message.beacon);
+  frame.crc();
   frame.end();
   return true;
 }

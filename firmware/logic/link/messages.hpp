@@ -35,8 +35,17 @@ struct Calibrate {
   uint32_t latest_us = 0;
 };
 
+/// mtr_msgs/FirmwareSignals
+struct SignalOrder {
+  uint8_t signal = 0;
+  uint8_t beacon = 0;
+  uint8_t stop_input = 0;
+  uint32_t latest_us = 0;
+};
+
 enum class PressState : uint8_t { kNone = 0, kPressing = 1, kDone = 2, kRefused = 3, kCutShort = 4 };
-enum class Fault : uint8_t { kNone = 0, kLiftJammed = 1, kSensorBroken = 2, kLinkLost = 3 };
+enum class Fault : uint8_t { kNone = 0, kLiftJammed = 1, kSensorBroken = 2, kLinkLost = 3, kLiftGivenUp = 4 };
+enum class StopState : uint8_t { kUnused = 0, kClosed = 1, kOpen = 2 };
 enum class LiftState : uint8_t { kStill = 0, kMoving = 1, kCalibrating = 2 };
 enum class CalibrationState : uint8_t { kNone = 0, kUnderWay = 1, kDone = 2, kFailed = 3 };
 
@@ -74,14 +83,25 @@ struct Health {
   uint16_t stroke_mm = 0;
 };
 
+/// mtr_msgs/FirmwareInputs
+struct InputReport {
+  uint32_t time_us = 0;
+  StopState stop = StopState::kUnused;
+  uint16_t stops = 0;
+  uint8_t signal = 0;
+  uint8_t beacon = 0;
+};
+
 /// Reads a payload; false when its CRC or its length is wrong.
 bool read(const uint8_t* payload, uint8_t length, Command* message);
 bool read(const uint8_t* payload, uint8_t length, Press* message);
 bool read(const uint8_t* payload, uint8_t length, Calibrate* message);
+bool read(const uint8_t* payload, uint8_t length, SignalOrder* message);
 
 /// Sends a message; false when there is no room.
 bool send(const State& message);
 bool send(const Health& message);
+bool send(const InputReport& message);
 /// Echo of a command's seq.
 bool send_echo(uint8_t seq);
 

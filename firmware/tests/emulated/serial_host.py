@@ -12,9 +12,10 @@ from typing import Deque, Dict, List, NamedTuple, Optional, Tuple
 from mtr_emulator import Emulator, Probe
 
 NEGOTIATE, SUBSCRIBER, TIME, STOP = 0, 1, 10, 11
-COMMAND, PRESS, CALIBRATE, STATE, HEALTH, ECHO = 100, 101, 102, 125, 126, 127
+COMMAND, PRESS, CALIBRATE, SIGNALS, STATE, HEALTH, ECHO, INPUTS = 100, 101, 102, 103, 125, 126, 127, 128
 HEADER = struct.Struct("<BBHBH")
 STATE_FORMAT, HEALTH_FORMAT = struct.Struct("<IfHHIBIIBBBIBH"), struct.Struct("<BHHHHHHIHHBBH")
+INPUTS_FORMAT = struct.Struct("<IBHBBH")
 STEP_US = 10_000
 COMMAND_PERIOD_US = 100_000
 # The firmware's clock at power on; an order of the host may begin so long after it leaves.
@@ -61,6 +62,17 @@ class Health(NamedTuple):
     stroke_mm: int
 
 
+class Inputs(NamedTuple):
+    """mtr_msgs/FirmwareInputs."""
+
+    time_us: int
+    stop: int
+    stops: int
+    signal: int
+    beacon: int
+    crc: int
+
+
 class Topic(NamedTuple):
     """What the device says of a topic."""
 
@@ -98,6 +110,11 @@ def calibrate(id: int, stroke_m: float, latest_us: int) -> bytes:
     return frame(CALIBRATE, sealed(struct.pack("<IfI", id, stroke_m, latest_us % 2 ** 32)))
 
 
+def signals(latest_us: int, signal: int = 0, beacon: int = 0, stop_input: int = 0) -> bytes:
+    """A FirmwareSignals."""
+    return frame(SIGNALS, sealed(struct.pack("<BBBI", signal, beacon, stop_input, latest_us % 2 ** 32)))
+
+
 def split(data: bytearray) -> List[Tuple[int, bytes]]:
     """Takes the whole frames from the start of the data; damaged ones are skipped."""
     found = []
@@ -121,7 +138,8 @@ class Host:
 
     Attributes:
         topics: what the device has announced, by id.
-        states, healths, echoes: all that have arrived.
+        states, healths, echoes, inputs: all that have arrived.
+        signals: fields of the FirmwareSignals sent with each command; None: none is sent.
         height_m, led, stop: sent with each command.
         is_talking: False sends no commands.
         answers_time: False does not answer TIME.
@@ -133,6 +151,8 @@ class Host:
         self.states: List[State] = []
         self.healths: List[Health] = []
         self.echoes: List[int] = []
+        self.inputs: List[Inputs] = []
+        self.signals: Optional[Dict[str, int]] = None
         self.damaged_states = 0
         self.height_m = float("nan")
         self.led = 4
@@ -182,6 +202,8 @@ class Host:
 
     def _speak(self) -> None:
         self._seq += 1
+        if self.signals is not None:
+            self._outbox.append(signals(self.latest_us, **self.signals))
         self._outbox.append(command(self._seq, self.height_m, self.latest_us, self.led, self.stop))
         if self._press:
             self._outbox.append(press(self._press[0], self.latest_us, **self._press[1]))
@@ -210,6 +232,8 @@ class Host:
             self._report(payload)
         elif topic == HEALTH and len(payload) == HEALTH_FORMAT.size:
             self.healths.append(Health(*HEALTH_FORMAT.unpack(payload)))
+        elif topic == INPUTS and len(payload) == INPUTS_FORMAT.size and sealed(payload[:-2]) == payload:
+            self.inputs.append(Inputs(*INPUTS_FORMAT.unpack(payload)))
         elif topic == ECHO and len(payload) == 1:
             self.echoes.append(payload[0])
 

@@ -1,13 +1,14 @@
 """The flashed firmware on an emulated board, in lock-step: each fault while the lift moves and a button is held."""
 # SPDX-License-Identifier: Apache-2.0
 import binascii
+import math
 
 import pytest
 from conftest import running_host
 from serial_host import CUT_SHORT, DONE
 
 SAFE_WITHIN_S, WORKING_WITHIN_S = 1.2, 2.0
-JAMMED, SENSOR_BROKEN, LINK_LOST = 1, 2, 3
+JAMMED, SENSOR_BROKEN, LINK_LOST, GIVEN_UP = 1, 2, 3, 4
 LED_LINK_LOST = 8
 PRESSES = 200
 
@@ -114,24 +115,44 @@ def test_jam_switches_the_motor_off_and_is_tried_again(busy_host):
     busy_host.board.fault("jam")
     assert busy_host.run(0.6).lift_duty == 0
     assert busy_host.state.fault == JAMMED
-    busy_host.run(2.0)
-    assert busy_host.state.fault == JAMMED
     before = busy_host.board.probe().lift_m
     busy_host.board.fault("none")
     assert busy_host.run(WORKING_WITHIN_S).lift_m > before + 0.05
     assert busy_host.state.fault == 0
 
 
-def test_lasting_jam_is_not_pushed_for_ever(busy_host):
+def test_lasting_jam_is_tried_once_more_and_then_waits_for_the_host(busy_host):
     busy_host.board.fault("jam")
-    busy_host.run(10.0)
     busy_host.log.clear()
-    busy_host.run(3.0)
-    assert all(seen.lift_duty == 0 for seen in busy_host.log) and busy_host.state.fault == JAMMED
+    busy_host.run(2.5)
+    pushing = [seen.lift_duty != 0 for seen in busy_host.log]
+    assert sum(later and not earlier for earlier, later in zip(pushing, pushing[1:])) == 1
+    assert busy_host.state.fault == GIVEN_UP
     busy_host.board.fault("none")
+    for height_m in (0.7, 0.2, 0.8):
+        busy_host.height_m = height_m
+        busy_host.log.clear()
+        busy_host.run(1.5)
+        assert all(seen.lift_duty == 0 for seen in busy_host.log) and busy_host.state.fault == GIVEN_UP
     before = busy_host.board.probe().lift_m
+    busy_host.height_m = math.nan
+    busy_host.run(0.3)
+    assert busy_host.state.fault == 0
     busy_host.height_m = 0.7
     assert busy_host.run(WORKING_WITHIN_S).lift_m > before + 0.05
+
+
+def test_silent_host_is_no_decision_to_try_again(busy_host):
+    busy_host.board.fault("jam")
+    busy_host.run(2.5)
+    busy_host.board.fault("none")
+    busy_host.is_talking = False
+    busy_host.run(1.5)
+    assert busy_host.state.fault == LINK_LOST
+    busy_host.is_talking = True
+    busy_host.log.clear()
+    busy_host.run(2.0)
+    assert all(seen.lift_duty == 0 for seen in busy_host.log) and busy_host.state.fault == GIVEN_UP
 
 
 @pytest.mark.parametrize("fault", ["drop", "corrupt"])

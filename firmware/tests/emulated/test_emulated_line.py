@@ -13,7 +13,7 @@ def test_host_is_told_all_topics(host):
     names = {topic: (found.kind, found.name, found.type) for topic, found in host.topics.items()}
     assert names[COMMAND] == (SUBSCRIBER, "/firmware/command", "mtr_msgs/FirmwareCommand")
     assert names[STATE] == (0, "/firmware/state", "mtr_msgs/FirmwareState")
-    assert len(names) == 6
+    assert len(names) == 8
 
 
 def test_host_that_comes_late_is_told_all_topics_soon(mcu):
@@ -21,7 +21,7 @@ def test_host_that_comes_late_is_told_all_topics_soon(mcu):
         board.step(3_333_000)
         host = Host(board)
         host.run(0.5)
-        assert len(host.topics) == 6 and len(host.states) > 2
+        assert len(host.topics) == 8 and len(host.states) > 2
         host.close()
 
 
@@ -35,12 +35,14 @@ def test_reports_come_in_time(host):
     host.states.clear()
     host.healths.clear()
     host.echoes.clear()
+    host.inputs.clear()
     host.run(2.0)
     times = [state.time_us for state in host.states]
     gaps = {round((later - earlier) / 1000) for earlier, later in zip(times, times[1:])}
     assert len(times) in (49, 50, 51) and gaps <= {39, 40, 41}
     assert len(host.healths) in (9, 10, 11)
     assert len(host.echoes) in (19, 20, 21)
+    assert len(host.inputs) in (24, 25, 26)
 
 
 def test_half_of_the_echoes_come_within_six_milliseconds(host):

@@ -66,5 +66,6 @@ class BoardTest : public testing::Test {
   float height_m_ = 0.0F;
   std::uint32_t seq_ = 0;
   mtr::PressMemory memory_ = {};
-  mtr::Board board_{&memory_};
+  mtr::StopMemory stop_memory_ = {};
+  mtr::Board board_{&memory_, &stop_memory_};
 };

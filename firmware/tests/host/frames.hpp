@@ -76,4 +76,12 @@ inline Bytes calibrate(std::uint32_t id, float stroke_m, std::uint32_t latest_us
   return frame(102, payload);
 }
 
+inline Bytes signals(std::uint8_t signal, std::uint8_t beacon = 0, std::uint8_t stop_input = 0,
+                     std::uint32_t latest_us = soon_us()) {
+  Bytes payload = {signal, beacon, stop_input};
+  append(&payload, latest_us);
+  seal(&payload);
+  return frame(103, payload);
+}
+
 }  // namespace frames

@@ -22,8 +22,28 @@ TEST_F(BoardTest, StopsReleasesAndSaysSoWhenTheHostIsSilent) {
   EXPECT_EQ(hardware().servo_us[0], 1000);
   EXPECT_EQ(hardware().servo_us[1], 1000);
   EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kLinkLost));
+  // Its sensor did not show any motion before the silence; to hold still ends the jam.
+  height_m_ = NAN;
   pass(300);
   EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kNone));
+}
+
+TEST_F(BoardTest, ReportsALiftThatHasGivenUpUntilItIsOrderedToHoldStill) {
+  height_m_ = 0.5F;
+  pass(600);
+  EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kLiftJammed));
+  pass(2000);
+  EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kLiftGivenUp));
+  height_m_ = 0.4F;
+  pass(3000);
+  EXPECT_EQ(hardware().duty, 0);
+  EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kLiftGivenUp));
+  height_m_ = NAN;
+  pass(200);
+  EXPECT_EQ(fault(), static_cast<int>(mtr::Fault::kNone));
+  height_m_ = 0.4F;
+  pass(200);
+  EXPECT_GT(hardware().duty, 0);
 }
 
 // A3

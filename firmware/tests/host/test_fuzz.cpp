@@ -32,13 +32,15 @@ class Mutator {
 
  private:
   Bytes original() {
-    switch (random() % 6) {
+    switch (random() % 7) {
       case 0:
         return frames::command(random(), static_cast<float>(random() % 2000) * 1e-3F);
       case 1:
         return frames::press(random(), static_cast<std::uint8_t>(random()), 0.5F, 200);
       case 2:
         return frames::calibrate(random(), 1.2F);
+      case 5:
+        return frames::signals(static_cast<std::uint8_t>(random() % 4), 1, 1);
       case 3:
         return frames::frame(mtr::kTopicTime, Bytes(8, static_cast<std::uint8_t>(random())));
       case 4:
@@ -106,7 +108,8 @@ TEST(Fuzz, BoardStaysWithinItsLimits) {
   hal_host::renew();
   hal_host::Hardware& hardware = hal_host::hardware();
   mtr::PressMemory memory = {};
-  mtr::Board board(&memory);
+  mtr::StopMemory stop_memory = {};
+  mtr::Board board(&memory, &stop_memory);
   board.start();
   Mutator mutator;
   for (int i = 0; i < kFramesThroughTheBoard; ++i) {

@@ -134,20 +134,63 @@ TEST(Lift, JamsRestsAndTriesAgainWhenFreed) {
   EXPECT_NEAR(plant.position_um, 600000, mtr::kArrivedUm);
 }
 
-TEST(Lift, GivesUpAfterItsTriesUntilAnotherHeightIsWanted) {
+/// Pushes of a blocked lift during a minute in which the host wants these heights in turn.
+int pushes(mtr::Lift* lift, SimpleLift* plant, std::int32_t first_um, std::int32_t second_um) {
+  constexpr int kStepsPerMinute = 60000 / mtr::kLiftPeriodMs;
+  int count = 0;
+  bool was_pushing = false;
+  for (int i = 0; i < kStepsPerMinute; ++i) {
+    lift->go_to(i / 7 % 2 == 0 ? first_um : second_um);
+    const bool is_pushing = plant->step(lift) != 0;
+    count += is_pushing && !was_pushing ? 1 : 0;
+    was_pushing = is_pushing;
+  }
+  return count;
+}
+
+TEST(Lift, TriesOnceMoreAfterAJamWhateverHeightsAreWanted) {
+  EXPECT_EQ(mtr::kJamTries, 2);
+  for (std::int32_t other_um : {600000, 600001, 500000}) {
+    mtr::Lift lift;
+    SimpleLift plant;
+    plant.is_blocked = true;
+    EXPECT_EQ(pushes(&lift, &plant, 600000, other_um), 2) << other_um;
+    EXPECT_TRUE(lift.is_jammed() && lift.has_given_up() && !lift.is_moving());
+  }
+}
+
+TEST(Lift, ThatHasGivenUpMovesOnlyAfterItWasOrderedToHold) {
+  mtr::Lift lift;
+  SimpleLift plant;
+  plant.is_blocked = true;
+  pushes(&lift, &plant, 600000, 600000);
+  plant.is_blocked = false;
+  EXPECT_EQ(pushes(&lift, &plant, 600000, 500000), 0) << "free again, and nothing was decided";
+  lift.cut();
+  EXPECT_EQ(pushes(&lift, &plant, 600000, 500000), 0) << "a lost link is no decision";
+  lift.hold();
+  EXPECT_FALSE(lift.is_jammed());
+  EXPECT_EQ(plant.step(&lift), 0);
+  lift.go_to(600000);
+  EXPECT_NE(plant.step(&lift), 0);
+}
+
+TEST(Lift, ThatMovedAfterAJamHasAllItsTriesAgain) {
   mtr::Lift lift;
   SimpleLift plant;
   plant.is_blocked = true;
   lift.go_to(600000);
-  for (int i = 0; i < 2 * mtr::kJamTries * (mtr::kStallSteps + mtr::kJamRestSteps); ++i) {
-    lift.go_to(600000);
+  for (int i = 0; i < 2 * mtr::kStallSteps; ++i) {
     plant.step(&lift);
   }
+  EXPECT_TRUE(lift.is_jammed() && !lift.has_given_up());
   plant.is_blocked = false;
-  EXPECT_EQ(plant.step(&lift), 0);
-  EXPECT_TRUE(lift.is_jammed());
-  lift.go_to(500000);
-  EXPECT_NE(plant.step(&lift), 0);
+  for (int i = 0; i < 2 * mtr::kJamRestSteps; ++i) {
+    plant.step(&lift);
+  }
+  EXPECT_FALSE(lift.is_jammed());
+  plant.is_blocked = true;
+  EXPECT_EQ(pushes(&lift, &plant, 600000, 600000), 2) << "the push under way, and one more";
 }
 
 TEST(Lift, HoldBrakesAndCutStopsAtOnce) {

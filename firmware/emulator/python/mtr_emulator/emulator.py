@@ -29,6 +29,7 @@ class Probe:
         rx, tx: bytes taken from and given to the pseudo-terminal so far.
         servo_us: width of the newest pulse of lock and unlock servo; 0 when there is none.
         led: green, yellow, red.
+        buzzer, beacon: True while the output is on.
         lift_m: true height above the lower stop.
         lift_duty: of the motor, -1 down to 1 up.
         untouched_ram: bytes that were never written since the start.
@@ -42,6 +43,8 @@ class Probe:
     tx: int
     servo_us: Tuple[float, float]
     led: Tuple[bool, bool, bool]
+    buzzer: bool
+    beacon: bool
     lift_m: float
     lift_duty: float
     untouched_ram: int
@@ -140,6 +143,10 @@ class Emulator:
     def fault(self, name: str, one_in: int = 0) -> None:
         """Begin or end a fault, see emulator/README.md."""
         self._ask(f"fault {name} {one_in}")
+
+    def set_stop_contact(self, state: str) -> None:
+        """Open, close or bounce the contact at the stop input: "open", "closed", "bouncing"."""
+        self._ask(f"stop_contact {state}")
 
     def _ask(self, question: str) -> Dict[str, Any]:
         self._say(question)
