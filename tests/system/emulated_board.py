@@ -105,7 +105,8 @@ class EmulatedBoard:
 
     def _new_orders(self) -> FirmwareOrders:
         return FirmwareOrders(self._clock, lambda message: self._send(names.FIRMWARE_COMMAND, message),
-                              lambda message: self._send(names.FIRMWARE_PRESS, message))
+                              lambda message: self._send(names.FIRMWARE_PRESS, message),
+                              lambda message: self._send(names.FIRMWARE_SIGNALS, message))
 
     def ask_again(self, damaged: bytes) -> None:
         """The host asks for all topics anew; the first byte of this text in the answer is flipped on the line, once."""

@@ -31,7 +31,7 @@ class PeripheralsPart:
         self._core, self._parameters = Peripherals(parameters, KeyLift(key)), parameters
         self._topics, self._firmware = topics, firmware
         self._times, self._robot_clock = SharedClock(), RobotClock()
-        self._orders = FirmwareOrders(self._times, self._command, self._press)
+        self._orders = FirmwareOrders(self._times, self._command, self._press, self._signals)
         self._reports = Topic()
         self._emergency = EmergencyStops(parameters.emergency_owners, parameters.emergency_silent_after_s)
         self._charge: Optional[float] = None
@@ -61,6 +61,9 @@ class PeripheralsPart:
     def _command(self, message: Any) -> None:
         self._firmware.command(wire.single(message.lift_height_m), message.led_pattern, bool(message.stop),
                                message.latest_us)
+
+    def _signals(self, message: Any) -> None:
+        self._firmware.signals(message.signal, bool(message.beacon), bool(message.stop_input), message.latest_us)
 
     def _press(self, message: Any) -> None:
         self._firmware.press(message.id, message.servos, wire.single(message.strength), message.hold_ms,

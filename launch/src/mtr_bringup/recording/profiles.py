@@ -17,13 +17,14 @@ SMALL: Tuple[str, ...] = (
 FULL: Tuple[str, ...] = (
     *SMALL, names.FRONT_SCAN, names.REAR_SCAN, names.IMU_DATA, names.WHEEL_ODOMETRY, names.NAVSAT_FIX,
     names.SURFACE_MAP, names.CAR_MARKERS, names.LOCALIZATION_MARKERS, names.MOTION_MARKERS, names.DRIVE_MARKERS,
-    names.FIRMWARE_STATE, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS, names.FIRMWARE_HEALTH, names.JOINT_STATES,
-    names.MANUAL_LIFT)
+    names.FIRMWARE_STATE, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS, names.FIRMWARE_HEALTH, names.FIRMWARE_INPUTS,
+    names.FIRMWARE_SIGNALS, names.JOINT_STATES, names.MANUAL_LIFT)
 PROFILES: Dict[str, Tuple[str, ...]] = {"small": SMALL, "full": FULL}
 # Orders that are recorded under RECORDED: nodes and base act on some of these whatever their age, and a bag that is
 # played on a robot must not move it.
 ORDERS: Tuple[str, ...] = (names.JOY, names.WHEEL_COMMAND, names.PLANNER_VELOCITY, names.MANUAL_VELOCITY,
-                           names.MANUAL_LIFT, names.MOTION_LOCK, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS)
+                           names.MANUAL_LIFT, names.MOTION_LOCK, names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS,
+                           names.FIRMWARE_SIGNALS)
 RECORDED = "/recorded"
 # What replay.launch plays: sensors, and what others told localization, Car locator and state machine. Never the outputs
 # of these: the recorded mode ends the survey when the recorded Car was found, which the replay's need not be by then.

@@ -79,14 +79,18 @@ FIRMWARE_CALIBRATE = "/firmware/calibrate"
 FIRMWARE_ECHO = "/firmware/echo"
 FIRMWARE_STATE = "/firmware/state"
 FIRMWARE_HEALTH = "/firmware/health"
+FIRMWARE_SIGNALS = "/firmware/signals"
+FIRMWARE_INPUTS = "/firmware/inputs"
+# Stop input of the board, std_msgs/Bool: one of drive control's e_stop_topics on a robot with a stop chain
+STOP_INPUT = "/peripherals/stop_input"
 
 # Orders that move wheels, lift or servos: each has one publisher. Drive control watches the base's own topic, and
 # /drive/lock, on which every owner of a lock publishes.
 MOTION_INPUTS = (JOY, DESIRED_STATE, ROBOT_MODE, PLANNER_VELOCITY, MANUAL_VELOCITY, MANUAL_LIFT, FIRMWARE_COMMAND,
-                 FIRMWARE_PRESS, FIRMWARE_CALIBRATE)
+                 FIRMWARE_PRESS, FIRMWARE_CALIBRATE, FIRMWARE_SIGNALS)
 # Messages on which these orders rest.
-MOTION_STATES = (TEST_AREA, LOCALIZED_POSE, CAR_ESTIMATE, CAR_CHECK, MAPPING_ORDER, SURFACE_MAP, MOTION_STATUS, DRIVE_STATUS,
-                 PERIPHERALS_STATE, FIRMWARE_STATE)
+MOTION_STATES = (TEST_AREA, LOCALIZED_POSE, CAR_ESTIMATE, CAR_CHECK, MAPPING_ORDER, SURFACE_MAP, MOTION_STATUS,
+                 DRIVE_STATUS, PERIPHERALS_STATE, FIRMWARE_STATE, FIRMWARE_INPUTS, STOP_INPUT)
 
 # Of the node that injects faults, and in front of the topics that it passes on
 FAULT_INJECTION = "/fault_injection"

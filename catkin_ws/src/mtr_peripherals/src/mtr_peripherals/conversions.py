@@ -14,7 +14,9 @@ from mtr_msgs.msg import (
     DesiredState,
     FirmwareCommand,
     FirmwareHealth,
+    FirmwareInputs,
     FirmwarePress,
+    FirmwareSignals,
     FirmwareState,
     MotionLock,
     PeripheralsState,
@@ -26,7 +28,7 @@ from mtr_msgs.msg import PressReport as PressReportMessage
 from . import problems
 from .core import Inputs, Outcome
 from .emergency import EmergencyWord
-from .firmware import CALIBRATING, FirmwareReport, PressState, ServoPress
+from .firmware import CALIBRATING, FirmwareReport, InputsReport, PressState, ServoPress, SignalOrder
 from .firmware_clock import FirmwareClock, RobotClock, SharedClock
 from .health_watch import Health
 
@@ -45,7 +47,9 @@ def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> I
     if desired is None:
         return Inputs(mode=mode.mode) if mode else Inputs()
     wanted = desired_state_from(desired)
-    return Inputs(wanted, mode.mode, bool(mode.goal.id), bool(mode.hold_id)) if mode else Inputs(wanted)
+    if mode is None:
+        return Inputs(wanted)
+    return Inputs(wanted, mode.mode, bool(mode.goal.id), bool(mode.hold_id), sets_off=mode.sets_off)
 
 
 def firmware_report(state: FirmwareState, stamp_ns: int, times: FirmwareTimes) -> FirmwareReport:
@@ -57,6 +61,17 @@ def firmware_report(state: FirmwareState, stamp_ns: int, times: FirmwareTimes) -
         press_start_ns=times.steady_ns(state.press_start_us, stamp_ns) if started else 0,
         press_end_ns=times.steady_ns(state.press_end_us, stamp_ns) if started else 0,
         led_pattern=state.led_pattern, fault=state.fault, is_calibrating=state.lift_state == CALIBRATING)
+
+
+def inputs_report(message: FirmwareInputs, arrival_ns: int, times: FirmwareTimes) -> InputsReport:
+    """A FirmwareInputs that arrived at a time of the steady clock."""
+    return InputsReport(times.steady_ns(message.time_us, arrival_ns), message.signal)
+
+
+def signals_message(order: SignalOrder, latest_us: int) -> FirmwareSignals:
+    """Warning signals, for the firmware, which follows them until latest_us of its clock."""
+    return seal(FirmwareSignals(signal=order.signal.value, beacon=order.has_beacon, stop_input=order.uses_stop_input,
+                                latest_us=latest_us))
 
 
 def command_message(outcome: Outcome, seq: int, latest_us: int) -> FirmwareCommand:
@@ -84,7 +99,8 @@ def state_message(outcome: Outcome, battery: float, stamp: Time, clock_of_robot:
         alive=outcome.alive, key_height_m=outcome.key_height_m, pressed_buttons=list(outcome.pressed_buttons),
         presses=[_report_message(report, clock_of_robot) for report in outcome.results], battery=battery,
         led=outcome.led_shown, message=outcome.message.text, problems=messages_of(outcome.message, Problem),
-        manual_lifts=outcome.manual_lifts, firmware_resets=firmware_resets)
+        manual_lifts=outcome.manual_lifts, firmware_resets=firmware_resets, lift_jams=outcome.lift_jams,
+        signal=outcome.signal_given)
     message.header.stamp = stamp
     return message
 

@@ -12,10 +12,11 @@ from mtr_core.states import State
 
 from . import problems
 from .calibration import RequestRefused
-from .firmware import FAULTS, FirmwareReport, Led, ServoPress
+from .firmware import FAULTS, GIVEN_UP, FirmwareReport, InputsReport, Led, ServoPress, Signal, SignalOrder
 from .key_lift import KeyLift
 from .parameters import Parameters
 from .presses import Presses
+from .signals import given_signal, signal_order
 
 NS = 1e-9
 # From a lock to wheels that brake, as in drive control's `reaction_s`, whose other part is its tick.
@@ -38,7 +39,9 @@ class Inputs:
         has_goal: the robot is on its way somewhere.
         is_held: the robot stands until the Operator has it go on; somebody may be at the mast.
         manual_lift_mps: rate that the manual controller wants, upwards; 0: it wants nothing.
-        backs_unseen: the robot drives backwards, where no LiDAR looks.
+        linear_mps: velocity sent to the wheels, negative backwards.
+        sets_off: the state machine waits for the signal before motion.
+        board: newest report of the board's inputs and signals.
         calibrates: a person's calibrate_lift repeats its request.
         emergency: why an emergency stop is engaged, no problem when none is.
     """
@@ -48,7 +51,9 @@ class Inputs:
     has_goal: bool = False
     is_held: bool = False
     manual_lift_mps: float = 0.0
-    backs_unseen: bool = False
+    linear_mps: float = 0.0
+    sets_off: bool = False
+    board: Optional[InputsReport] = None
     calibrates: bool = False
     emergency: Problem = NO_PROBLEM
 
@@ -62,6 +67,9 @@ class Outcome:
     Attributes:
         stop: the firmware holds the lift, releases the servos and begins no press.
         manual_lifts: times that the manual controller took the lift.
+        signals: for the firmware; None leaves those in force.
+        signal_given: number of the signal that the board reports.
+        lift_jams: times that the lift gave up after a jam.
     """
 
     stop: bool
@@ -76,6 +84,9 @@ class Outcome:
     led_shown: str
     message: Problem
     manual_lifts: int
+    signals: Optional[SignalOrder] = None
+    signal_given: int = Signal.NONE.value
+    lift_jams: int = 0
 
 
 # What goes to the firmware when an emergency stop is engaged between two ticks.
@@ -90,7 +101,8 @@ class Peripherals:
     def __init__(self, parameters: Parameters, lift: KeyLift):
         self._parameters, self._key_lift = parameters, lift
         self._presses = Presses(parameters.calibration)
-        self._manual_lifts = 0
+        self._manual_lifts = self._lift_jams = 0
+        self._has_given_up = False
         self._is_manual = False
 
     def step(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
@@ -99,6 +111,7 @@ class Peripherals:
         lift_height_m, refusal = self._lift(inputs, report) if not silence else (math.nan, NO_PROBLEM)
         press = self._press(inputs, report, now_ns)
         self._count_manual_lift(inputs)
+        self._count_jam(report)
         fault = _fault(report) if report and not silence else NO_PROBLEM
         return Outcome(
             bool(inputs.emergency), lift_height_m, self._led(inputs, bool(silence or fault)), press, not silence,
@@ -106,7 +119,10 @@ class Peripherals:
             key_height_m=self._key_lift.key_height_m(report.lift_height_m) if report else math.nan,
             pressed_buttons=self._presses.pressed_buttons, results=list(self._presses.results),
             led_shown=_led_name(report), message=silence or fault or inputs.emergency or refusal,
-            manual_lifts=self._manual_lifts)
+            manual_lifts=self._manual_lifts, lift_jams=self._lift_jams,
+            signals=signal_order(inputs.sets_off, inputs.linear_mps, bool(inputs.desired.session_id),
+                                 self._parameters.stop_input),
+            signal_given=given_signal(inputs.board, now_ns))
 
     def _silence(self, report: Optional[FirmwareReport], now_ns: int) -> Problem:
         if report is None:
@@ -129,6 +145,11 @@ class Peripherals:
         is_manual = bool(inputs.manual_lift_mps)
         self._manual_lifts += is_manual and not self._is_manual
         self._is_manual = is_manual
+
+    def _count_jam(self, report: Optional[FirmwareReport]) -> None:
+        has_given_up = report is not None and report.fault == GIVEN_UP
+        self._lift_jams += has_given_up and not self._has_given_up
+        self._has_given_up = has_given_up
 
     def _lift(self, inputs: Inputs, report: Optional[FirmwareReport]) -> Tuple[float, Problem]:
         if inputs.emergency:
@@ -158,7 +179,8 @@ class Peripherals:
             (Led.ERROR, failed or inputs.mode == State.FAULT),
             (Led.STARTING, inputs.mode == State.STARTING),
             (Led.LINK_LOST, bool(inputs.desired.session_id) and not inputs.desired.link_alive),
-            (Led.WARNING, inputs.backs_unseen),
+            (Led.SETS_OFF, inputs.sets_off),
+            (Led.WARNING, inputs.linear_mps < 0.0),
             (Led.PRESSING, bool(self._presses.pressed_buttons)),
             (Led.PAUSED, bool(inputs.desired.session_id) and inputs.desired.stop),
             (Led.MAPPING, inputs.mode == State.MAPPING_CAR),

@@ -29,10 +29,29 @@ class Led(enum.Enum):
     ERROR = 7
     LINK_LOST = 8
     WARNING = 9
+    SETS_OFF = 10
+
+
+class Signal(enum.Enum):
+    """Warning signals; the values are those of FirmwareSignals."""
+
+    NONE = 0
+    SETS_OFF = 1
+    REVERSES = 2
+
+
+class StopInput(enum.Enum):
+    """State of the board's stop input; the values are those of FirmwareInputs."""
+
+    UNUSED = 0
+    CLOSED = 1
+    OPEN = 2
 
 
 # Of FirmwareState.fault.
-FAULTS = {1: problems.LIFT_JAMMED, 2: problems.LIFT_SENSOR_BROKEN, 3: problems.NO_COMMANDS}
+GIVEN_UP = 4
+FAULTS = {1: problems.LIFT_JAMMED, 2: problems.LIFT_SENSOR_BROKEN, 3: problems.NO_COMMANDS,
+          GIVEN_UP: problems.LIFT_GAVE_UP}
 
 # Of FirmwareState.lift_state.
 CALIBRATING = 2
@@ -51,6 +70,23 @@ class FirmwareReport:
     led_pattern: int = 0
     fault: int = 0
     is_calibrating: bool = False
+
+
+@dataclass(frozen=True)
+class InputsReport:
+    """One FirmwareInputs with its time on the steady clock, in ns."""
+
+    stamp_ns: int
+    signal: int = Signal.NONE.value
+
+
+@dataclass(frozen=True)
+class SignalOrder:
+    """Warning signals for the firmware, and whether a stop chain is connected to it."""
+
+    signal: Signal = Signal.NONE
+    has_beacon: bool = False
+    uses_stop_input: bool = False
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ ALL_COPIES = 2
 # By FirmwareHealth.last_refusal.
 REFUSED_FIELDS = {1: "the lift's height", 2: "the LED pattern", 3: "the press id", 4: "the servos", 5: "the strength",
                   6: "the time to hold", 7: "another press under way", 8: "the calibration", 9: "its age",
-                  10: "an emergency stop"}
+                  10: "an emergency stop", 11: "the warning signal"}
 
 # By the bits of FirmwareHealth.reset_cause.
 RESET_CAUSES = {1: "its power came back", 2: "reset by its port or button",

@@ -6,6 +6,7 @@ from typing import Any, Optional, Tuple
 
 import rospy
 from sensor_msgs.msg import BatteryState, JointState
+from std_msgs.msg import Bool
 
 from mtr_core import names, schedule
 from mtr_core.crc import is_sound
@@ -22,7 +23,9 @@ from mtr_msgs.msg import (
     FirmwareCalibrate,
     FirmwareCommand,
     FirmwareHealth,
+    FirmwareInputs,
     FirmwarePress,
+    FirmwareSignals,
     FirmwareState,
     LiftCommand,
     MotionLock,
@@ -37,18 +40,20 @@ from .conversions import (
     firmware_report,
     health_of,
     inputs_from,
+    inputs_report,
     joint_message,
     state_message,
 )
 from .core import STOPPED, Inputs, Outcome, Peripherals
 from .emergency import EmergencyStops
-from .firmware import FirmwareReport
+from .firmware import FirmwareReport, InputsReport
 from .firmware_clock import FirmwareClock, RobotClock, SharedClock
 from .health_watch import HealthWatch
 from .key_lift import KeyLift
 from .latest import Latest
 from .orders import FirmwareOrders
 from .parameters import Parameters
+from .signals import SIGNAL_SILENT_S, is_stop
 
 # Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
 # hands on every 20 ms.
@@ -83,23 +88,28 @@ class PeripheralsNode:
         self._start = QuietStart()
         self._logged: Optional[Tuple[Tuple[str, ...], Optional[PressReport], bool]] = None
         self._desired = TickInput(names.DESIRED_STATE, DesiredState, schedule.DISPATCHER)
-        # Lock-step waits for each input, so only for what is needed.
-        self._drive = None if parameters.rear_lidar else TickInput(names.DRIVE_STATUS, DriveStatus,
-                                                                   schedule.DRIVE_CONTROL)
+        self._drive = TickInput(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
+        self._board: Latest[InputsReport] = Latest()
         self._mode = TickInput(names.ROBOT_MODE, RobotMode, schedule.STATE_MACHINE)
         command, press = (publisher(names.FIRMWARE_COMMAND, FirmwareCommand),
                           publisher(names.FIRMWARE_PRESS, FirmwarePress))
+        signals = publisher(names.FIRMWARE_SIGNALS, FirmwareSignals)
+        self._stop_input = publisher(names.STOP_INPUT, Bool) if parameters.stop_input else None
         self._orders = FirmwareOrders(self._times, lambda message: self._send(command, message),
-                                      lambda message: self._send(press, message))
+                                      lambda message: self._send(press, message),
+                                      lambda message: self._send(signals, message))
         self._state = publisher(names.PERIPHERALS_STATE, PeripheralsState)
         self._joints = publisher(names.JOINT_STATES, JointState)
         self._ticker = Ticker(schedule.PERIPHERALS)
         self._watch = PublisherWatch({
             **dict.fromkeys((names.DESIRED_STATE, names.ROBOT_MODE, names.MANUAL_LIFT, names.FIRMWARE_CALIBRATE,
-                             names.FIRMWARE_STATE), ANY_NODE),
-            **dict.fromkeys((names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS), rospy.get_name())})
+                             names.FIRMWARE_STATE, names.FIRMWARE_INPUTS), ANY_NODE),
+            **dict.fromkeys((names.FIRMWARE_COMMAND, names.FIRMWARE_PRESS, names.FIRMWARE_SIGNALS, names.STOP_INPUT),
+                            rospy.get_name())})
         self._subscribers = (
             rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, self._take_state, queue_size=50, tcp_nodelay=True),
+            rospy.Subscriber(names.FIRMWARE_INPUTS, FirmwareInputs, self._take_inputs, queue_size=10,
+                             tcp_nodelay=True),
             rospy.Subscriber(names.FIRMWARE_HEALTH, FirmwareHealth, self._take_health, queue_size=1),
             rospy.Subscriber(names.FIRMWARE_CALIBRATE, FirmwareCalibrate, self._take_calibrate, queue_size=1),
             rospy.Subscriber(names.BATTERY, BatteryState, self._take_battery, queue_size=1),
@@ -116,7 +126,8 @@ class PeripheralsNode:
     def _step(self, tick: int) -> None:
         now_ns = clock.steady_at(tick)
         inputs = inputs_from(self._fresh(self._desired, tick), self._fresh(self._mode, tick))
-        inputs = replace(inputs, manual_lift_mps=self._manual_lift_mps(now_ns), backs_unseen=self._backs_unseen(tick),
+        inputs = replace(inputs, manual_lift_mps=self._manual_lift_mps(now_ns), linear_mps=self._linear_mps(tick),
+                         board=self._board.at(now_ns, SIGNAL_SILENT_S),
                          calibrates=self._calibrate.at(now_ns, CALIBRATE_SILENT_S) is not None)
         outcome = self._decide(inputs, self._reports.at(tick), now_ns)
         self._robot_clock.update(clock.reading())
@@ -160,6 +171,16 @@ class PeripheralsNode:
         self._reports.add(stamp_ns, report)
         self._reports.wait_until_wanted()
 
+    def _take_inputs(self, message: FirmwareInputs) -> None:
+        if not is_sound(message):
+            return
+        arrival_ns = clock.steady_ns()
+        report = inputs_report(message, arrival_ns, self._times)
+        self._board.take(report, report.stamp_ns)
+        stop = is_stop(message.stop, (arrival_ns - report.stamp_ns) * NS)
+        if self._stop_input and stop is not None:
+            self._stop_input.publish(stop)
+
     def _take_health(self, message: FirmwareHealth) -> None:
         sentence = self._health.sentence(health_of(message), clock.steady_ns() * NS)
         if sentence:
@@ -184,9 +205,10 @@ class PeripheralsNode:
         message = self._manual_lift.at(now_ns, MANUAL_LIFT_SILENT_S)
         return message.rate_mps if message else 0.0
 
-    def _backs_unseen(self, tick: int) -> bool:
-        drive = self._fresh(self._drive, tick) if self._drive else None
-        return drive is not None and drive.linear_mps < 0.0
+    def _linear_mps(self, tick: int) -> float:
+        """Velocity sent to the wheels, 0 when drive control is silent."""
+        drive = self._fresh(self._drive, tick)
+        return drive.linear_mps if drive else 0.0
 
     def _charge(self, now_ns: int) -> float:
         message = self._battery.at(now_ns, self._parameters.battery_silent_after_s)

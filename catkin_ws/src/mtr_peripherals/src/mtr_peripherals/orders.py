@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Callable
 
-from .conversions import FirmwareTimes, command_message, press_message
+from .conversions import FirmwareTimes, command_message, press_message, signals_message
 from .core import STOPPED, Outcome
 
 # The firmware obeys a command for so long: longer than the period, shorter than the silence that stops it.
@@ -12,8 +12,9 @@ COMMAND_LIFETIME_NS = 500_000_000
 class FirmwareOrders:
     """Sends nothing before the firmware's clock is known, and nothing after the end."""
 
-    def __init__(self, times: FirmwareTimes, send_command: Callable[[Any], None], send_press: Callable[[Any], None]):
-        self._times = times
+    def __init__(self, times: FirmwareTimes, send_command: Callable[[Any], None], send_press: Callable[[Any], None],
+                 send_signals: Callable[[Any], None]):
+        self._times, self._send_signals = times, send_signals
         self._send_command, self._send_press = send_command, send_press
         self._seq = 0
         self._has_ended = False
@@ -23,6 +24,9 @@ class FirmwareOrders:
         latest_us = self._times.firmware_us(now_ns + COMMAND_LIFETIME_NS)
         if latest_us is None or self._has_ended:
             return
+        # First, so that the board knows of its stop input before it moves anything.
+        if outcome.signals:
+            self._send_signals(signals_message(outcome.signals, latest_us))
         self._seq += 1
         self._send_command(command_message(outcome, self._seq, latest_us))
         press_latest_us = self._times.firmware_us(outcome.press.latest_ns) if outcome.press else None

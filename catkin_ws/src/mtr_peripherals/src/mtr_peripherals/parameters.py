@@ -21,7 +21,8 @@ class Parameters(ParameterSet):
         battery_silent_after_s: age at which the battery's charge is unknown.
         emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts
             elsewhere, and its reports take time to come.
-        rear_lidar: the robot has one; without it the LEDs warn while it drives backwards.
+        stop_input: a stop chain is connected to the board's stop input; an open or silent input is a stop. It is
+            reported on a topic of its own, which belongs to drive control's e_stop_topics.
         calibration: of the servos.
     """
 
@@ -31,5 +32,5 @@ class Parameters(ParameterSet):
     emergency_owners: Tuple[str, ...] = ()
     battery_silent_after_s: float = number(30.0, 1.0, 600.0, "s")
     emulated_firmware: bool = False
-    rear_lidar: bool = True
+    stop_input: bool = False
     calibration: Calibration = Calibration()

@@ -30,6 +30,8 @@ FIRMWARE_SILENT = Sentence(
     "peripherals.firmware_silent",
     "The firmware of lift and buttons has been silent for {age_s:.1f} s; check cable and power.")
 LIFT_JAMMED = Sentence("peripherals.lift_jammed", "The lift is jammed.")
+LIFT_GAVE_UP = Sentence("peripherals.lift_gave_up",
+                        "The lift jammed again after one retry; its motor is off. Free the lift before you resume.")
 LIFT_SENSOR_BROKEN = Sentence("peripherals.lift_sensor_broken", "The position sensor of the lift is broken.")
 NO_COMMANDS = Sentence("peripherals.no_commands", "The firmware hears no commands.")
 OTHER_FAULT = Sentence("peripherals.other_fault", "The firmware reports fault {fault}.")

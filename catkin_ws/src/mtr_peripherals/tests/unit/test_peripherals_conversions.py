@@ -32,7 +32,7 @@ OUTCOME = Outcome(False, 0.5, Led.MOVING, ServoPress(3, 2, 0.5, 250, 0), True, 0
 
 
 def test_leds_are_those_of_the_message():
-    assert {led.value for led in Led} == set(range(10))
+    assert {led.value for led in Led} == set(range(11))
     command = command_message(OUTCOME, 6, 9)
     assert (command.seq, command.lift_height_m, command.led_pattern) == (6, 0.5, 4)
     assert (command.stop, command.latest_us) == (0, 9)

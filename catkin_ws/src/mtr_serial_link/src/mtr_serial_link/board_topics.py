@@ -34,9 +34,11 @@ FIRMWARE_TOPICS = (
     f"from {names.FIRMWARE_STATE} mtr_msgs/FirmwareState",
     f"from {names.FIRMWARE_HEALTH} mtr_msgs/FirmwareHealth",
     f"from {names.FIRMWARE_ECHO} mtr_msgs/FirmwareEcho",
+    f"from {names.FIRMWARE_INPUTS} mtr_msgs/FirmwareInputs",
     f"to {names.FIRMWARE_COMMAND} mtr_msgs/FirmwareCommand",
     f"to {names.FIRMWARE_PRESS} mtr_msgs/FirmwarePress",
     f"to {names.FIRMWARE_CALIBRATE} mtr_msgs/FirmwareCalibrate",
+    f"to {names.FIRMWARE_SIGNALS} mtr_msgs/FirmwareSignals",
 )
 
 

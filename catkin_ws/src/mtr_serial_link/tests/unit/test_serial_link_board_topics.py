@@ -28,7 +28,7 @@ def test_topics_of_the_firmware_are_those_that_it_offers():  # F1
     offered = re.findall(r'\{kTopic\w+, (\w+), \w+, "(/firmware/\w+)", MTR_(\w+)_TYPE', FIRMWARE_TABLE.read_text())
     served = {("kTopicNegotiate" if topic.direction is Direction.FROM_BOARD else "kTopicSubscriber", topic.name,
                topic.type_name.split("/")[1].upper()) for topic in board_topics(FIRMWARE_TOPICS)}
-    assert served == set(offered) and len(offered) == 6
+    assert served == set(offered) and len(offered) == 8
 
 
 @pytest.mark.parametrize("host", ["rosserial_python", "bultin", ""])

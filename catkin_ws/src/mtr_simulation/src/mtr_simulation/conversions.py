@@ -16,8 +16,9 @@ from sensor_msgs.msg import BatteryState, Imu, LaserScan
 
 from mtr_core import names
 from mtr_core.crc import seal
-from mtr_msgs.msg import FirmwareState
+from mtr_msgs.msg import FirmwareInputs, FirmwareState
 
+from .firmware.signals import InputState
 from .firmware.simulated import State
 from .sensors.battery import CAPACITY_WH, FULL_V
 from .sensors.imu import ImuParameters
@@ -123,6 +124,11 @@ def battery_message(time_ns: int, reading: BatteryReading) -> BatteryState:
 def firmware_message(state: State) -> FirmwareState:
     """What the firmware reports."""
     return seal(FirmwareState(*state, 0))
+
+
+def inputs_message(state: InputState) -> FirmwareInputs:
+    """What the firmware reports of its inputs and signals."""
+    return seal(FirmwareInputs(*state, 0))
 
 
 def _diagonal(values: Sequence[float]) -> List[float]:

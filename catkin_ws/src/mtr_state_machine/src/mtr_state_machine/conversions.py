@@ -9,7 +9,7 @@ from mtr_core.conversions import desired_state_from, goal_report_from, waypoint_
 from mtr_core.problems import NO_PROBLEM, Problem, messages_of, problem_of
 from mtr_core.requests import DesiredState
 from mtr_core.states import CarState, Check
-from mtr_msgs.msg import CarCheck, CarEstimate, DriveStatus, LocalizedPose, MotionLock, RobotMode
+from mtr_msgs.msg import CarCheck, CarEstimate, DriveStatus, LocalizedPose, MotionLock, PeripheralsState, RobotMode
 from mtr_msgs.msg import Problem as ProblemMessage
 
 from . import problems
@@ -19,6 +19,8 @@ from .observation import NO_EMERGENCY, Car, CheckReport, Drive, Emergency, Obser
 OWNER = "state_machine"
 # Word of DriveStatus.
 MANUAL = "manual"
+# Signal of PeripheralsState.
+SETS_OFF = 1
 
 
 def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], ages_s: Dict[Part, float],
@@ -29,6 +31,7 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
     arrived = {part: message for part, message in messages.items() if message is not None}
     age_s = {part: ages_s[part] for part in arrived}
     complaint = {part: complaint_of(arrived[part]) for part, complaint_of in COMPLAINTS.items() if part in arrived}
+    peripherals = arrived.get(Part.PERIPHERALS) or PeripheralsState(battery=math.nan)
     return Observation(
         desired=desired_state_from(arrived[Part.DISPATCHER]) if Part.DISPATCHER in arrived else DesiredState(),
         car=car(arrived.get(Part.CAR_LOCATOR, CarEstimate())),
@@ -38,8 +41,8 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
         age_s=age_s, complaint=complaint,
         is_position_lost=_is_position_lost(arrived.get(Part.LOCALIZATION, LocalizedPose())),
         drive=drive(arrived.get(Part.DRIVE_CONTROL, DriveStatus())), emergency=emergency,
-        firmware_resets=arrived[Part.PERIPHERALS].firmware_resets if Part.PERIPHERALS in arrived else 0, now_s=now_s,
-        battery=arrived[Part.PERIPHERALS].battery if Part.PERIPHERALS in arrived else math.nan)
+        firmware_resets=peripherals.firmware_resets, lift_jams=peripherals.lift_jams,
+        signals_motion=peripherals.signal == SETS_OFF, now_s=now_s, battery=peripherals.battery)
 
 
 def car(message: CarEstimate) -> Car:
@@ -54,7 +57,8 @@ def check_report(message: CarCheck) -> CheckReport:
 
 def drive(message: DriveStatus) -> Drive:
     """Who moves the wheels, and how often somebody or something else did."""
-    return Drive(message.source == MANUAL, message.manual_drives, message.blockages)
+    is_moving = message.linear_mps != 0.0 or message.angular_radps != 0.0
+    return Drive(message.source == MANUAL, is_moving, message.manual_drives, message.blockages)
 
 
 def mode_message(decision: Decision, stamp: Time) -> RobotMode:
@@ -66,7 +70,7 @@ def mode_message(decision: Decision, stamp: Time) -> RobotMode:
         map_car_id=decision.map_car_id, session_id=decision.session_id, waypoint_id=decision.waypoint_id,
         waypoint_result=decision.waypoint_result.value, message=decision.message.text,
         problems=messages_of(decision.message, ProblemMessage),
-        check_car_id=decision.check_car_id, hold_id=decision.hold_id)
+        check_car_id=decision.check_car_id, hold_id=decision.hold_id, sets_off=decision.sets_off)
     message.header.stamp = stamp
     return message
 

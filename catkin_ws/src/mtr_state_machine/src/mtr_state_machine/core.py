@@ -10,6 +10,7 @@ from mtr_core.states import CarState, Check, Result, State
 from . import problems
 from .goals import Goals, WaypointResult
 from .hold import Hold, is_ordered
+from .motion_signal import MotionSignal
 from .observation import Observation, Part
 from .parameters import Parameters
 from .table import AGAIN, Event, StateTable
@@ -44,6 +45,7 @@ class Decision:
     lock_reason: Problem
     check_car_id: int = 0
     hold_id: int = 0
+    sets_off: bool = False
 
 
 class StateMachine:
@@ -55,6 +57,7 @@ class StateMachine:
         self._goals = Goals()
         self._waypoint = WaypointResult()
         self._hold = Hold(parameters)
+        self._signal = MotionSignal(parameters.signal_s, parameters.signal_after_rest_s)
         self._map_car_id = 0
         self._check_car_id = 0
         self._map_revision = 0
@@ -209,7 +212,8 @@ class StateMachine:
         if desired.link_alive:
             self._waypoint.expect(desired.session_id, desired.waypoint.id)
         wanted = self._wanted(seen) if self._may_move(seen) and not self._hold.id else None
-        if wanted:
+        self._signal.update(seen, begins=wanted is not None and self._goals.is_new(*wanted))
+        if wanted and not self._signal.is_due:
             self._goals.pursue(*wanted, seen.now_s)
         else:
             self._goals.pause()
@@ -236,7 +240,7 @@ class StateMachine:
         return Decision(self.state, self._goals.goal, seen.desired.max_speed_mps, self.state is State.MAPPING_CAR,
                         self._map_car_id, self._waypoint.session_id, self._waypoint.waypoint_id,
                         self._waypoint.result, message, message if locked else NO_PROBLEM, self._check_car_id,
-                        self._hold.id)
+                        self._hold.id, self._signal.is_due)
 
     def _note_lost(self, seen: Observation) -> None:
         is_lost = self.state is State.FAULT and self._only_position_is_lost(seen)
@@ -253,10 +257,9 @@ class StateMachine:
             self._was_ordered = is_ordered(seen)
 
     def _message(self, seen: Observation) -> Problem:
-        if self._hold.id:
-            return self._hold.reason
-        if seen.desired.area_problem:
-            return seen.desired.area_problem
+        waits_for = self._hold.reason or seen.desired.area_problem or self._signal.problem(seen.now_s)
+        if waits_for:
+            return waits_for
         if self.state is State.READY_TO_MAP_CAR:
             return problems.WAITS_FOR_WAYPOINT()
         if self.state is State.FOLLOWING_WAYPOINT:

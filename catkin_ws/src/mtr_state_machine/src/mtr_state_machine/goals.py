@@ -32,6 +32,10 @@ class Goals:
             self._attempts = max(self._attempts + 1, round(now_s * MICROSECONDS_PER_S))
             self._wanted, self.goal = wanted, Goal(waypoint, self._attempts)
 
+    def is_new(self, waypoint: Waypoint, purpose: Hashable) -> bool:
+        """True for a waypoint that is not the goal yet, or is for another purpose."""
+        return (waypoint.requester, waypoint.id, purpose) != self._wanted
+
     def pause(self) -> None:
         """Stand still; what is pursued next is a new goal, even at the same waypoint."""
         self._wanted, self.goal = None, NO_GOAL

@@ -40,6 +40,7 @@ class Hold:
         self._newest_id = self.id = 0
         self.reason = NO_PROBLEM
         self._seen_drives = self._seen_blockages = self._seen_resets = self._seen_stops = -1
+        self._seen_jams = -1
 
     def update(self, seen: Observation, goal: Goal) -> None:
         """Begin with what an observation shows, and end by the Operator's word."""
@@ -54,6 +55,8 @@ class Hold:
         self._seen_blockages, self._seen_drives = drive.blockages, drive.manual_drives
         was_stopped = 0 <= self._seen_stops < seen.emergency.stops
         self._seen_resets, self._seen_stops = seen.firmware_resets, seen.emergency.stops
+        has_given_up = 0 <= self._seen_jams < seen.lift_jams
+        self._seen_jams = seen.lift_jams
         # Whoever releases an emergency stop stands beside the robot.
         if was_stopped or (seen.emergency.is_engaged and self.reason != problems.HELD_EMERGENCY()):
             self.begin(problems.HELD_EMERGENCY(), seen)
@@ -63,6 +66,9 @@ class Hold:
             self.begin(problems.HELD_BLOCKED_BECAUSE(cause=seen.motion.message), seen)
         elif was_blocked and goal.waypoint.id:
             self.begin(problems.HELD_BLOCKED(), seen)
+        elif has_given_up:
+            # A key height alone moves the lift, without a waypoint.
+            self.begin(problems.HELD_LIFT(), seen, was_ordered=bool(seen.desired.session_id))
         elif was_reset:
             self.begin(problems.HELD_BOARD(), seen)
         elif pause_s > self._parameters.silent_after_s:

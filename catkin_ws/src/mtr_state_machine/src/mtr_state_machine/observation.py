@@ -48,6 +48,7 @@ class Drive:
     """What drive control says of who moved the wheels and what stopped them; counts since its start."""
 
     is_manual: bool = False
+    is_moving: bool = False
     manual_drives: int = 0
     blockages: int = 0
 
@@ -74,6 +75,8 @@ class Observation:
         complaint: of a part that reports but is not well, e.g. a localization that is lost.
         is_position_lost: localization looks for its place on the map, as opposed to one that lacks a sensor.
         firmware_resets: of the board of lift and servos, since its node's start.
+        lift_jams: times that the lift gave up after a jam, since that node's start.
+        signals_motion: the board reports that it gives the signal before motion.
         battery: charge from 0 to 1, NaN when it is unknown.
         intrusion: a second node publishes on a topic that moves the robot.
     """
@@ -89,6 +92,8 @@ class Observation:
     drive: Drive = Drive()
     emergency: Emergency = NO_EMERGENCY
     firmware_resets: int = 0
+    lift_jams: int = 0
+    signals_motion: bool = False
     now_s: float = 0.0
     battery: float = math.nan
     intrusion: Problem = NO_PROBLEM

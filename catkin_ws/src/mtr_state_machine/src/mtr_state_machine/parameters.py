@@ -20,12 +20,17 @@ class Parameters(ParameterSet):
             link_timeout_s, 1.0 s, so the robot is held after a silence of 2 s.
         empty_battery: charge below which the robot stops and is held once: near it a computer ends without warning.
             The application has lowered the key and ended its test at 10 %.
+        signal_s: the signal before motion is given for so long before the robot sets off from rest; 0: no signal.
+        signal_after_rest_s: standstill after which the next motion needs the signal; a shorter stop within a test does
+            not.
     """
 
     silent_after_s: float = number(0.5, 0.4, 5.0, "s")
     resume_by_operator: bool = True
     hold_after_lost_s: float = number(1.0, 0.2, 10.0, "s")
     empty_battery: float = number(0.05, 0.0, 0.5)
+    signal_s: float = number(2.0, 0.0, 10.0, "s")
+    signal_after_rest_s: float = number(5.0, 1.0, 60.0, "s")
 
     @property
     def noticed_after_s(self) -> float:

@@ -38,6 +38,8 @@ HELD_LINK = Sentence("state_machine.held_link",
                      "resumes.")
 HELD_BOARD = Sentence("state_machine.held_board",
                       "The board of lift and servos started again; the robot stands until the Operator has it go on.")
+HELD_LIFT = Sentence("state_machine.held_lift",
+                     "The lift jammed again after one retry; the robot is on hold. Free the lift, then resume.")
 HELD_BATTERY = Sentence("state_machine.held_battery",
                         "The battery is at {percent:.0f} %; the robot is on hold. Charge it, or resume to finish what "
                         "is under way.")
@@ -49,4 +51,8 @@ HELD_PAUSE = Sentence(
 
 # What it waits for or does
 WAITS_FOR_WAYPOINT = Sentence("state_machine.waits_for_waypoint", "Waits for the first waypoint to map the Car.")
+SETS_OFF = Sentence("state_machine.sets_off", "Warning signal: the robot is about to set off.")
+SIGNAL_NOT_GIVEN = Sentence(
+    "state_machine.signal_not_given",
+    "The robot does not set off: the board does not give the warning signal. Check its cable and firmware version.")
 CHECKS_CAR = Sentence("state_machine.checks_car", "Looks at the Car again.")

@@ -16,8 +16,8 @@ from state_machine_seen import COLLECTING, LOCATED, ORDERS_CHECK, seen
 
 @pytest.fixture
 def machine():
-    """One near which nobody comes; of holds see test_state_machine_hold.py."""
-    return StateMachine(Parameters(resume_by_operator=False))
+    """One near which nobody comes; of holds see test_state_machine_hold.py, of signals test_state_machine_signal.py."""
+    return StateMachine(Parameters(resume_by_operator=False, signal_s=0.0))
 
 
 @pytest.fixture

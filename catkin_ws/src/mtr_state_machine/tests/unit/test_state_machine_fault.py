@@ -150,7 +150,7 @@ def test_second_publisher_locks_the_robot_whatever_it_orders(following, also):
 
 
 def test_robot_is_held_after_a_second_publisher_until_it_is_told_to_resume():
-    machine = StateMachine(Parameters(resume_by_operator=True, silent_after_s=5.0))
+    machine = StateMachine(Parameters(resume_by_operator=True, silent_after_s=5.0, signal_s=0.0))
     for car in (COLLECTING, LOCATED):
         machine.step(seen(car=car))
     held = machine.step(seen(car=LOCATED))

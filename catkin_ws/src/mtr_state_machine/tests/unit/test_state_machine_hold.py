@@ -25,7 +25,7 @@ class Robot:
     """A state machine and what it sees; each step is a tick of 0.1 s."""
 
     def __init__(self, resume_by_operator=True, now_s=50.0):
-        self.machine = StateMachine(Parameters(resume_by_operator=resume_by_operator))
+        self.machine = StateMachine(Parameters(resume_by_operator=resume_by_operator, signal_s=0.0))
         self.now_s = now_s
         self.seen = Observation(desired=IDLE, car=Car(), age_s=ALL_WELL)
 
@@ -96,6 +96,10 @@ def board_restarted(robot):
     robot.step(firmware_resets=robot.seen.firmware_resets + 1)
 
 
+def lift_gave_up(robot):
+    robot.step(lift_jams=robot.seen.lift_jams + 1)
+
+
 def emergency_stop(robot):
     stops = robot.seen.emergency.stops + 1
     for _ in range(15):
@@ -134,7 +138,8 @@ CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "stat
           "board": (board_restarted, "state_machine.held_board"),
           "stop": (stopped_by_operator, "state_machine.held_stop"),
           "stop-for-a-tick": (stopped_for_a_tick, "state_machine.held_stop"),
-          "link": (silent_link, "state_machine.held_link")}
+          "link": (silent_link, "state_machine.held_link"),
+          "lift": (lift_gave_up, "state_machine.held_lift")}
 every_cause = pytest.mark.parametrize("cause, code", CAUSES.values(), ids=list(CAUSES))
 
 
@@ -421,3 +426,17 @@ def test_empty_battery_holds_when_the_robot_is_ordered_and_not_before():
     assert not emptied(robot, 0.04).hold_id
     robot.step(desired=WANTS, car=COLLECTING)
     assert robot.decision.hold_id and robot.decision.goal == NO_GOAL
+
+
+def test_robot_that_only_has_a_key_height_is_held_when_its_lift_gave_up(robot):
+    robot.step(desired=IDLE)
+    lift_gave_up(robot)
+    held = robot.step()
+    assert held.hold_id and held.message.code == "state_machine.held_lift"
+    assert not robot.step(desired=replace(IDLE, resume_hold_id=held.hold_id)).hold_id
+
+
+def test_lift_that_gave_up_by_hand_holds_nobody(robot):
+    robot.step(desired=DesiredState())
+    lift_gave_up(robot)
+    assert not robot.step().hold_id

@@ -6,22 +6,25 @@ from typing import Any, Callable, List, Tuple, Union
 
 from mtr_core import names
 from mtr_core.lockstep import direct_publisher
-from mtr_core.schedule import FIRMWARE
+from mtr_core.schedule import FIRMWARE, slot
 from mtr_msgs.msg import (
     FirmwareCalibrate,
     FirmwareCommand,
     FirmwareEcho,
     FirmwareHealth,
+    FirmwareInputs,
     FirmwarePress,
+    FirmwareSignals,
     FirmwareState,
 )
 from mtr_serial_link.connections import md5_of
 
-from ..conversions import firmware_message
+from ..conversions import firmware_message, inputs_message
 from .emulated import EmulatedFirmware
 from .simulated import SimulatedFirmware
 
 MCU = "atmega2560"
+INPUTS = slot(80)
 # Topic, type of its messages, and what handles one.
 Subscription = Tuple[str, Any, Callable[[Any], None]]
 
@@ -48,10 +51,12 @@ class SimulatedTopics:
     def __init__(self, firmware: SimulatedFirmware):
         self._firmware = firmware
         self._state = direct_publisher(names.FIRMWARE_STATE, FirmwareState)
-        self.publishers = [self._state]
+        self._inputs = direct_publisher(names.FIRMWARE_INPUTS, FirmwareInputs)
+        self.publishers = [self._state, self._inputs]
         self.subscriptions: List[Subscription] = [
             (names.FIRMWARE_COMMAND, FirmwareCommand, self._command),
             (names.FIRMWARE_PRESS, FirmwarePress, self._press),
+            (names.FIRMWARE_SIGNALS, FirmwareSignals, self._signals),
         ]
 
     def _command(self, message: Any) -> None:
@@ -60,8 +65,13 @@ class SimulatedTopics:
     def _press(self, message: Any) -> None:
         self._firmware.press(message.id, message.servos, message.strength, message.hold_ms, message.latest_us)
 
+    def _signals(self, message: Any) -> None:
+        self._firmware.signals(message.signal, bool(message.beacon), bool(message.stop_input), message.latest_us)
+
     def publish(self, time_ns: int) -> None:
-        """Its report, when it is due."""
+        """Its reports, when they are due."""
+        if INPUTS.last_at(time_ns) == time_ns:
+            self._inputs.publish(inputs_message(self._firmware.input_state()))
         if FIRMWARE.last_at(time_ns) == time_ns:
             self._state.publish(firmware_message(self._firmware.state()))
 
@@ -73,11 +83,11 @@ class EmulatedTopics:
         self._firmware = firmware
         self._by_topic = {topic: direct_publisher(topic, message_type) for topic, message_type in (
             (names.FIRMWARE_STATE, FirmwareState), (names.FIRMWARE_HEALTH, FirmwareHealth),
-            (names.FIRMWARE_ECHO, FirmwareEcho))}
+            (names.FIRMWARE_ECHO, FirmwareEcho), (names.FIRMWARE_INPUTS, FirmwareInputs))}
         self.publishers = list(self._by_topic.values())
         self.subscriptions: List[Subscription] = [self._subscription(*each) for each in (
             (names.FIRMWARE_COMMAND, FirmwareCommand), (names.FIRMWARE_PRESS, FirmwarePress),
-            (names.FIRMWARE_CALIBRATE, FirmwareCalibrate))]
+            (names.FIRMWARE_CALIBRATE, FirmwareCalibrate), (names.FIRMWARE_SIGNALS, FirmwareSignals))]
 
     def publish(self, time_ns: int) -> None:
         """What has come from the firmware in this tick."""

@@ -6,11 +6,14 @@ from typing import Deque, NamedTuple, Optional, Tuple
 
 from .lift import Lift
 from .press import RELEASED_US, Presser, PressRequest, PressState
+from .signals import InputState, Signals
 
 SILENCE_LIMIT_NS = 1_000_000_000
 FAULT_LINK_LOST = 3
 LED_LINK_LOST = 8
-LED_LAST = 9
+LED_LAST = 10
+LED_SETS_OFF = 10
+SIGNAL_SETS_OFF = 1
 
 # Its clock starts two minutes before it wraps, so that each longer run meets the wrap (each 71 minutes on hardware).
 CLOCK_START_US = (1 << 32) - 120_000_000
@@ -45,6 +48,7 @@ class SimulatedFirmware:
         refused_commands: commands that asked for what cannot be; the lift ignored them.
         lift_is_stuck: the lift does not move, and its sensor says so.
         servos_are_dead: they do not move, and nothing says so.
+        inputs: stop input, buzzer and beacon.
     """
 
     def __init__(self, clock_start_us: int = CLOCK_START_US):
@@ -65,6 +69,7 @@ class SimulatedFirmware:
         self._led = 0
         self._fault = 0
         self._stopped = False
+        self.inputs = Signals()
 
     @property
     def lift_height_m(self) -> float:
@@ -85,12 +90,20 @@ class SimulatedFirmware:
         if not self._is_receiving():
             return
         self._stopped = stop
+        stop = stop or self.inputs.is_stopped
         if stop:
             self._abort_press()
         if not self._lift.order(math.nan if stop else lift_height_m):
             self.refused_commands += 1
         if 0 <= led_pattern <= LED_LAST:
             self._led = led_pattern
+
+    def signals(self, signal: int, has_beacon: bool, uses_stop_input: bool, latest_us: Optional[int] = None) -> None:
+        """Take a FirmwareSignals."""
+        if self._is_late(latest_us) or not self.inputs.order(signal, has_beacon, uses_stop_input, self._now_ns):
+            self.refused_commands += 1
+        elif self.inputs.is_stopped:
+            self._hold()
 
     def press(self, id: int, servos: int, strength: float, hold_ms: int, latest_us: Optional[int] = None) -> None:
         """Take a FirmwarePress. What has been taken once, done or refused, is not taken again."""
@@ -99,7 +112,7 @@ class SimulatedFirmware:
             return
         self._seen_ids.append(id)
         request = PressRequest(id, servos, strength, hold_ms)
-        if is_late or self._stopped or self._presser.is_busy or not request.is_valid():
+        if is_late or self._stopped or self.inputs.is_stopped or self._presser.is_busy or not request.is_valid():
             self._report(id, PressState.REFUSED)
             return
         self._presser.start(request, self._now_ns)
@@ -128,6 +141,8 @@ class SimulatedFirmware:
         self._now_ns = time_ns
         if time_ns - self._received_ns > SILENCE_LIMIT_NS:
             self._lose_link()
+        if self.inputs.step(time_ns):
+            self._hold()
         if dt_s > 0.0 and not self.lift_is_stuck:
             self._lift.step(dt_s)
         released_ns = self._presser.step(time_ns)
@@ -145,12 +160,20 @@ class SimulatedFirmware:
             press_state=int(self._press_state),
             press_start_us=self._press_start_us,
             press_end_us=self._press_end_us,
-            led_pattern=self._led,
+            led_pattern=LED_SETS_OFF if self.inputs.signal == SIGNAL_SETS_OFF else self._led,
             fault=self._fault,
             lift_state=int(abs(self._lift.speed_mps) > 0.0),
             calibration_id=0,
             calibration_state=0,
         )
+
+    def input_state(self) -> InputState:
+        """What it reports of its inputs and signals now."""
+        return self.inputs.state(self._clock_us(self._now_ns))
+
+    def _hold(self) -> None:
+        self._lift.order(math.nan)
+        self._abort_press()
 
     def _is_receiving(self) -> bool:
         """Note that the host lives; False before the first step, when the board has no power yet."""
@@ -160,8 +183,8 @@ class SimulatedFirmware:
 
     def _lose_link(self) -> None:
         self._fault, self._led = FAULT_LINK_LOST, LED_LINK_LOST
-        self._lift.order(math.nan)
-        self._abort_press()
+        self.inputs.signal = 0
+        self._hold()
 
     def _is_late(self, latest_us: Optional[int]) -> bool:
         """True for an order that was under way for too long, or meant for another clock; None: it is never late."""
