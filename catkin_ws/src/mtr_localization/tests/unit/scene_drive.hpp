@@ -158,6 +158,7 @@ class SceneDrive {
     memory.pose->pose << newest.x_m, newest.y_m, newest.heading_rad;
     memory.pose->covariance = Eigen::Map<const Eigen::Matrix3d>(newest.covariance.data());
     memory.pose->wheel_odom = newest.wheel_odom;
+    memory.pose->origin_id = newest.origin_id;
     return memory;
   }
 

@@ -2,6 +2,7 @@
 /// Restart of localization with a stored map.
 // SPDX-License-Identifier: Apache-2.0
 #include <limits>
+#include <utility>
 
 #include "scene_drive.hpp"
 
@@ -46,6 +47,36 @@ TEST_F(MemoryTest, IsInTheMapOfBeforeFromTheFirstAnswerOnButNotValidBeforeItHasL
   }
   EXPECT_EQ(robot.newest.mode, PoseMode::kLost);
   EXPECT_NE(robot.newest.message.text.find("started anew"), std::string::npos) << robot.newest.message.text;
+}
+
+TEST_F(MemoryTest, OriginOfTheMapOutlivesARestartWithItsMemoryAlone) {
+  const std::uint64_t before = robot.newest.origin_id;
+  EXPECT_NE(before, 0U);
+  brake_unheard(0.2);
+  robot.drive(0.0, 0.0, 4.5);
+  EXPECT_EQ(robot.newest.origin_id, before);
+  Memory without_pose = robot.memory(map);
+  without_pose.pose.reset();
+  robot.start_anew(std::move(without_pose));
+  robot.drive(0.0, 0.0, 4.5);
+  EXPECT_GT(robot.newest.origin_id, before);
+}
+
+TEST_F(MemoryTest, MapThatBeginsAtAKnownPoseKeepsTheOriginAndOneThatBeginsLostHasAnother) {
+  const std::uint64_t before = robot.newest.origin_id;
+  robot.order(2, MapOrder::Phase::kCollect);
+  robot.drive(0.2, 0.0, 2.0);
+  ASSERT_EQ(robot.newest.mode, PoseMode::kMapping);
+  EXPECT_EQ(robot.newest.origin_id, before);
+  const synthetic::World scene = std::exchange(robot.world, {});
+  robot.drive(0.5, 0.5, 8.0);
+  ASSERT_EQ(robot.newest.mode, PoseMode::kLost);
+  EXPECT_EQ(robot.newest.origin_id, before);
+  robot.world = scene;
+  robot.order(3, MapOrder::Phase::kCollect);
+  robot.drive(0.0, 0.0, 2.0);
+  ASSERT_TRUE(robot.newest.valid) << robot.newest.message.text;
+  EXPECT_GT(robot.newest.origin_id, before);
 }
 
 TEST_F(MemoryTest, RobotThatWasCarriedMeanwhileStaysLostUntilItIsDriven) {
