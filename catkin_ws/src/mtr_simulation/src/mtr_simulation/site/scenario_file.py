@@ -15,6 +15,7 @@ from mtr_core.parameters import parameters_from
 from mtr_core.se2 import Pose2
 
 from .car_shape import CAR_SHAPES, CarShape
+from .figures import FIGURES
 from .scenario import SCENARIOS, Scenario
 from .surroundings import Cone, ParkedCar, Pole, Walk, Wall
 
@@ -89,10 +90,13 @@ def _parked_car(name: str, value: Any) -> ParkedCar:
 
 
 def _walk(name: str, value: Any) -> Walk:
-    table = _table(name, value, ("start", "end", "speed_mps", "stands_s"))
+    table = _table(name, value, ("start", "end", "speed_mps", "stands_s", "figure"))
     (x1, y1), (x2, y2) = (_figures(f"{name}.{end}", table.get(end), 2, 2) for end in ("start", "end"))
     more = {key: _figures(f"{name}.{key}", [table[key]], 1, 1)[0] for key in ("speed_mps", "stands_s") if key in table}
-    return Walk((x1, y1), (x2, y2), **more)
+    figure = table.get("figure", "person")
+    if figure not in tuple(FIGURES):
+        raise ConfigurationError(f"Entry {name}.figure is {figure!r}; allowed is {', '.join(FIGURES)}.")
+    return Walk((x1, y1), (x2, y2), figure=figure, **more)
 
 
 def _list_of(read: Callable[[str, Any], Any]) -> Callable[[str, Any], Tuple[Any, ...]]:

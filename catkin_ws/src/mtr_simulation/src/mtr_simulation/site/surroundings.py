@@ -54,6 +54,8 @@ class Walk:
     end: Tuple[float, float]
     speed_mps: float = 1.2
     stands_s: float = 0.0
+    # One of figures.FIGURES.
+    figure: str = "person"
 
 
 # Lengths of the ground's waves: long against the wheelbase of 0.26 m, so that the robot tilts as the ground does.
