@@ -9,9 +9,10 @@ from shapely.geometry import Polygon
 
 from mtr_benchmarks.harness.lines import line
 from mtr_benchmarks.harness.rows import all_met
-from mtr_benchmarks.motion import encounters, latency, posts, tip_over, tracking
+from mtr_benchmarks.motion import encounters, latency, posts, tip_over, tracking, wide_encounters
 from mtr_benchmarks.motion.__main__ import PROMISED, report
 from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
+from mtr_benchmarks.motion.encounter import EncounterEnd, simulate
 from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
 from mtr_benchmarks.motion.trial import DrivenLeg
 from mtr_core.se2 import Pose2
@@ -102,6 +103,8 @@ def parts(**changed):
         "posts": posts.PostsFigures(0.02, 1.0, {"0.2 m/s, 0.65 m": 0.01}),
         "encounters": encounters.EncounterFigures(
             1000, 0, 0, 1, 900, [], {"arc, rear": "0 of 9"}, 7, 2, 98, 0.1, [], []),
+        "wide_encounters": wide_encounters.WideEncounterFigures(
+            300, 0, 0, 4, 20, {"wide": 300, "walker": 100, "child": 50, "lying": 20}, {"lying": [0.5]}, {"lying": [7]}),
         "tip_over": tip_over.TipOverFigures(1.0, {"start": 1.0}, [60.0], {}),
         "latency": latency.LatencyFigures(20.0, 3.0, 25.0, 400, 5.0),
     }
@@ -126,6 +129,8 @@ def test_parts_that_were_not_run_have_no_rows():
     ("time_ratio_p95", 1.15, True), ("time_ratio_p95", 1.151, False), ("encounters", 999, False),
     ("contacts_while_moving", 1, False), ("tip_margin_n", 0.0, False), ("stop_latency_p99_ms", math.nan, False),
     ("time_ratio_median", 99.0, True), ("not_reached", ["pair 7: REFUSED There is no way."], False),
+    ("wide_movers", 299, False), ("wide_contacts_while_moving", 1, False), ("walker_contacts_while_moving", 1, False),
+    ("child_contacts_while_moving", 50, True), ("lying_contacts_while_moving", 0, True),
     ("contacts_with_car", 1, False), ("over_speed_limit_mps", 0.021, False), ("post_ways_driven", 0.9, False)])
 def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
     rows = report(parts(**{key: value})).rows
@@ -168,3 +173,36 @@ def test_way_that_was_not_slowed_or_not_driven_to_its_end_proves_nothing():
     assert all_met(posts.figures(ways, [fine, fine]).rows())
     for bad in (fine._replace(slowed=False), fine._replace(arrived=False), fine._replace(over_mps=0.03)):
         assert not all_met(posts.figures(ways, [fine, bad]).rows())
+
+
+@pytest.mark.parametrize("number", range(3))
+def test_wide_mover_is_not_touched_by_the_moving_robot(number):
+    encounter = wide_encounters.drawn_of("wide", 1)[number]
+    assert encounter.walk.figure == ("wheelchair", "pram", "pair")[number] and encounter.is_localized
+    end = simulate(encounter)
+    assert end.stopped and not end.moving
+
+
+def test_lying_person_below_the_plane_is_touched_without_a_stop():
+    encounter = next(each for each in wide_encounters.drawn_of("lying", 1) if each.motion == "forward")
+    end = simulate(encounter)
+    assert end.moving and not end.stopped
+
+
+def test_running_child_and_lying_person_are_counted_and_fail_nothing():
+    drawn = {name: wide_encounters.drawn_of(name, 1)[:2] for name in wide_encounters.GROUPS}
+    fine, hit = EncounterEnd(False, False, 0.0, True, True), EncounterEnd(True, True, 0.4, False, True)
+    ended = {name: [(encounter, hit if name in ("child", "lying") else fine) for encounter in encounters]
+             for name, encounters in drawn.items()}
+    found = wide_encounters.figures(ended)
+    assert found.child_contacts_while_moving == found.lying_contacts_while_moving == 2
+    assert found.contacts_at_mps["lying"] == [0.4, 0.4] and found.contact_seeds["wide"] == []
+    assert all_met(found.rows()[1:])
+
+
+def test_drawn_movers_are_as_fast_as_their_group():
+    speeds = {name: [each.walk.speed_mps for each in wide_encounters.drawn_of(name, 2)[:9]]
+              for name in wide_encounters.GROUPS}
+    assert max(speeds["walker"]) == wide_encounters.WALKING_MPS and min(speeds["walker"]) >= 1.5
+    assert set(speeds["child"]) == {wide_encounters.RUNNING_MPS} and set(speeds["lying"]) == {0.0}
+    assert max(speeds["wide"]) == 1.5

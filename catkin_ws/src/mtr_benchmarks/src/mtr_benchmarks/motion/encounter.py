@@ -1,9 +1,10 @@
 """One person who walks up to the moving robot, drawn by lot and simulated with the physics."""
 # SPDX-License-Identifier: Apache-2.0
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import List, NamedTuple, Tuple
 
+import mtr_drive_control_core as core
 import numpy as np
 
 from mtr_core.se2 import Pose2
@@ -16,13 +17,12 @@ from .rig import PERSON, START_S, STOPPED, TICK_S, Rig, Velocity
 ROBOT = shipped_robot()
 # What the planner wants, and for how long.
 Wanted = Tuple[Tuple[float, Velocity], ...]
-# Nobody stands so near to base_link when the robot starts: in the footprint, or within a foot's length of it.
-CLEAR_AT_START_M = 0.8
 # Below this nothing moves; the wheels' encoders see as much at rest.
 STANDING_MPS = 0.02
 # The person walks on for so long after the place of the meeting.
 AFTER_S = 2.5
 BEYOND_M = 8.0
+MAP_HALF_SIDE_M = 15.0
 # The front LiDAR sees 135 degrees to each side. Without a rear LiDAR a person who is behind that, and as near as this
 # to base_link, may step out of the unseen quarter against the robot before it can stand.
 WATCHED_TO_RAD, UNSEEN_WITHIN_M = math.radians(125.0), 2.0
@@ -30,6 +30,28 @@ RAIN = 0.01
 BEARINGS = {"front": (0.0, 35.0), "side": (55.0, 125.0), "rear": (145.0, 180.0)}
 # The Car is out of sight.
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
+
+
+class Mover(NamedTuple):
+    """What walks up to the robot.
+
+    Attributes:
+        figure: of mtr_simulation.
+        low_mps, high_mps: half of the movers have the higher speed, the others one in between; 0: it does not move.
+        clear_m: from base_link, and it does not begin nearer: the footprint and a foot's length, or half its own.
+        rear_lidar: share of the robots that have one.
+        is_localized: the robot knows its place on a map that shows free ground.
+    """
+
+    figure: str = "person"
+    low_mps: float = 0.5
+    high_mps: float = 1.5
+    clear_m: float = 0.8
+    rear_lidar: float = 0.7
+    is_localized: bool = False
+
+
+PERSON_MOVER = Mover()
 
 
 @dataclass(frozen=True)
@@ -45,6 +67,7 @@ class Encounter:
         walk: of the person.
         rain: share of beams that end on a drop.
         lift_m: height of the lift.
+        is_localized: the robot knows its place on a map that shows free ground.
     """
 
     seed: int
@@ -55,19 +78,20 @@ class Encounter:
     walk: Walk
     rain: float
     lift_m: float
+    is_localized: bool = False
 
 
-def draw(seed: int) -> Encounter:
+def draw(seed: int, mover: Mover = PERSON_MOVER) -> Encounter:
     """The encounter of this number: the first of its dice in which the person does not begin within the robot."""
     random = np.random.default_rng([seed, 4])
-    encounter = _drawn(seed, random)
-    while math.hypot(*encounter.walk.start) < CLEAR_AT_START_M:
-        encounter = _drawn(seed, random)
+    encounter = _drawn(seed, random, mover)
+    while math.hypot(*encounter.walk.start) < mover.clear_m:
+        encounter = _drawn(seed, random, mover)
     return encounter
 
 
-def _drawn(seed: int, random: np.random.Generator) -> Encounter:
-    rear_lidar = bool(random.random() < 0.7)
+def _drawn(seed: int, random: np.random.Generator, mover: Mover) -> Encounter:
+    rear_lidar = bool(random.random() < mover.rear_lidar)
     motion = str(random.choice(["forward", "backward", "arc", "spin"]))
     approach = str(random.choice(list(BEARINGS)))
     meeting_s = float(random.uniform(1.5, 3.5))
@@ -78,10 +102,10 @@ def _drawn(seed: int, random: np.random.Generator) -> Encounter:
     from_motion = float(random.choice([-1.0, 1.0]) * random.uniform(low, high))
     in_base = from_motion + (math.pi if velocity[0] < 0.0 else 0.0)
     aim = place.apply(*random.uniform(-0.4, 0.4, 2))
-    speed = float(random.uniform(0.5, 1.5) if random.random() < 0.5 else 1.5)
-    walk = _walk(random, aim, place.heading + in_base, speed, meeting_s)
+    speed = float(random.uniform(mover.low_mps, mover.high_mps) if random.random() < 0.5 else mover.high_mps)
+    walk = replace(_walk(random, aim, place.heading + in_base, speed, meeting_s), figure=mover.figure)
     return Encounter(seed, motion, approach, rear_lidar, wanted, walk, float(random.choice([0.0, RAIN])),
-                     float(random.choice([0.0, ROBOT.key.lift_travel_m])))
+                     float(random.choice([0.0, ROBOT.key.lift_travel_m])), mover.is_localized)
 
 
 class EncounterEnd(NamedTuple):
@@ -106,7 +130,8 @@ def simulate(encounter: Encounter) -> EncounterEnd:
     """Let it happen."""
     scenario = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0,
                         start_offset_rad=0.0, person=encounter.walk)
-    rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
+    rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m,
+              site_map=core.empty_map(MAP_HALF_SIDE_M) if encounter.is_localized else None)
     stopped, speed_mps, touched, watched = False, 0.0, False, True
     for velocity in _ticks(encounter.wanted):
         speed_mps = rig.corner_speed_mps
@@ -149,8 +174,9 @@ def _walk(random: np.random.Generator, aim: Tuple[float, float], bearing: float,
     steps_in = bool(random.random() < 0.5)
     distance = min(speed * meeting_s, float(random.uniform(1.2, 2.2))) if steps_in else speed * meeting_s
     start = (aim[0] + distance * direction[0], aim[1] + distance * direction[1])
+    stands_s = max(0.0, meeting_s - distance / speed) if speed else 0.0
     end = (aim[0] - BEYOND_M * direction[0], aim[1] - BEYOND_M * direction[1])
-    return Walk(start, end, speed, START_S + max(0.0, meeting_s - distance / speed))
+    return Walk(start, end, speed, START_S + stands_s)
 
 
 def _ticks(wanted: Wanted) -> List[Velocity]:

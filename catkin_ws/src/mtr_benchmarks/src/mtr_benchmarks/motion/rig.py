@@ -12,6 +12,7 @@ from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sensors.readings import Scan, Sensors
 from mtr_simulation.sensors.scan_errors import ScanErrors
 from mtr_simulation.sim import Sim, SimParameters
+from mtr_simulation.site.figures import BODIES as FIGURE_BODIES
 from mtr_simulation.site.scenario import Scenario
 
 from ..harness.speed import fastest_point_mps
@@ -26,7 +27,7 @@ TICK_S = 0.02
 # The robot stands for so long until nothing sways, and then looks around, before its first tick.
 SETTLING_S, LOOKING_S = 1.5, 0.2
 START_S = SETTLING_S + LOOKING_S
-PERSON = {"person", "left_leg", "right_leg"}
+PERSON = FIGURE_BODIES
 
 
 class Rig:
@@ -38,11 +39,12 @@ class Rig:
     """
 
     def __init__(self, scenario: Scenario, seed: int, rear_lidar: bool = True, rain: float = 0.0,
-                 lift_m: float = 0.0):
-        """rain: share of the beams that end on a drop; lift_m: height of the lift."""
+                 lift_m: float = 0.0, site_map: Optional[Any] = None):
+        """rain: share of the beams that end on a drop; lift_m: height of the lift; site_map: of a localized robot."""
         lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
         self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
+        self._map = site_map
         self._control = core.DriveControl(shipped_urdf(), rear_lidar=rear_lidar)
         self._key_height_m = ROBOT.key.min_height_m + lift_m
         self._front: Optional[Scan] = None
@@ -74,7 +76,8 @@ class Rig:
         self._rear = sensors.rear_scan or self._rear
         self.decision = self._control.step(
             sensors.time_ns, planner=velocity, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
-            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu)
+            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu,
+            map=self._map)
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()
         return self.decision
