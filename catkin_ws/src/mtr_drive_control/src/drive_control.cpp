@@ -38,7 +38,7 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
 
 Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   time_step(tick_ns);
-  collision_stop_.take(tick_ns, inputs.sensors, expected_step_s_ - period_s_);
+  collision_stop_.take(tick_ns, with_gyro(tick_ns, inputs), expected_step_s_ - period_s_);
   area_guard_.take(tick_ns, inputs.area, inputs.sensors.motion ? inputs.sensors.motion->velocity : Velocity{});
   adapt_limits(tick_ns, inputs.key);
   follow_wheels(tick_ns, inputs.sensors.motion);
@@ -60,6 +60,14 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   decision.velocity = pursue(tick_ns, inputs, selection, decision);
   limiter_.send(decision.velocity);
   return decision;
+}
+
+Sensors DriveControl::with_gyro(std::int64_t tick_ns, const Inputs& inputs) const {
+  Sensors sensors = inputs.sensors;
+  if (inputs.imu && is_heard(inputs.imu->stamp_ns, tick_ns)) {
+    sensors.gyro_radps = inputs.imu->yaw_rate_radps();
+  }
+  return sensors;
 }
 
 void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key) {
@@ -182,7 +190,27 @@ DriveControl::Selection DriveControl::wanted_at(std::int64_t tick_ns, const Inpu
   if (inputs.manual && inputs.manual->active) {
     return selection_of("manual", inputs.manual, tick_ns);
   }
-  return selection_of("planner", inputs.planner, tick_ns);
+  return limited(selection_of("planner", inputs.planner, tick_ns), inputs.speed_limit, tick_ns);
+}
+
+DriveControl::Selection DriveControl::limited(Selection selection, const std::optional<SpeedLimit>& limit,
+                                              std::int64_t tick_ns) const {
+  if (!limit || !selection.velocity || selection.velocity->is_zero()) {
+    return selection;
+  }
+  const char* who = "state machine";
+  if (limit->stamp_ns == mtr_core::kNeverNs) {
+    return {"none", std::nullopt, problems::kWaitingForSource({{"source", who}})};
+  }
+  if (!mtr_core::is_fresh(limit->stamp_ns, tick_ns, parameters_.lock_timeout_s)) {
+    return {"none", std::nullopt, problems::kSourceSilent({{"source", who}})};
+  }
+  // NaN is no limit that permits anything; the planner reports it.
+  const double max_mps = limit->max_mps > 0.0 ? limit->max_mps : 0.0;
+  const double wanted_mps = std::abs(selection.velocity->linear_mps);
+  const double share = max_mps == 0.0 ? 0.0 : std::min(1.0, max_mps / std::max(wanted_mps, max_mps));
+  selection.velocity = selection.velocity->scaled(share);
+  return selection;
 }
 
 DriveControl::Selection DriveControl::selection_of(const std::string& source,

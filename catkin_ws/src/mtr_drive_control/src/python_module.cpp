@@ -87,17 +87,27 @@ std::pair<double, double> follow(VelocityLimiter& limiter, double linear_mps, do
 Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<std::pair<double, double>>& planner,
               const std::optional<std::pair<double, double>>& manual, const std::vector<std::string>& locks,
               const py::object& front, const py::object& rear, const py::object& odometry, double key_height_m,
-              const py::object& imu) {
+              const py::object& imu, const std::optional<LocalizedMap>& map) {
   Inputs inputs;
   for (const std::string& owner : locks) {
     inputs.locks.push_back({owner, mtr_core::problem_with_text("Locked by " + owner + ".")});
   }
   inputs.planner = command_of(tick_ns, planner);
   inputs.manual = command_of(tick_ns, manual);
-  inputs.sensors = {sweep_of(front), sweep_of(rear), motion_of(tick_ns, odometry)};
+  inputs.sensors = {sweep_of(front), sweep_of(rear), motion_of(tick_ns, odometry), map};
   inputs.key = KeyHeight{tick_ns, key_height_m};
   inputs.imu = imu_of(tick_ns, imu);
   return control.step(tick_ns, inputs);
+}
+
+/// Map of a site without anything, free up to this distance from its origin, and where odom is located in it.
+LocalizedMap empty_map(double half_side_m, const std::tuple<double, double, double>& map_from_odom) {
+  constexpr double kCellM = 0.1;
+  const auto side = static_cast<std::size_t>(2.0 * half_side_m / kCellM);
+  auto map = std::make_shared<SiteMap>();
+  map->free = {Pose(-half_side_m, -half_side_m, 0.0), kCellM, side, std::vector<bool>(side * side, true)};
+  const auto& [x_m, y_m, heading_rad] = map_from_odom;
+  return {map, Pose(x_m, y_m, heading_rad)};
 }
 
 /// The newest sweep of a LiDAR, the same until another is taken.
@@ -222,21 +232,25 @@ PYBIND11_MODULE(mtr_drive_control_core, module) {
       .def_property_readonly("obstacle_bearing", [](const Decision& decision) {
         return decision.hindrance.value_or(Hindrance{}).bearing_rad;
       });
+  py::class_<LocalizedMap>(module, "LocalizedMap");
+  module.def("empty_map", &empty_map, py::arg("half_side_m"),
+             py::arg("map_from_odom") = std::tuple<double, double, double>(0.0, 0.0, 0.0));
   py::class_<DriveControl>(module, "DriveControl")
       .def(py::init([](const std::string& urdf, bool rear_lidar, const py::dict& limits, const py::dict& collision,
-                       double period_s) {
+                       double period_s, bool contact_skirt) {
              const mtr_description::RobotGeometry geometry(urdf);
              const auto parameters = parameters_of<Parameters>(kRows, limits);
              check_balance(parameters, geometry);
-             return DriveControl(parameters, parameters_of<CollisionParameters>(kCollisionRows, collision),
-                                 shape_of(geometry, rear_lidar), period_s);
+             auto margins = parameters_of<CollisionParameters>(kCollisionRows, collision);
+             margins.contact_skirt = contact_skirt;
+             return DriveControl(parameters, margins, shape_of(geometry, rear_lidar), period_s);
            }),
            py::arg("urdf"), py::arg("rear_lidar") = true, py::arg("limits") = py::dict(),
-           py::arg("collision") = py::dict(), py::arg("period_s") = 0.02)
+           py::arg("collision") = py::dict(), py::arg("period_s") = 0.02, py::arg("contact_skirt") = false)
       .def("step", &step, py::arg("tick_ns"), py::kw_only(), py::arg("planner") = py::none(),
            py::arg("manual") = py::none(), py::arg("locks") = std::vector<std::string>(), py::arg("front") = py::none(),
            py::arg("rear") = py::none(), py::arg("odometry") = py::none(), py::arg("key_height_m") = 0.35,
-           py::arg("imu") = py::none(),
+           py::arg("imu") = py::none(), py::arg("map") = py::none(),
            "Velocity of this tick; front and rear are the newest sweeps, the same again until there is a new one.");
   bind_robot(module);
 }

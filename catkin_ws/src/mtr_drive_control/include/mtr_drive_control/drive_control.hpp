@@ -36,6 +36,13 @@ struct KeyHeight {
   double height_m;
 };
 
+/// Maximum speed of the Operator's Command, as the state machine publishes it with the goal.
+struct SpeedLimit {
+  /// mtr_core::kNeverNs before the first one.
+  std::int64_t stamp_ns;
+  double max_mps;
+};
+
 /// Everything that is known at a tick.
 struct Inputs {
   std::vector<EngagedLock> locks;
@@ -48,6 +55,9 @@ struct Inputs {
   /// Nothing where there is no IMU; one that was heard has to go on.
   std::optional<ImuReading> imu = std::nullopt;
   AreaInputs area = {};
+  /// Of the planner's motion; nothing where no state machine takes part. A person with the manual controller has the
+  /// limits of that.
+  std::optional<SpeedLimit> speed_limit = std::nullopt;
 };
 
 /// Three stages: choose a source (locks, manual, planner), reduce what it wants to what is safe, limit its change.
@@ -87,6 +97,7 @@ class DriveControl {
 
   /// Notes how long ago the step before was, and how late the next one is expected.
   void time_step(std::int64_t tick_ns);
+  Sensors with_gyro(std::int64_t tick_ns, const Inputs& inputs) const;
   void follow_wheels(std::int64_t tick_ns, const std::optional<Motion>& motion);
   /// Locks of others, and its own.
   std::vector<EngagedLock> locks_at(std::int64_t tick_ns, const Inputs& inputs);
@@ -94,6 +105,8 @@ class DriveControl {
   Selection wanted_at(std::int64_t tick_ns, const Inputs& inputs) const;
   Selection selection_of(const std::string& source, const std::optional<SourceCommand>& command,
                          std::int64_t tick_ns) const;
+  /// The planner's command within the Command's speed; a limit that is missing or silent forbids motion.
+  Selection limited(Selection selection, const std::optional<SpeedLimit>& limit, std::int64_t tick_ns) const;
   void adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key);
   Deceleration normal_deceleration() const;
   double oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const;

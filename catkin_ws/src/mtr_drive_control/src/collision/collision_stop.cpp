@@ -9,12 +9,15 @@ namespace mtr_drive_control {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kHalvings = 8;
 // A smaller share of the desired velocity is a stop, and not a motion that anybody wants.
 constexpr double kLeastShare = 0.05;
 // Rounding is no approach; anything more would let the robot creep nearer tick by tick.
 constexpr double kRoundingM = 1e-9;
 constexpr double kEdgeStepM = 0.05;
+// A possible person who is hidden for a moment is still near.
+constexpr double kStillNearS = 1.0;
 
 /// Points on the outline of the robot.
 std::vector<Point> edge_of(const Footprint& footprint) {
@@ -29,6 +32,11 @@ std::vector<Point> edge_of(const Footprint& footprint) {
   }
   edge.push_back({-footprint.rear_m, footprint.half_width_m});
   return edge;
+}
+
+/// Upper bound of the speed of each point of the outline.
+double outline_mps(const Velocity& velocity, double radius_m) {
+  return std::abs(velocity.linear_mps) + std::abs(velocity.angular_radps) * radius_m;
 }
 
 }  // namespace
@@ -54,7 +62,11 @@ Assessment CollisionStop::assess(std::int64_t tick_ns, const DesiredMotion& desi
     return {{}, Zone::kBlind, std::nullopt, blind};
   }
   // A planner that stops for the obstacle must not thereby make the way free.
-  const DesiredMotion tried = within_sight(desired.velocity.is_zero() && blocked_motion_ ? *blocked_motion_ : desired);
+  const DesiredMotion sighted =
+      within_sight(desired.velocity.is_zero() && blocked_motion_ ? *blocked_motion_ : desired);
+  const double slow_share =
+      std::min(1.0, slow_zone_mps(tick_ns, normal.linear_mps2) / outline_mps(sighted.velocity, footprint_.radius_m()));
+  const DesiredMotion tried{sighted.velocity.scaled(slow_share), sighted.by_hand};
   const std::optional<Hindrance> hindrance = hindrance_of(tried, normal);
   const double share = hindrance ? safe_share(tried, normal) : 1.0;
   if (share < kLeastShare) {
@@ -67,7 +79,35 @@ Assessment CollisionStop::assess(std::int64_t tick_ns, const DesiredMotion& desi
   if (desired.velocity.is_zero()) {
     return {};
   }
-  return {tried.velocity.scaled(share), hindrance ? Zone::kSlowed : Zone::kClear, hindrance, {}};
+  const Obstacle* person = slow_share < 1.0 ? nearest_possible_person() : nullptr;
+  const std::optional<Hindrance> slowed_by = hindrance || !person ? hindrance : hindrance_at(person->point);
+  const bool is_slowed = hindrance || slow_share < 1.0;
+  return {tried.velocity.scaled(share), is_slowed ? Zone::kSlowed : Zone::kClear, slowed_by, {}};
+}
+
+const Obstacle* CollisionStop::nearest_possible_person() const {
+  const Obstacle* nearest = nullptr;
+  for (const Obstacle& obstacle : surroundings_.obstacles()) {
+    const bool is_nearer = nearest == nullptr || obstacle.distance_m < nearest->distance_m;
+    nearest = obstacle.is_possible_person && is_nearer ? &obstacle : nearest;
+  }
+  return nearest;
+}
+
+double CollisionStop::slow_zone_mps(std::int64_t tick_ns, double deceleration_mps2) {
+  const Obstacle* person = parameters_.contact_skirt ? nullptr : nearest_possible_person();
+  const double slow_mps = parameters_.near_person_mps;
+  const double beyond_m = person != nullptr ? person->distance_m - parameters_.near_person_m : kInfinity;
+  if (beyond_m <= 0.0) {
+    person_near_ns_ = tick_ns;
+  }
+  if (person_near_ns_ && static_cast<double>(tick_ns - *person_near_ns_) * 1e-9 <= kStillNearS) {
+    return slow_mps;
+  }
+  // The speed from which the normal stop reaches the slow zone at its speed, the reaction included.
+  const double reacted_mps = deceleration_mps2 * (parameters_.reaction_s + late_s_);
+  const double squared = slow_mps * slow_mps + 2.0 * deceleration_mps2 * std::max(0.0, beyond_m);
+  return std::max(slow_mps, std::sqrt(squared + reacted_mps * reacted_mps) - reacted_mps);
 }
 
 Assessment CollisionStop::blocked(std::int64_t tick_ns, const DesiredMotion& desired,
@@ -142,9 +182,7 @@ bool CollisionStop::is_in_reach(const Obstacle& obstacle, const DesiredMotion& d
     case Kind::kLost:
       return desired.velocity.linear_mps < 0.0 && !desired.by_hand && is_approached_by_person(obstacle, path);
     case Kind::kStanding: {
-      const double corner_mps =
-          std::abs(desired.velocity.linear_mps) + std::abs(desired.velocity.angular_radps) * footprint_.radius_m();
-      const bool creeps = corner_mps <= parameters_.creep_mps + 1e-9;
+      const bool creeps = outline_mps(desired.velocity, footprint_.radius_m()) <= parameters_.creep_mps + 1e-9;
       return is_approached_by_person(obstacle, path) &&
              !(creeps && !gets_nearer_than(parameters_.person_reach_m, obstacle.point, path));
     }

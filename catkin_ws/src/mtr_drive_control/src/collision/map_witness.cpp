@@ -20,6 +20,29 @@ constexpr std::int64_t kWorksNs = 1'000'000'000;
 
 }  // namespace
 
+bool SiteMap::is_free_around(const Point& place, double distance_m) const {
+  if (free.width == 0 || !(free.cell_m > 0.0)) {
+    return false;
+  }
+  const Point in_grid = free.map_from_grid.undo(place);
+  const auto height = static_cast<double>(free.cells.size() / free.width);
+  const double low_x = std::floor((in_grid.x_m - distance_m) / free.cell_m);
+  const double low_y = std::floor((in_grid.y_m - distance_m) / free.cell_m);
+  const double high_x = std::floor((in_grid.x_m + distance_m) / free.cell_m);
+  const double high_y = std::floor((in_grid.y_m + distance_m) / free.cell_m);
+  if (!(low_x >= 0.0 && low_y >= 0.0 && high_x < static_cast<double>(free.width) && high_y < height)) {
+    return false;
+  }
+  for (auto row = static_cast<std::size_t>(low_y); row <= static_cast<std::size_t>(high_y); ++row) {
+    for (auto column = static_cast<std::size_t>(low_x); column <= static_cast<std::size_t>(high_x); ++column) {
+      if (!free.cells[row * free.width + column]) {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
 void MapWitness::observe(const View& view, const Witness& lidar, const std::vector<Echo>& echoes,
                          const LocalizedMap& here, EmptyBeams& empty) {
   take(here.map);

@@ -61,7 +61,7 @@ Surroundings::Surroundings(const CollisionParameters& parameters, const RobotSha
 void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   if (tick_ns < tick_ns_) {
     // A clock that goes back would let old ground count as seen and new echoes as old.
-    ground_ = GroundMemory();
+    forget_ground();
     followed_.reset();
   }
   if (may_have_been_carried(tick_ns, sensors)) {
@@ -76,6 +76,9 @@ void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   motion_ = is_known ? sensors.motion : std::nullopt;
   if (motion_) {
     follow(*motion_);
+    if (!steady_.follow(*motion_, sensors.gyro_radps)) {
+      newcomers_ = Newcomers();
+    }
   }
   bool has_observed = false;
   for (std::size_t i = 0; i < lidars_.size(); ++i) {
@@ -120,7 +123,7 @@ void Surroundings::follow(const Motion& motion) {
     const bool jumps = moved_m > mtr_core::kMaxWheelsMps * since_s + kJumpM ||
                        turned_rad > mtr_core::kMaxTurnRadps * since_s + kJumpRad;
     if (since_s < 0.0 || since_s > kOdometryGapS || jumps) {
-      ground_ = GroundMemory();
+      forget_ground();
     }
     if (jumps) {
       memory_.move(followed_->odom_from_base, motion.odom_from_base);
@@ -154,12 +157,31 @@ bool Surroundings::observe(std::size_t index, const Sensors& sensors) {
     echo.is_wide = echo.is_wide || ground_.was_wide(echo.point);
   }
   look_for_gaps(index, *sweep, lidar.echoes, sensors);
+  remember_newcomers(lidar, *sweep, sensors);
   const auto far = std::remove_if(lidar.echoes.begin(), lidar.echoes.end(),
                                   [](const Echo& echo) { return echo.range_m >= kRangeOfInterestM; });
   lidar.echoes.erase(far, lidar.echoes.end());
   ground_.observe(*sweep, lidar.finder.mount(), *motion_);
   ground_.remember(lidar.echoes, *motion_);
   return true;
+}
+
+void Surroundings::remember_newcomers(const Lidar& lidar, const Sweep& sweep, const Sensors& sensors) {
+  newcomers_.observe(sweep, lidar.finder.mount(), steady_.motion());
+  const SiteMap* map = sensors.map ? sensors.map->map.get() : nullptr;
+  for (const Echo& echo : lidar.echoes) {
+    if (echo.range_m > kNewcomerReachM) {
+      continue;
+    }
+    const std::optional<Point> in_map =
+        sensors.map ? std::optional<Point>(sensors.map->map_from_odom.apply(echo.point)) : std::nullopt;
+    newcomers_.remember(steady_.from_odom(echo.point), sweep.stamp_ns, map, in_map);
+  }
+}
+
+bool Surroundings::is_possible_person(const Point& in_odom) const {
+  const Point place = steady_.from_odom(in_odom);
+  return newcomers_.has_come(place) || newcomers_.is_unmapped(place);
 }
 
 void Surroundings::look_for_gaps(std::size_t index, const Sweep& sweep, const std::vector<Echo>& echoes,
@@ -180,10 +202,12 @@ void Surroundings::look_for_gaps(std::size_t index, const Sweep& sweep, const st
 void Surroundings::classify() {
   for (Lidar& lidar : lidars_) {
     lidar.kinds.clear();
+    lidar.possible_persons.clear();
     for (const Echo& echo : lidar.echoes) {
-      lidar.kinds.push_back(echo.is_wide || ground_.was_wide(echo.point) ? Kind::kWide
-                            : ground_.has_stood(echo.point)              ? Kind::kStanding
-                                                                         : Kind::kThing);
+      const bool may_walk = is_possible_person(echo.point);
+      const bool is_static = !may_walk && (echo.is_wide || ground_.was_wide(echo.point));
+      lidar.possible_persons.push_back(may_walk);
+      lidar.kinds.push_back(is_static ? Kind::kWide : ground_.has_stood(echo.point) ? Kind::kStanding : Kind::kThing);
     }
   }
 }
@@ -235,33 +259,37 @@ mtr_core::Problem Surroundings::distrust(const Velocity& desired) const {
                           : problems::kLidarNeverSaw({{"lidar", lidar.watch.name()}, {"other", shown_by}});
 }
 
-void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind) {
+void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind, bool is_possible_person) {
   // An echo of the future is one of now.
-  obstacles_.push_back({point, std::max(0.0, age_s(tick_ns_, seen_ns)), kind, footprint_.distance_to(point)});
+  obstacles_.push_back(
+      {point, std::max(0.0, age_s(tick_ns_, seen_ns)), kind, footprint_.distance_to(point), is_possible_person});
 }
 
 void Surroundings::find_obstacles() {
   for (const Lidar& lidar : lidars_) {
     for (std::size_t i = 0; i < lidar.echoes.size(); ++i) {
       const Echo& echo = lidar.echoes[i];
-      add_obstacle(odom_from_base_.undo(echo.point), echo.stamp_ns, lidar.kinds[i]);
+      add_obstacle(odom_from_base_.undo(echo.point), echo.stamp_ns, lidar.kinds[i], lidar.possible_persons[i]);
     }
   }
   for (const MissingEcho& missing : memory_.missing()) {
     const Point point = odom_from_base_.undo(missing.point);
-    const bool may_walk = !missing.is_wide && age_s(tick_ns_, missing.seen_ns) < kMayHaveWalkedS;
+    const bool is_static = missing.is_wide && !is_possible_person(missing.point);
+    const bool may_walk = !is_static && age_s(tick_ns_, missing.seen_ns) < kMayHaveWalkedS;
     if (distance_m(point, Point{}) < kRangeOfInterestM) {
       add_obstacle(point, may_walk ? missing.seen_ns : tick_ns_,
-                   missing.is_wide ? Kind::kWide
-                   : may_walk      ? Kind::kThing
-                                   : Kind::kStanding);
+                   is_static  ? Kind::kWide
+                   : may_walk ? Kind::kThing
+                              : Kind::kStanding,
+                   false);
     }
   }
   if (!watches_rear_) {
     for (const LostThing& thing : ground_.lost_things(tick_ns_, kLostPersonS)) {
       const Point point = odom_from_base_.undo(thing.point);
-      if (thing.was_moving && std::abs(std::atan2(point.y_m, point.x_m)) > kBehindRad) {
-        add_obstacle(point, thing.seen_ns, Kind::kLost);
+      const bool may_walk = thing.was_moving || newcomers_.has_come(steady_.from_odom(thing.point));
+      if (may_walk && std::abs(std::atan2(point.y_m, point.x_m)) > kBehindRad) {
+        add_obstacle(point, thing.seen_ns, Kind::kLost, true);
       }
     }
   }

@@ -38,6 +38,10 @@ std::optional<SourceCommand> command_of(const Received<mtr_msgs::VelocityCommand
       received.time_ns, {message.linear_mps, message.angular_radps}, static_cast<bool>(message.active)};
 }
 
+SpeedLimit speed_limit_of(const Received<mtr_msgs::RobotMode>& received) {
+  return received ? SpeedLimit{received.time_ns, received.message->max_speed_mps} : SpeedLimit{mtr_core::kNeverNs, 0.0};
+}
+
 std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received) {
   if (!received) {
     return std::nullopt;
@@ -146,7 +150,9 @@ std::shared_ptr<const SiteMap> site_map_of(const nav_msgs::OccupancyGrid& messag
   }
   auto map = std::make_shared<SiteMap>();
   const Pose origin(info.origin.position.x, info.origin.position.y, heading_of(info.origin.orientation));
+  map->free = {origin, info.resolution, info.width, std::vector<bool>(cells)};
   for (std::size_t cell = 0; cell < cells; ++cell) {
+    map->free.cells[cell] = message.data[cell] == 0;
     if (message.data[cell] >= kOccupied) {
       map->occupied.push_back(
           origin.apply({(static_cast<double>(cell % info.width) + 0.5) * static_cast<double>(info.resolution),

@@ -70,6 +70,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
   reader.read("lock_owners", parameters.lock_owners);
   reader.read("e_stop_topics", parameters.e_stop_topics);
   reader.read("rear_lidar", parameters.rear_lidar);
+  reader.read("contact_skirt", parameters.collision.contact_skirt);
   reader.read("base_controller", parameters.base_controller);
   reader.read("base_guard", parameters.base_guard);
   reader.read("manual_expected", parameters.manual_expected);
@@ -86,6 +87,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       manual_(node, names::kManualVelocity, mtr_core::kControllerInput, mtr_core::kClockStep.period_ns,
               parameters.manual_expected),
       planner_(node, names::kPlannerVelocity, mtr_core::kMotionPlanner),
+      mode_(node, names::kRobotMode, mtr_core::kStateMachine, mtr_core::kClockStep.period_ns, false),
       odometry_(node, names::kWheelOdometry, mtr_core::kSensors, 0),
       imu_(node, names::kImuData, mtr_core::kSensors, 0),
       peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
@@ -181,6 +183,7 @@ void Node::tick(const mtr_core::Instant& tick) {
   inputs.locks.insert(inputs.locks.begin(), own.begin(), own.end());
   inputs.manual = command_of(manual_.at(tick_ns));
   inputs.planner = command_of(planner_.at(tick_ns));
+  inputs.speed_limit = speed_limit_of(mode_.at(tick_ns));
   publish(tick, drive_control_.step(tick_ns, inputs));
 }
 

@@ -142,6 +142,7 @@ class TestRobot {
                       Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, odom_from_base, wheels}, map};
     inputs.key = KeyHeight{now_ns, 0.35};
     inputs.area = area ? area() : AreaInputs{};
+    inputs.speed_limit = speed_limit;
     const Decision decision = control.step(now_ns, inputs);
     velocity = decision.velocity;
     wheels = obeys ? velocity : Velocity{};
@@ -181,6 +182,7 @@ class TestRobot {
   std::vector<EngagedLock> locks;
   /// The test area, and the pose in it.
   std::function<AreaInputs()> area;
+  std::optional<SpeedLimit> speed_limit;
   /// Changes what a LiDAR says, front or rear.
   std::function<void(Sweep&, bool is_rear)> spoil;
 

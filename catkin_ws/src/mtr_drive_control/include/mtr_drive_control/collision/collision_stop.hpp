@@ -48,7 +48,7 @@ struct DesiredMotion {
 /// A velocity is safe when the stop from it, along its own circle, ends before the footprint comes nearer to a wide
 /// thing than the gap, and before anything that may be a person could have walked up to the footprint. It is reduced
 /// by the normal deceleration; the emergency one is left for what appears suddenly. After a stop the way must be free
-/// for a pause.
+/// for a pause. Near a possible person it is slow, unless the base has a contact skirt.
 class CollisionStop {
  public:
   CollisionStop(const CollisionParameters& parameters, const RobotShape& shape);
@@ -94,6 +94,10 @@ class CollisionStop {
   std::optional<Hindrance> unseen_ground(const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   Hindrance hindrance_at(const Point& point) const;
   DesiredMotion within_sight(const DesiredMotion& desired) const;
+  /// The nearest possible person, while one was seen in the slow zone a moment ago; null without one.
+  const Obstacle* nearest_possible_person() const;
+  /// Fastest motion of the outline that keeps the slow zone of a possible person; infinite without one.
+  double slow_zone_mps(std::int64_t tick_ns, double deceleration_mps2);
   double safe_share(const DesiredMotion& desired, const Deceleration& normal) const;
   Assessment blocked(std::int64_t tick_ns, const DesiredMotion& desired, const std::optional<Hindrance>& hindrance);
   bool is_pausing(std::int64_t tick_ns) const;
@@ -109,6 +113,8 @@ class CollisionStop {
   /// Direction of the motion that was stopped for an obstacle, until the way has been free for the pause.
   std::optional<DesiredMotion> blocked_motion_;
   std::int64_t last_blocked_ns_ = 0;
+  /// When a possible person was in the slow zone.
+  std::optional<std::int64_t> person_near_ns_;
 };
 
 /// "Blocked by an obstacle 0.6 m ahead." and the like.

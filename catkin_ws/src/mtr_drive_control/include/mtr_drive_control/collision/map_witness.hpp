@@ -12,9 +12,22 @@
 
 namespace mtr_drive_control {
 
-/// Occupied places, in map.
+/// Ground of a map that was seen free.
+struct FreeGround {
+  Pose map_from_grid;
+  double cell_m = 0.0;
+  std::size_t width = 0;
+  /// Row-major, true where free.
+  std::vector<bool> cells;
+};
+
+/// Occupied places, in map, and the free ground between them.
 struct SiteMap {
   std::vector<Point> occupied;
+  FreeGround free = {};
+
+  /// True when all cells up to this distance along each axis of the grid were seen free; false outside of the map.
+  bool is_free_around(const Point& place, double distance_m) const;
 };
 
 /// A map and where odom lies in it.

@@ -14,6 +14,7 @@
 #include "mtr_drive_control/collision/echo_memory.hpp"
 #include "mtr_drive_control/collision/ground_memory.hpp"
 #include "mtr_drive_control/collision/map_witness.hpp"
+#include "mtr_drive_control/collision/newcomers.hpp"
 
 namespace mtr_drive_control {
 
@@ -24,13 +25,15 @@ struct Sensors {
   std::optional<Motion> motion;
   /// Nothing while the position is unknown or lost.
   std::optional<LocalizedMap> map = std::nullopt;
+  /// Yaw rate by the gyro; nothing without an IMU or while it is silent.
+  std::optional<double> gyro_radps = std::nullopt;
 };
 
 /// Kinds of obstacles by what they may do next.
 enum class Kind {
-  /// Car, wall: stays where it is.
+  /// Car, wall, and what has always been in its place: stays where it is.
   kWide,
-  /// May be a person, and walk.
+  /// May be a person or be moved by one, and walk.
   kThing,
   /// The same, but has been standing for a while.
   kStanding,
@@ -45,6 +48,8 @@ struct Obstacle {
   Kind kind;
   /// From the footprint.
   double distance_m;
+  /// It came while its place was observed, or the map shows free ground there.
+  bool is_possible_person = false;
 };
 
 /// Keeps what the newest sweeps tell.
@@ -76,7 +81,10 @@ class Surroundings {
   void rest(std::int64_t duration_ns) { memory_.rest(duration_ns); }
 
   /// The robot may have been carried: ground that was seen is unknown from now on.
-  void forget_ground() { ground_ = GroundMemory(); }
+  void forget_ground() {
+    ground_ = GroundMemory();
+    newcomers_ = Newcomers();
+  }
 
  private:
   struct Lidar {
@@ -95,6 +103,7 @@ class Surroundings {
     std::vector<Echo> echoes = {};
     /// Of each echo.
     std::vector<Kind> kinds = {};
+    std::vector<bool> possible_persons = {};
   };
 
   bool observe(std::size_t index, const Sensors& sensors);
@@ -104,10 +113,12 @@ class Surroundings {
   void forget_echoes();
   /// Forgets what an interrupted odometry does not place any longer.
   void follow(const Motion& motion);
+  void remember_newcomers(const Lidar& lidar, const Sweep& sweep, const Sensors& sensors);
+  bool is_possible_person(const Point& in_odom) const;
   void classify();
   mtr_core::Problem blindness_at(std::int64_t tick_ns) const;
   mtr_core::Problem blindness_of(const Lidar& lidar) const;
-  void add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind);
+  void add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind, bool is_possible_person);
   void find_obstacles();
 
   CollisionParameters parameters_;
@@ -116,6 +127,8 @@ class Surroundings {
   std::vector<Lidar> lidars_;
   GroundMemory ground_;
   EchoMemory memory_;
+  SteadyFrame steady_;
+  Newcomers newcomers_;
   bool has_map_ = false;
   /// At the previous tick.
   bool had_position_ = false;

@@ -7,6 +7,7 @@
 #include <mtr_msgs/LocalizedPose.h>
 #include <mtr_msgs/MotionLock.h>
 #include <mtr_msgs/PeripheralsState.h>
+#include <mtr_msgs/RobotMode.h>
 #include <mtr_msgs/TestArea.h>
 #include <mtr_msgs/VelocityCommand.h>
 #include <nav_msgs/OccupancyGrid.h>
@@ -29,6 +30,9 @@ using mtr_core::Received;
 
 // No message, before the first of a topic, gives nothing.
 std::optional<SourceCommand> command_of(const Received<mtr_msgs::VelocityCommand>& received);
+
+/// Limit of the state machine's newest mode; one of no time before the first.
+SpeedLimit speed_limit_of(const Received<mtr_msgs::RobotMode>& received);
 std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received);
 std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& received);
 std::optional<KeyHeight> key_height_of(const Received<mtr_msgs::PeripheralsState>& received);

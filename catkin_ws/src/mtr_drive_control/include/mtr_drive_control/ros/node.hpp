@@ -83,6 +83,7 @@ class Node {
   mtr_core::Ticker ticker_;
   mtr_core::TickInput<mtr_msgs::VelocityCommand> manual_;
   mtr_core::TickInput<mtr_msgs::VelocityCommand> planner_;
+  mtr_core::TickInput<mtr_msgs::RobotMode> mode_;
   mtr_core::TickInput<nav_msgs::Odometry> odometry_;
   mtr_core::TickInput<sensor_msgs::Imu> imu_;
   mtr_core::TickInput<mtr_msgs::PeripheralsState> peripherals_;
