@@ -14,7 +14,7 @@ from scripted_sensors import BEAMS, FAR_M, open_ground
 from scripted_time import NS, Listener, ScriptedTime, Speaker, wait_for
 
 from mtr_core import names, schedule
-from mtr_msgs.msg import DriveStatus, MotionLock, VelocityCommand
+from mtr_msgs.msg import DriveStatus, MotionLock, RobotMode, VelocityCommand
 
 PLANNER_SILENT_S = 0.14
 LOCK_SILENT_S = 0.25
@@ -41,9 +41,10 @@ class DriveControl(unittest.TestCase):
         cls.manual = Speaker(names.MANUAL_VELOCITY, VelocityCommand(), schedule.CONTROLLER_INPUT)
         cls.dispatcher = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
         cls.state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
+        cls.mode = Speaker(names.ROBOT_MODE, RobotMode(), schedule.STATE_MACHINE)
         cls.front, cls.rear, cls.odometry, cls.imu, cls.peripherals = open_ground()
-        cls.speakers = (cls.planner, cls.manual, cls.dispatcher, cls.state_machine, cls.front, cls.rear, cls.odometry,
-                        cls.imu, cls.peripherals)
+        cls.speakers = (cls.planner, cls.manual, cls.dispatcher, cls.state_machine, cls.mode, cls.front, cls.rear,
+                        cls.odometry, cls.imu, cls.peripherals)
         cls.drive = Listener(names.DRIVE_STATUS, DriveStatus, schedule.DRIVE_CONTROL)
         cls.time = ScriptedTime(["/drive_control"], cls.speakers, [cls.drive])
         cls.wheels = []
@@ -61,6 +62,7 @@ class DriveControl(unittest.TestCase):
             speaker.is_silent = False
         self.planner.message = VelocityCommand(linear_mps=0.5, active=True)
         self.manual.message = VelocityCommand(active=False)
+        self.mode.message.max_speed_mps = 1.0
         self.front.message.ranges = [FAR_M] * BEAMS
         for lock in (self.dispatcher.message, self.state_machine.message):
             lock.engaged, lock.reason = False, ""
@@ -219,6 +221,13 @@ class DriveControl(unittest.TestCase):
         self.time.advance_for(0.2)
         self.assertTrue(all(math.isfinite(twist.linear.x) and math.isfinite(twist.angular.z) for twist in self.wheels))
         self.assertIn("not a finite number", self.status().message)
+
+    def test_maximum_speed_of_the_command_holds_and_its_silence_stops_the_robot(self):
+        self.mode.message.max_speed_mps = 0.2
+        self.time.advance_until(lambda: self.status().linear_mps == 0.2, within_s=0.6)
+        self.silence(self.mode, 0.1)
+        self.time.advance_until(self.is_standing, within_s=LOCK_SILENT_S + STANDSTILL_WITHIN_S)
+        self.assertIn("state machine is silent", self.status().message)
 
     def test_manual_controller_overrides_the_planner(self):
         self.manual.message = VelocityCommand(linear_mps=-0.2, active=True)

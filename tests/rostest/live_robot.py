@@ -11,7 +11,7 @@ from scripted_time import NS, Speaker
 
 from mtr_core import names, schedule
 from mtr_description.shipped import shipped_base
-from mtr_msgs.msg import MotionLock, VelocityCommand
+from mtr_msgs.msg import MotionLock, RobotMode, VelocityCommand
 
 PERIOD_S = 0.02
 CRUISE_MPS = 0.7
@@ -33,10 +33,12 @@ class LiveRobot:
         self.planner = Speaker(names.PLANNER_VELOCITY, VelocityCommand(), schedule.MOTION_PLANNER)
         self.dispatcher = Speaker(names.MOTION_LOCK, MotionLock(owner="dispatcher"), schedule.DISPATCHER)
         state_machine = Speaker(names.MOTION_LOCK, MotionLock(owner="state_machine"), schedule.STATE_MACHINE)
+        # The Command's speed.
+        mode = Speaker(names.ROBOT_MODE, RobotMode(max_speed_mps=2.0), schedule.STATE_MACHINE)
         self.speed_mps = 0.0
         self.commands: List[Tuple[float, float]] = []
         self.speakers = [self.front, rear, self.odometry, imu, peripherals, self.planner, self.dispatcher,
-                         state_machine]
+                         state_machine, mode]
         self._over = threading.Event()
         self._subscriber = rospy.Subscriber(names.WHEEL_COMMAND, Twist, self._take, queue_size=50, tcp_nodelay=True)
         self._thread = threading.Thread(target=self._run, daemon=True)

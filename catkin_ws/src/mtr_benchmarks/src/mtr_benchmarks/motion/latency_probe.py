@@ -21,7 +21,7 @@ from mtr_benchmarks.harness.probe import cpu_s
 from mtr_core import names
 from mtr_description.base_controller import CONTROLLER, base_parameters_in
 from mtr_description.shipped import shipped_base_file, shipped_urdf
-from mtr_msgs.msg import MotionLock, PeripheralsState, VelocityCommand
+from mtr_msgs.msg import MotionLock, PeripheralsState, RobotMode, VelocityCommand
 
 BEAMS = 720
 FIELD_OF_VIEW_RAD = 1.5 * math.pi
@@ -43,6 +43,7 @@ class DriveControlFeed:
         self._moves = threading.Event()
         self._stopped_at = self.latency_s = 0.0
         self._locks = [(self._topic(names.MOTION_LOCK, MotionLock), owner) for owner in ("dispatcher", "state_machine")]
+        self._mode = self._topic(names.ROBOT_MODE, RobotMode)
         self._odometry = self._topic(names.WHEEL_ODOMETRY, Odometry)
         self._imu = self._topic(names.IMU_DATA, Imu)
         self._planner = self._topic(names.PLANNER_VELOCITY, VelocityCommand)
@@ -113,6 +114,7 @@ class DriveControlFeed:
                     self._publish(topic, sweep(frame))
             if turn % 5 == 0:
                 self._publish(self._peripherals, PeripheralsState(alive=True, key_height_m=1.0, battery=1.0))
+                self._publish(self._mode, RobotMode(max_speed_mps=1.0))
                 self._lock(0)
                 self._lock(1)
 

@@ -40,7 +40,7 @@ class Rig:
 
     def __init__(self, scenario: Scenario, seed: int, rear_lidar: bool = True, rain: float = 0.0,
                  lift_m: float = 0.0, site_map: Optional[Any] = None):
-        """rain: share of the beams that end on a drop; lift_m: height of the lift; site_map: of a localized robot."""
+        """rain: share of the beams that end on a drop; lift_m: of the lift; site_map: of a localized robot."""
         lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
         self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
