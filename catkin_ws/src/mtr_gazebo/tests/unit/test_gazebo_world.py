@@ -14,11 +14,13 @@ from mtr_gazebo.world.rigid_links import rigid_links
 from mtr_gazebo.world.world_file import WorldOptions, world_files, write_world
 
 from mtr_core.errors import ConfigurationError
+from mtr_core.se2 import Pose2
 from mtr_description.robot_geometry import RobotGeometry
 from mtr_description.shipped import shipped_geometry, shipped_urdf
 from mtr_simulation.physics.mjcf import model_xml
 from mtr_simulation.physics.robot import shipped_robot
 from mtr_simulation.site.bodies import bodies_of
+from mtr_simulation.site.cables import Cable
 from mtr_simulation.site.scenario import SCENARIOS
 from mtr_simulation.site.shapes import Hull
 
@@ -197,6 +199,8 @@ def test_tyres_have_the_friction_of_the_scenario():
 @pytest.mark.parametrize(("change", "expected"), [
     ({"person": SCENARIOS["lot_person"].person}, "has a person"),
     ({"ground_tilt_rad": 0.02}, "ground_tilt_rad is 0.02 rad; allowed in Gazebo is 0 rad"),
+    ({"ground_slope_rad": 0.03}, "ground_slope_rad is 0.03 rad; allowed in Gazebo is 0 rad"),
+    ({"cables": (Cable(Pose2(0.0, 0.0, 0.0)),)}, "has cables"),
 ])
 def test_what_gazebo_s_world_has_not_is_refused(change, expected):
     with pytest.raises(ConfigurationError, match=expected):

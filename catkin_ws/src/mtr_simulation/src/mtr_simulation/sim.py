@@ -23,6 +23,7 @@ from .sensors.battery import battery
 from .sensors.imu import Imu, ImuParameters
 from .sensors.lidar import Lidar, LidarParameters
 from .sensors.readings import Scan, Sensors
+from .site.cables import Cables
 from .site.person import Person
 from .site.scenario import Scenario
 from .site.surroundings import uneven_ground
@@ -78,11 +79,16 @@ class Sim:
         self.scenario, self.time_ns, self.scans_wanted = scenario, SIMULATION_START_NS, True
         self._model = mujoco.MjModel.from_xml_string(model_xml(
             scenario, robot, scenario.start_in_world(seed), parameters.timestep_s, parameters.base.max_wheel_torque_nm))
+        # The world is the site's own: a slope is a gravity that pulls aside, and everything else stays level.
+        self._gravity = scenario.gravity(GRAVITY_MPS2)
+        self._model.opt.gravity[:] = self._gravity
         self._data = mujoco.MjData(self._model)
         self._steps = round(TICK_S / parameters.timestep_s)
         self._wheels = Wheels(self._model, self._data, robot, parameters.base)
         ground = uneven_ground(seed, scenario.ground_tilt_rad) if scenario.ground_tilt_rad else None
-        self._tyres = Tyres(self._model, self._data, robot, Surface(scenario.friction, ground), parameters.tyres)
+        cables = Cables(scenario.cables, robot.wheel_radius_m) if scenario.cables else None
+        self._tyres = Tyres(self._model, self._data, robot, Surface(scenario.friction, ground, cables),
+                            parameters.tyres)
         self._person = Person(self._model, self._data, scenario.person) if scenario.person else None
         self._imu = Imu(parameters.imu, TICK_S, stream(seed, "imu"))
         self._lidars = {mount.frame: self._lidar(mount, parameters.lidar, seed)
@@ -137,7 +143,7 @@ class Sim:
         A sweep that has begun is lost: its beams would belong to two times.
         """
         self._sweep_is_whole = False
-        force = rotate_back(self._base().rotation, 0.0, 0.0, GRAVITY_MPS2)
+        force = rotate_back(self._base().rotation, *(-each for each in self._gravity))
         return Sensors(self.time_ns, self._imu.read((0.0, 0.0, 0.0), force), self._wheels.odometry(TICK_S),
                        battery(self._elapsed_s()), None, None)
 
@@ -156,7 +162,7 @@ class Sim:
         pose = base.pose()
         return TrueState(self.time_ns, pose, self._car_from_world @ pose, key,
                          (*self._car_from_world.apply(key[0], key[1]), key[2]), forward, left,
-                         base.angular_velocity[2], base.tilt_rad(), lift)
+                         base.angular_velocity[2], base.tilt_rad(self._gravity), lift)
 
     def contacts(self) -> Set[str]:
         """Names of the bodies that the robot touches now: car, parked_0, person, world (poles, walls, ground)."""
@@ -211,7 +217,7 @@ class Sim:
         base = self._base()
         spin = mean_spin(quaternion, self._data.qpos[3:7].tolist(), TICK_S)
         change = [(new - old) / TICK_S for new, old in zip(base.velocity, velocity)]
-        force = rotate_back(base.rotation, change[0], change[1], change[2] + GRAVITY_MPS2)
+        force = rotate_back(base.rotation, *(each - pull for each, pull in zip(change, self._gravity)))
         return Sensors(self.time_ns, self._imu.read(spin, force), self._wheels.odometry(TICK_S),
                        battery(self._elapsed_s()), *self._scans())
 

@@ -19,7 +19,7 @@ class TrueState(NamedTuple):
         linear_mps: speed along base_link x.
         lateral_mps: speed along base_link y.
         angular_radps: turning rate.
-        tilt_rad: between the robot's and the world's vertical.
+        tilt_rad: between the robot's vertical and that of gravity.
         lift_height_m: above the lower stop.
     """
 

@@ -90,9 +90,12 @@ def world_files(folder: pathlib.Path, scenario: Scenario, geometry: RobotGeometr
 def _check(scenario: Scenario) -> None:
     if scenario.person is not None:
         raise ConfigurationError("The scenario has a person; allowed in Gazebo are scenarios without one.")
-    if scenario.ground_tilt_rad:
-        raise ConfigurationError(f"The scenario's ground_tilt_rad is {scenario.ground_tilt_rad:g} rad; allowed in "
-                                 "Gazebo is 0 rad, level ground.")
+    for name in ("ground_tilt_rad", "ground_slope_rad"):
+        if getattr(scenario, name):
+            raise ConfigurationError(f"The scenario's {name} is {getattr(scenario, name):g} rad; allowed in "
+                                     "Gazebo is 0 rad, level ground.")
+    if scenario.cables:
+        raise ConfigurationError("The scenario has cables; allowed in Gazebo are scenarios without any.")
 
 
 def _add_physics(world: Element, real_time_factor: float) -> None:

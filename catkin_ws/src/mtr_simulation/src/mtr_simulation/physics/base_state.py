@@ -26,9 +26,10 @@ class BaseState(NamedTuple):
         """world_from_base, seen from above."""
         return Pose2(self.position[0], self.position[1], math.atan2(self.rotation[1][0], self.rotation[0][0]))
 
-    def tilt_rad(self) -> float:
-        """Angle between the robot's and the world's vertical."""
-        return math.acos(max(-1.0, min(1.0, self.rotation[2][2])))
+    def tilt_rad(self, gravity: Vector = (0.0, 0.0, -1.0)) -> float:
+        """Angle between the robot's vertical and that of gravity, which is given in world."""
+        x, y, z = rotate_back(self.rotation, *gravity)
+        return math.atan2(math.hypot(x, y), -z)
 
 
 def base_state(position: List[float], quaternion: List[float], velocity: List[float], spin: List[float]) -> BaseState:

@@ -13,6 +13,7 @@ import mujoco
 
 from mtr_core.parameters import ParameterSet, number
 
+from ..site.cables import Cables
 from ..site.surroundings import Ground
 from .base_state import BaseState, Vector
 from .robot import WHEELS, RobotModel
@@ -40,11 +41,15 @@ class TyreParameters(ParameterSet):
     rolling_resistance: float = number(0.015, 0.0, 0.1, "(force by load)")
 
 
+_NO_CABLE = (0.0, 0.0, 0.0)
+
+
 class Surface(NamedTuple):
     """What the wheels stand on; without a ground it is level."""
 
     friction: float
     ground: Optional[Ground] = None
+    cables: Optional[Cables] = None
 
 
 class _WheelPlane(NamedTuple):
@@ -53,6 +58,14 @@ class _WheelPlane(NamedTuple):
     axle: Vector
     down: Vector
     forward: Tuple[float, float]
+
+
+class _Foot(NamedTuple):
+    """Lowest point of a wheel, from base_link, its depth in the ground, and the slopes of a cable there."""
+
+    arm: Vector
+    depth: float
+    rise: Tuple[float, ...]
 
 
 def _wheel_plane(base: BaseState, radius_m: float) -> _WheelPlane:
@@ -90,9 +103,10 @@ class Tyres:
         for index, (x, y, z) in enumerate(self._positions):
             lift = r20 * x + r21 * y + r22 * z
             arm = (r00 * x + r01 * y + r02 * z + dx, r10 * x + r11 * y + r12 * z + dy, lift + dz)
-            depth = self._ground_height(base, arm) - height - lift
+            rise = self._cable(base, arm)
+            depth = self._ground_height(base, arm) + rise[0] - height - lift
             if depth > 0.0:
-                self._forces[self._bodies[index]] = self._wrench(index, base, plane, arm, depth)
+                self._forces[self._bodies[index]] = self._wrench(index, base, plane, _Foot(arm, depth, rise[1:]))
             else:
                 self._bristles[index][:] = (0.0, 0.0)
                 self._forces[self._bodies[index]] = 0.0
@@ -109,22 +123,31 @@ class Tyres:
         ground = self._surface.ground
         return ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if ground else 0.0
 
-    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, arm: Vector, depth: float) -> Tuple[float, ...]:
-        """Force and torque at a wheel's centre, in world; arm is the way from base_link to its lowest point."""
-        parameters = self._parameters
+    def _cable(self, base: BaseState, arm: Vector) -> Vector:
+        """Height of a cable below a wheel, and its slopes along x and y."""
+        cables = self._surface.cables
+        return cables.at(base.position[0] + arm[0], base.position[1] + arm[1]) if cables else _NO_CABLE
+
+    def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, foot: _Foot) -> Tuple[float, ...]:
+        """Force and torque at a wheel's centre, in world.
+
+        A cable pushes along the line from its axis to the wheel's, so not upwards only, and without a torque.
+        """
+        parameters, (arm, depth, rise) = self._parameters, foot
         (vx, vy, vz), (ox, oy, oz) = base.velocity, base.angular_velocity
         (ex, ey, ez), (ax, ay, az), (hx, hy, hz), (cos, sin) = (arm, *plane)
         spin = float(self._speeds[self._dofs[index]])
         vertical = vz + ox * ey - oy * ex + spin * (ax * hy - ay * hx)
-        load = max(0.0, parameters.stiffness_npm * depth - parameters.damping_nspm * vertical)
+        climbing = rise[0] * (vx - oz * ey) + rise[1] * (vy + oz * ex)
+        load = max(0.0, parameters.stiffness_npm * depth - parameters.damping_nspm * (vertical - climbing))
         along_x = vx + oy * ez - oz * ey + spin * (ay * hz - az * hy)
         along_y = vy + oz * ex - ox * ez + spin * (az * hx - ax * hz)
         rolling, side = self._friction_force(index, along_x * cos + along_y * sin, along_y * cos - along_x * sin, load)
         fx, fy = rolling * cos - side * sin, rolling * sin + side * cos
         resistance = -parameters.rolling_resistance * load * self._radius_m * max(
             -1.0, min(1.0, spin / ROLLING_FADE_RADPS))
-        return (fx, fy, load, hy * load - hz * fy + resistance * ax, hz * fx - hx * load + resistance * ay,
-                hx * fy - hy * fx + resistance * az)
+        return (fx - rise[0] * load, fy - rise[1] * load, load, hy * load - hz * fy + resistance * ax,
+                hz * fx - hx * load + resistance * ay, hx * fy - hy * fx + resistance * az)
 
     def _friction_force(self, index: int, slip: float, side_slip: float, load: float) -> List[float]:
         """Force along and across the rolling direction for the slip speeds in m/s."""

@@ -9,6 +9,7 @@ from mtr_core.parameters import ParameterSet, number
 from mtr_core.se2 import Pose2
 
 from ..noise import stream
+from .cables import Cable
 from .car_shape import CAR_SHAPES, CarShape
 from .surroundings import Cone, ParkedCar, Pole, Walk, Wall
 
@@ -25,6 +26,9 @@ class Scenario(ParameterSet):
         start_offset_rad: and turns it by up to this.
         friction: of tyres on the ground; 0.5 as in the Jackal's description.
         ground_tilt_rad: root mean square of the slope of uneven ground; 0: flat.
+        ground_slope_rad: slope of the whole site.
+        ground_slope_direction_rad: direction in world that is downhill.
+        cables: across the way of the wheels.
     """
 
     car: CarShape = CarShape()
@@ -34,11 +38,20 @@ class Scenario(ParameterSet):
     start_offset_rad: float = number(math.radians(5.0), 0.0, 0.3, "rad")
     friction: float = number(0.5, 0.1, 1.2, "(Coulomb)")
     ground_tilt_rad: float = number(0.0, 0.0, 0.1, "rad")
+    ground_slope_rad: float = number(0.0, 0.0, 0.35, "rad")
+    ground_slope_direction_rad: float = number(0.0, -math.pi, math.pi, "rad")
     poles: Tuple[Pole, ...] = ()
     cones: Tuple[Cone, ...] = ()
     walls: Tuple[Wall, ...] = ()
     parked_cars: Tuple[ParkedCar, ...] = ()
     person: Optional[Walk] = None
+    cables: Tuple[Cable, ...] = ()
+
+    def gravity(self, size_mps2: float) -> Tuple[float, float, float]:
+        """Gravity along x, y, z of world, whose z axis stands upright on the ground."""
+        along = size_mps2 * math.sin(self.ground_slope_rad)
+        return (along * math.cos(self.ground_slope_direction_rad), along * math.sin(self.ground_slope_direction_rad),
+                -size_mps2 * math.cos(self.ground_slope_rad))
 
     def start_in_world(self, seed: int) -> Pose2:
         """Pose of base_link in world at the start, moved by the seed."""

@@ -14,6 +14,7 @@ from mtr_core.errors import ConfigurationError
 from mtr_core.parameters import parameters_from
 from mtr_core.se2 import Pose2
 
+from .cables import Cable
 from .car_shape import CAR_SHAPES, CarShape
 from .figures import FIGURES
 from .scenario import SCENARIOS, Scenario
@@ -84,6 +85,11 @@ def _wall(name: str, value: Any) -> Wall:
     return Wall(Pose2(x, y, math.radians(heading_deg)), *sizes)
 
 
+def _cable(name: str, value: Any) -> Cable:
+    x, y, heading_deg, *sizes = _figures(name, value, 3, 5)
+    return Cable(Pose2(x, y, math.radians(heading_deg)), *sizes)
+
+
 def _parked_car(name: str, value: Any) -> ParkedCar:
     table = _table(name, value, ("pose", "shape"))
     return ParkedCar(_pose(f"{name}.pose", table.get("pose")), _shape(f"{name}.shape", table.get("shape", "default")))
@@ -115,7 +121,7 @@ def _table(name: str, value: Any, allowed: Tuple[str, ...]) -> Dict[str, Any]:
 
 _READERS: Dict[str, Callable[[str, Any], Any]] = {
     "car": _shape, "world_from_car": _pose, "start_in_car": _pose, "poles": _list_of(_pole), "cones": _list_of(_cone),
-    "walls": _list_of(_wall), "parked_cars": _list_of(_parked_car), "person": _walk,
+    "walls": _list_of(_wall), "cables": _list_of(_cable), "parked_cars": _list_of(_parked_car), "person": _walk,
 }
 
 
