@@ -3,7 +3,7 @@
 import math
 from typing import Tuple
 
-from geometry_msgs.msg import Twist
+from geometry_msgs.msg import Twist, Vector3
 from nav_msgs.msg import Odometry
 from scripted_time import NS, Speaker
 from sensor_msgs.msg import Imu, LaserScan
@@ -17,6 +17,7 @@ FIELD_OF_VIEW_RAD = 1.5 * math.pi
 FAR_M = 20.0
 MILLIMETRE = 0.001
 GYRO_NOISE_RADPS = 0.001
+GRAVITY_MPS2 = 9.81
 TWO_SWEEPS_NS = 2 * schedule.LIDAR.period_ns
 
 
@@ -63,14 +64,16 @@ class WheelsSpeaker(Speaker):
 
 
 class ImuSpeaker(Speaker):
-    """An IMU on a base whose wheels do not slip; like a live one it never says the same twice, unless it is frozen.
+    """An IMU on level ground and a base whose wheels do not slip.
+
+    Like a live one it never says the same twice, unless it is frozen.
 
     Attributes:
         is_frozen: True while it repeats itself.
     """
 
     def __init__(self, wheels: WheelsSpeaker) -> None:
-        super().__init__(names.IMU_DATA, Imu(), schedule.SENSORS)
+        super().__init__(names.IMU_DATA, Imu(linear_acceleration=Vector3(0.0, 0.0, GRAVITY_MPS2)), schedule.SENSORS)
         self._wheels = wheels
         self.is_frozen = False
 

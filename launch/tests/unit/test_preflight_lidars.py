@@ -152,7 +152,9 @@ def test_drive_control_is_never_blind_with_a_lidar_that_keeps_its_data_sheet(lid
         now_ns = round(1e9 * (1.0 + after_s(lidar))) + tick * DRIVE_CONTROL.period_ns
         newest = sweep(lidar, int((now_ns * 1e-9 - 1.0 - after_s(lidar) + 1e-6) * lidar.rate_hz))
         odometry = SimpleNamespace(x_m=0.0, y_m=0.0, heading_rad=heading_rad, linear_mps=0.0, angular_radps=turn_radps)
-        decision = control.step(now_ns, planner=(0.0, 0.3), front=newest, rear=newest, odometry=odometry)
+        imu = SimpleNamespace(angular_velocity=(0.0, 0.0, turn_radps),
+                              acceleration=(0.0, 0.0, 9.81 + 1e-3 * (tick % 7)))
+        decision = control.step(now_ns, planner=(0.0, 0.3), front=newest, rear=newest, odometry=odometry, imu=imu)
         turn_radps = decision.angular_radps
         heading_rad += turn_radps * DRIVE_CONTROL.period_ns * 1e-9
         said.add(decision.message)

@@ -32,7 +32,8 @@ DriveControl::DriveControl(const Parameters& parameters, const CollisionParamete
       area_guard_(area, shape.footprint),
       limiter_(limits_, period_s),
       step_s_(period_s),
-      expected_step_s_(period_s) {
+      expected_step_s_(period_s),
+      tilt_(parameters) {
   check(parameters);
 }
 
@@ -40,6 +41,7 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   time_step(tick_ns);
   collision_stop_.take(tick_ns, with_gyro(tick_ns, inputs), expected_step_s_ - period_s_);
   area_guard_.take(tick_ns, inputs.area, inputs.sensors.motion ? inputs.sensors.motion->velocity : Velocity{});
+  watch_tilt(tick_ns, inputs);
   adapt_limits(tick_ns, inputs.key);
   follow_wheels(tick_ns, inputs.sensors.motion);
   const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
@@ -72,7 +74,7 @@ Sensors DriveControl::with_gyro(std::int64_t tick_ns, const Inputs& inputs) cons
 
 void DriveControl::adapt_limits(std::int64_t tick_ns, const std::optional<KeyHeight>& key) {
   const bool is_known = key && mtr_core::is_fresh(key->stamp_ns, tick_ns, parameters_.peripherals_timeout_s);
-  limits_ = limits_at(parameters_, is_known ? key->height_m : parameters_.key_raised_m);
+  limits_ = tilt_.limits_at(is_known ? key->height_m : parameters_.key_raised_m);
   limiter_.set_limits(limits_);
 }
 
@@ -104,10 +106,12 @@ Velocity DriveControl::pursue(std::int64_t tick_ns, const Inputs& inputs, const 
   const Assessment assessment = collision_stop_.assess(tick_ns, wanted, normal_deceleration());
   decision.zone = assessment.zone;
   decision.hindrance = assessment.hindrance;
+  const bool is_level = permits_tilt(selection, decision);
   if (!decision.message) {
     decision.message = assessment.message;
   }
-  if (!selection.velocity || assessment.zone == Zone::kBlind || limiter_.leads(inputs.sensors.motion->velocity)) {
+  if (!selection.velocity || !is_level || assessment.zone == Zone::kBlind ||
+      limiter_.leads(inputs.sensors.motion->velocity)) {
     return limiter_.braked();
   }
   const Velocity inside = keep_in_area({assessment.velocity, wanted.by_hand}, decision);
@@ -132,6 +136,19 @@ StopPath DriveControl::stop_path(const Deceleration& deceleration) const {
   return [this, deceleration](const Velocity& velocity) {
     return collision_stop_.stopping_path_of(velocity, deceleration);
   };
+}
+
+bool DriveControl::permits_tilt(const Selection& selection, Decision& decision) const {
+  const mtr_core::Problem problem = tilt_.problem(limits_, selection.source == "manual");
+  const mtr_core::Problem told = problem ? problem : tilt_.warning();
+  const Zone zone = !problem ? Zone::kSlowed : tilt_.is_known() ? Zone::kBlocked : Zone::kBlind;
+  // A blind robot says what it does not see, and one that a person drives what is in its way.
+  if (told && decision.zone != Zone::kBlind && (problem || decision.zone < Zone::kBlocked)) {
+    decision.zone = zone;
+    decision.hindrance.reset();
+    decision.message = decision.message ? decision.message : told;
+  }
+  return !problem;
 }
 
 double DriveControl::oldest_word_s(std::int64_t tick_ns, const Inputs& inputs, const std::string& source) const {
@@ -183,6 +200,14 @@ mtr_core::Problem DriveControl::contradiction_at(std::int64_t tick_ns, const Inp
   const bool has_motion = motion && is_heard(motion->stamp_ns, tick_ns);
   const bool has_imu = inputs.imu && is_heard(inputs.imu->stamp_ns, tick_ns);
   return watch_.take(tick_ns, limiter_.sent(), has_motion ? motion : std::nullopt, has_imu ? inputs.imu : std::nullopt);
+}
+
+void DriveControl::watch_tilt(std::int64_t tick_ns, const Inputs& inputs) {
+  const std::optional<Motion>& motion = inputs.sensors.motion;
+  const bool has_motion = motion && is_heard(motion->stamp_ns, tick_ns);
+  const bool has_imu = inputs.imu && is_heard(inputs.imu->stamp_ns, tick_ns);
+  tilt_.take(tick_ns, has_imu ? inputs.imu : std::nullopt,
+             has_motion ? std::optional<Velocity>(motion->velocity) : std::nullopt);
 }
 
 DriveControl::Selection DriveControl::wanted_at(std::int64_t tick_ns, const Inputs& inputs) const {

@@ -6,6 +6,12 @@
 #include "mtr_drive_control/collision/collision_parameters.hpp"
 
 namespace mtr_drive_control {
+namespace {
+
+// Over less than half a degree a reduction would be a stop.
+constexpr double kLeastTiltRangeRad = 0.0087;
+
+}  // namespace
 
 void check(const Parameters& parameters) {
   for (const Row& row : kRows) {
@@ -15,6 +21,8 @@ void check(const Parameters& parameters) {
                         parameters.max_linear_mps / kStopWithinS, 10.0, "m/s2");
   mtr_core::check_range("emergency_angular_deceleration_radps2", parameters.emergency_angular_deceleration_radps2,
                         parameters.max_angular_radps / kStopWithinS, 20.0, "rad/s2");
+  mtr_core::check_range("tilt_stop_rad", parameters.tilt_stop_rad, parameters.tilt_slow_rad + kLeastTiltRangeRad,
+                        0.1745, "rad");
 }
 
 void check(const CollisionParameters& parameters) {

@@ -61,6 +61,16 @@ constexpr Sentence kWaitingForOdometry{"drive_control.waiting_for_odometry", "Wa
 constexpr Sentence kOdometrySilent{"drive_control.odometry_silent", "The wheels' odometry is silent."};
 constexpr Sentence kImuSilent{"drive_control.imu_silent", "The IMU is silent."};
 
+// Slopes
+constexpr Sentence kTilted{"drive_control.tilted",
+                           "The robot is tilted by {tilt_deg:.0f} degrees; it drives up to {most_deg:.0f} only. Lower "
+                           "the key, then drive it off the slope with the manual controller."};
+constexpr Sentence kTiltedTooFar{"drive_control.tilted_too_far",
+                                 "The robot is tilted by {tilt_deg:.0f} degrees, too far to be driven at all. Hold the "
+                                 "mast, lower the key, and move the robot to level ground by hand."};
+constexpr Sentence kTiltUnknown{"drive_control.tilt_unknown",
+                                "The tilt is not known: the IMU shows no gravity. Check its driver."};
+
 // Motion that contradicts what was sent
 constexpr Sentence kOdometryFrozen{"drive_control.odometry_frozen",
                                    "The wheels' odometry is frozen: it repeats the same values in motion."};

@@ -18,6 +18,32 @@ double centre_of_mass_m(const Parameters& parameters, double key_height_m) {
   return parameters.centre_of_mass_m + parameters.centre_of_mass_rise * height_m;
 }
 
+// A robot that lies on its side still has a deceleration; nothing moves it there.
+constexpr double kLeastShare = 0.15;
+constexpr double kUprightRad = 1.5;
+
+/// Share of an acceleration limit that is left when the slope pulls with this acceleration, too.
+double share_left(double limit_mps2, double pull_mps2) { return std::max(kLeastShare, 1.0 - pull_mps2 / limit_mps2); }
+
+/// Lowers the limits of level ground to those of a slope.
+void reduce(Limits& limits, double along_mps2, double across_mps2, double tilt_rad) {
+  const double excess_rad = std::min(tilt_rad, kUprightRad) - limits.tilt_slow_rad;
+  const double pull_mps2 = kGravityMps2 * std::sin(excess_rad);
+  const double share = share_left(along_mps2, pull_mps2);
+  for (double Parameters::*each : {&Parameters::linear_acceleration_mps2, &Parameters::linear_deceleration_mps2,
+                                   &Parameters::emergency_linear_deceleration_mps2}) {
+    limits.*each *= share;
+  }
+  limits.lateral_acceleration_mps2 *= share_left(across_mps2, pull_mps2);
+  const double steepness = std::min(1.0, excess_rad / (limits.tilt_stop_rad - limits.tilt_slow_rad));
+  const auto slowed = [steepness](double level, double creep) {
+    return level + steepness * (std::min(level, creep) - level);
+  };
+  limits.max_linear_mps = std::min(slowed(limits.max_linear_mps, limits.tilt_creep_mps), limits.fastest_straight_mps());
+  // The yaw rate whose stop is as hard on the wheels as one from this speed.
+  limits.max_angular_radps = slowed(limits.max_angular_radps, limits.tilt_creep_mps / limits.curve_lever_m);
+}
+
 }  // namespace
 
 double Limits::straight_speed_mps(const Velocity& velocity) const {
@@ -52,7 +78,7 @@ double static_limit_mps2(const Parameters& parameters, double key_height_m) {
   return kGravityMps2 * parameters.tip_lever_along_m / centre_of_mass_m(parameters, key_height_m);
 }
 
-Limits limits_at(const Parameters& parameters, double key_height_m) {
+Limits limits_at(const Parameters& parameters, double key_height_m, double tilt_rad) {
   const double per_lever = parameters.tip_margin * kGravityMps2 / centre_of_mass_m(parameters, key_height_m);
   const double along_mps2 = per_lever * parameters.tip_lever_along_m;
   const double across_mps2 = per_lever * parameters.tip_lever_across_m;
@@ -63,6 +89,9 @@ Limits limits_at(const Parameters& parameters, double key_height_m) {
   }
   limits.lateral_acceleration_mps2 = std::min(parameters.lateral_acceleration_mps2, across_mps2);
   limits.max_linear_mps = std::min(parameters.max_linear_mps, limits.fastest_straight_mps());
+  if (tilt_rad > parameters.tilt_slow_rad) {
+    reduce(limits, along_mps2, across_mps2, tilt_rad);
+  }
   return limits;
 }
 

@@ -73,6 +73,8 @@ def test_disk_that_tells_nothing_is_none_that_is_full():
 @pytest.mark.parametrize("code, is_told", [("drive_control.imu_frozen", True), ("drive_control.lidar_silent", True),
                                            ("drive_control.waiting_for_lidar", True),
                                            ("drive_control.waiting_for_odometry", True),
+                                           ("drive_control.tilted", True), ("drive_control.tilted_too_far", True),
+                                           ("drive_control.tilt_unknown", True),
                                            ("drive_control.obstacle", False), ("dispatcher.no_application", False)])
 def test_operator_reads_which_sensor_stops_the_wheels(code, is_told):
     drive = DriveStatus(message="Why.", problems=[ProblemMessage(code=code, text="Why.")])

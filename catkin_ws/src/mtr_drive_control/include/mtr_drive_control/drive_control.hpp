@@ -15,6 +15,7 @@
 #include "mtr_drive_control/motion_locks.hpp"
 #include "mtr_drive_control/motion_watch.hpp"
 #include "mtr_drive_control/parameters.hpp"
+#include "mtr_drive_control/tilt.hpp"
 #include "mtr_drive_control/velocity_limiter.hpp"
 
 namespace mtr_drive_control {
@@ -52,7 +53,7 @@ struct Inputs {
   std::optional<SourceCommand> planner;
   Sensors sensors;
   std::optional<KeyHeight> key;
-  /// Nothing where there is no IMU; one that was heard has to go on.
+  /// Without one the tilt is not known and the robot stands.
   std::optional<ImuReading> imu = std::nullopt;
   AreaInputs area = {};
   /// Of the planner's motion; nothing where no state machine takes part. A person with the manual controller has the
@@ -66,6 +67,9 @@ struct Inputs {
 /// for at the normal limit. Every velocity that is sent is one from which an emergency stop ends before a collision,
 /// and within kStandstillWithinS of the oldest word on which it rests: who is late slows the robot before it counts as
 /// dead.
+///
+/// On a slope the limits are lower, and from tilt_stop_rad on, or while the tilt is not known, the robot stops as for
+/// an obstacle, see tilt.hpp. A person may drive it off slowly.
 ///
 /// A motion that contradicts what was sent, see motion_watch.hpp, is a lock of its own: it is released when nobody has
 /// wanted to move for a while.
@@ -102,6 +106,9 @@ class DriveControl {
   /// Locks of others, and its own.
   std::vector<EngagedLock> locks_at(std::int64_t tick_ns, const Inputs& inputs);
   mtr_core::Problem contradiction_at(std::int64_t tick_ns, const Inputs& inputs);
+  void watch_tilt(std::int64_t tick_ns, const Inputs& inputs);
+  /// False when the tilt forbids the motion, and then the decision says so.
+  bool permits_tilt(const Selection& selection, Decision& decision) const;
   Selection wanted_at(std::int64_t tick_ns, const Inputs& inputs) const;
   Selection selection_of(const std::string& source, const std::optional<SourceCommand>& command,
                          std::int64_t tick_ns) const;
@@ -130,6 +137,7 @@ class DriveControl {
   /// Until the next one.
   double expected_step_s_;
   MotionWatch watch_;
+  TiltWatch tilt_;
   mtr_core::Problem contradiction_;
   Duration rest_;
 };

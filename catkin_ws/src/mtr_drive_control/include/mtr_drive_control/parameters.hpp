@@ -54,12 +54,18 @@ struct Parameters {
   /// it later. At 1 m/s2 and 2 rad/s2 it is what a base has to catch up with that answers in 0.3 and 0.4 s.
   double max_lead_mps = 0.3;
   double max_lead_radps = 0.8;
+  /// Tilt from which speed and accelerations are reduced: 2 deg. Joints and waves of a car park are below.
+  double tilt_slow_rad = 0.0349;
+  /// Tilt at which the robot stops: 4 deg. See tip_over.hpp for what the mast survives there.
+  double tilt_stop_rad = 0.0698;
+  /// At that tilt, and where a person drives the robot off a steeper slope, no faster than this.
+  double tilt_creep_mps = 0.15;
 };
 
 using Row = mtr_core::ParameterRow<Parameters>;
 
 /// Range and unit of each parameter.
-inline constexpr std::array<Row, 20> kRows{{
+inline constexpr std::array<Row, 23> kRows{{
     {"max_linear_mps", &Parameters::max_linear_mps, 0.05, 2.0, "m/s"},
     {"max_angular_radps", &Parameters::max_angular_radps, 0.1, 4.0, "rad/s"},
     {"linear_acceleration_mps2", &Parameters::linear_acceleration_mps2, 0.1, 3.0, "m/s2"},
@@ -80,9 +86,13 @@ inline constexpr std::array<Row, 20> kRows{{
     {"peripherals_timeout_s", &Parameters::peripherals_timeout_s, 0.2, 5.0, "s"},
     {"max_lead_mps", &Parameters::max_lead_mps, 0.1, 2.0, "m/s"},
     {"max_lead_radps", &Parameters::max_lead_radps, 0.2, 4.0, "rad/s"},
+    {"tilt_slow_rad", &Parameters::tilt_slow_rad, 0.0, 0.0873, "rad"},
+    {"tilt_stop_rad", &Parameters::tilt_stop_rad, 0.01, 0.1745, "rad"},
+    {"tilt_creep_mps", &Parameters::tilt_creep_mps, 0.05, 0.3, "m/s"},
 }};
 
-/// Throws ConfigurationError unless each value is in its range and an emergency stop ends within kStopWithinS.
+/// Throws ConfigurationError unless each value is in its range, an emergency stop ends within kStopWithinS, and the
+/// robot is slowed at a smaller tilt than it is stopped at.
 void check(const Parameters& parameters);
 
 }  // namespace mtr_drive_control

@@ -34,10 +34,18 @@ struct Limits : Parameters {
 /// Deceleration at which the robot would tip over its front wheels if it were stiff, with the key at this height.
 double static_limit_mps2(const Parameters& parameters, double key_height_m);
 
-/// The limits that hold with the key at this height above ground: static tip-over limit times its margin.
+/// The limits that hold with the key at this height above ground and the ground tilted by this angle: static tip-over
+/// limit times its margin.
 ///
 /// A body on wheels tips when acceleration * height of the centre of mass exceeds g * its horizontal distance from the
 /// wheels' line. The permitted speed is lowered with the emergency deceleration, so that a stop still ends in time.
-Limits limits_at(const Parameters& parameters, double key_height_m);
+///
+/// On a slope of angle s the weight pulls with g * sin(s) downhill, in the direction in which a stop on the way down
+/// throws the body. That is the worst case, and it is assumed for each direction. The margin leaves room for
+/// tilt_slow_rad; what exceeds it is subtracted: the deceleration is lowered by g * sin(s - tilt_slow_rad), and the
+/// other accelerations in the same ratio. So a stop on a steeper slope loads the wheels no more than one at
+/// tilt_slow_rad. The speed falls evenly to tilt_creep_mps at tilt_stop_rad, as the base's own stop brakes as hard as
+/// on level ground: from a small speed that stop ends before the robot has tipped.
+Limits limits_at(const Parameters& parameters, double key_height_m, double tilt_rad = 0.0);
 
 }  // namespace mtr_drive_control

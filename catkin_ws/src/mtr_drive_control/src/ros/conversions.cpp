@@ -63,7 +63,11 @@ std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& recei
   }
   const auto& rate = received.message->angular_velocity;
   const auto& force = received.message->linear_acceleration;
-  const ImuReading reading{received.time_ns, {rate.x, rate.y, rate.z}, {force.x, force.y, force.z}};
+  // An IMU without accelerometer (REP-145) shows no gravity, whatever its message holds.
+  const bool has_force = received.message->linear_acceleration_covariance[0] >= 0.0;
+  const double share = has_force ? 1.0 : 0.0;
+  const ImuReading reading{
+      received.time_ns, {rate.x, rate.y, rate.z}, {share * force.x, share * force.y, share * force.z}};
   // What no robot's IMU shows is as good as silent.
   return reading.is_plausible() ? reading : ImuReading{mtr_core::kNeverNs, {}, {}};
 }

@@ -140,7 +140,9 @@ class TestRobot {
     (by_hand ? inputs.manual : inputs.planner) = command;
     inputs.sensors = {front_, rear_,
                       Motion{odometry_is_silent ? now_ns - 1000 * kTestMs : now_ns, odom_from_base, wheels}, map};
-    inputs.key = KeyHeight{now_ns, 0.35};
+    inputs.key = KeyHeight{now_ns, key_height_m};
+    inputs.imu = imu((wheels.linear_mps - wheels_before_.linear_mps) / period_s);
+    wheels_before_ = wheels;
     inputs.area = area ? area() : AreaInputs{};
     inputs.speed_limit = speed_limit;
     const Decision decision = control.step(now_ns, inputs);
@@ -183,10 +185,28 @@ class TestRobot {
   /// The test area, and the pose in it.
   std::function<AreaInputs()> area;
   std::optional<SpeedLimit> speed_limit;
+  double key_height_m = 0.35;
+  /// Of the ground, downhill ahead; it changes without a turn that the gyro shows.
+  double pitch_rad = 0.0;
+  /// Changes what the IMU says.
+  std::function<void(ImuReading&)> spoil_imu;
   /// Changes what a LiDAR says, front or rear.
   std::function<void(Sweep&, bool is_rear)> spoil;
 
  private:
+  /// What a live IMU says: never the same twice.
+  ImuReading imu(double acceleration_mps2) const {
+    const double noise = 1e-3 * std::sin(static_cast<double>(now_ns / kTestMs));
+    ImuReading reading{now_ns,
+                       {noise, -noise, grip * wheels.angular_radps + noise},
+                       {acceleration_mps2 - 9.81 * std::sin(pitch_rad) + noise,
+                        wheels.linear_mps * grip * wheels.angular_radps, 9.81 * std::cos(pitch_rad)}};
+    if (spoil_imu) {
+      spoil_imu(reading);
+    }
+    return reading;
+  }
+
   // The sweep that has just ended, as seen when it ended.
   void observe() {
     const RobotShape shape = test_shape(true);
@@ -208,6 +228,7 @@ class TestRobot {
   }
 
   bool has_rear_lidar_;
+  Velocity wheels_before_;
   std::shared_ptr<const Sweep> front_;
   std::shared_ptr<const Sweep> rear_;
 };

@@ -14,6 +14,7 @@ namespace {
 
 constexpr std::int64_t kMs = mtr_core::kMillisecondNs;
 constexpr std::int64_t kTickNs = 5000 * kMs;
+const ImuReading kLevel{kTickNs, {}, {0.0, 0.0, 9.81}};
 
 class DriveControlTest : public ::testing::Test {
  protected:
@@ -26,8 +27,8 @@ class DriveControlTest : public ::testing::Test {
                 const std::optional<SourceCommand>& planner) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
     const Motion motion{kTickNs, Pose(), sent};
-    const Decision decision =
-        control.step(kTickNs, {locks, 0.0, manual, planner, {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}});
+    const Decision decision = control.step(
+        kTickNs, {locks, 0.0, manual, planner, {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}, kLevel});
     sent = decision.velocity;
     return decision;
   }
@@ -114,7 +115,8 @@ TEST_F(DriveControlTest, LateLockSlowsTheRobotBeforeItCountsAsSilentAndItStandsH
     const Motion motion{kTickNs, Pose(), sent};
     sent =
         control
-            .step(kTickNs, {{}, age_s, std::nullopt, command(1.5), {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}})
+            .step(kTickNs,
+                  {{}, age_s, std::nullopt, command(1.5), {sweep, nullptr, motion}, KeyHeight{kTickNs, 0.35}, kLevel})
             .velocity;
     EXPECT_LE(age_s + sent.linear_mps / limits.emergency_linear_deceleration_mps2, kStandstillWithinS + 1e-9);
     EXPECT_LE(speed_mps - sent.linear_mps, 1.01 * limits.emergency_linear_deceleration_mps2 * 0.02);
@@ -159,7 +161,8 @@ TEST_F(DriveControlTest, UnknownKeyHeightLowersTheSpeedToThatOfTheRaisedKey) {
   for (int tick = 0; tick < 100; ++tick) {
     const auto sweep = Scene().sweep(Pose(), kTickNs - 40 * kMs);
     decision = control.step(
-        kTickNs, {{}, 0.0, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), sent}}, std::nullopt});
+        kTickNs,
+        {{}, 0.0, std::nullopt, command(1.5), {sweep, nullptr, Motion{kTickNs, Pose(), sent}}, std::nullopt, kLevel});
     sent = decision.velocity;
   }
   EXPECT_DOUBLE_EQ(decision.velocity.linear_mps, limits_at(Parameters{}, 1.55).max_linear_mps);

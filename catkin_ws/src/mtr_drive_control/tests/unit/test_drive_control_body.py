@@ -65,8 +65,9 @@ def sent_ahead(range_m):
         stamp_ns=now_ns, angle_min_rad=-0.75 * math.pi, angle_increment_rad=1.5 * math.pi / (beams - 1),
         time_increment_s=0.0, range_min_m=0.1, range_max_m=30.0, ranges_m=[range_m] * beams)
     standing = SimpleNamespace(x_m=0.0, y_m=0.0, heading_rad=0.0, linear_mps=0.0, angular_radps=0.0)
+    level = SimpleNamespace(angular_velocity=(0.0, 0.0, 0.0), acceleration=(0.0, 0.0, 9.81))
     control = core.DriveControl(shipped_urdf())
-    return control.step(now_ns, planner=(0.2, 0.0), front=sweep, rear=sweep, odometry=standing)
+    return control.step(now_ns, planner=(0.2, 0.0), front=sweep, rear=sweep, odometry=standing, imu=level)
 
 
 def test_robot_of_mtr_description_is_served():

@@ -45,5 +45,11 @@ TEST(Parameters, EmergencyDecelerationTooWeakForHalfASecondIsRefused) {
             "Parameter emergency_linear_deceleration_mps2 is 2 m/s2; allowed is 2.77778 to 10 m/s2.");
 }
 
+TEST(Parameters, TiltThatStopsHasToBeBeyondTheOneThatSlows) {
+  Parameters parameters;
+  parameters.tilt_stop_rad = parameters.tilt_slow_rad;
+  EXPECT_NE(refusal_of(parameters).find("Parameter tilt_stop_rad is "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace mtr_drive_control

@@ -66,6 +66,60 @@ TEST(TipOver, TurnOnTheSpotIsNotSlowedByTheTippingLimits) {
   EXPECT_DOUBLE_EQ(limits_at(Parameters{}, 1.55).permitted_share({0.0, 1.5}), 1.0);
 }
 
+TEST(TipOver, UpToTheSmallTiltTheLimitsAreThoseOfLevelGround) {
+  for (const double tilt_rad : {0.0, 0.01, 0.0349}) {
+    for (const Row& row : kRows) {
+      EXPECT_EQ(limits_at(Parameters{}, 1.55, tilt_rad).*(row.member), limits_at(Parameters{}, 1.55).*(row.member));
+    }
+  }
+}
+
+TEST(TipOver, SlopeBeyondTheSmallTiltIsSubtractedFromTheDeceleration) {
+  const Parameters parameters;
+  for (const double key_m : {0.35, 1.55}) {
+    const double level = limits_at(parameters, key_m).emergency_linear_deceleration_mps2;
+    for (const double tilt_rad : {0.05, 0.0698, 0.1}) {
+      EXPECT_NEAR(limits_at(parameters, key_m, tilt_rad).emergency_linear_deceleration_mps2,
+                  level - 9.81 * std::sin(tilt_rad - parameters.tilt_slow_rad), 1e-9);
+    }
+  }
+}
+
+TEST(TipOver, StopOnASlopeLoadsTheWheelsNoMoreThanOneAtTheSmallTilt) {
+  // What throws the body over its front wheels, on tyres on which a sudden stop counts half as much again.
+  const Parameters parameters;
+  const auto thrown_mps2 = [&](double tilt_rad) {
+    return 1.5 * limits_at(parameters, 1.55, tilt_rad).emergency_linear_deceleration_mps2 + 9.81 * std::sin(tilt_rad);
+  };
+  for (double tilt_rad = 0.04; tilt_rad < 0.2; tilt_rad += 0.01) {
+    EXPECT_LE(thrown_mps2(tilt_rad), thrown_mps2(parameters.tilt_slow_rad) + 1e-9);
+    EXPECT_LT(thrown_mps2(tilt_rad), 0.9 * static_limit_mps2(parameters, 1.55));
+  }
+}
+
+TEST(TipOver, LimitsFallWithoutAStepAndStayPositive) {
+  Limits before = limits_at(Parameters{}, 1.55);
+  for (double tilt_rad = 0.0; tilt_rad < 3.1; tilt_rad += 0.001) {
+    const Limits limits = limits_at(Parameters{}, 1.55, tilt_rad);
+    for (double Parameters::*each : {&Parameters::linear_acceleration_mps2, &Parameters::linear_deceleration_mps2,
+                                     &Parameters::emergency_linear_deceleration_mps2, &Parameters::max_linear_mps,
+                                     &Parameters::lateral_acceleration_mps2, &Parameters::max_angular_radps}) {
+      EXPECT_LE(limits.*each, before.*each);
+      EXPECT_GT(limits.*each, before.*each - 0.03);
+      EXPECT_GT(limits.*each, 0.0);
+    }
+    EXPECT_LE(limits.max_linear_mps / limits.emergency_linear_deceleration_mps2, kStopWithinS + 1e-9);
+    before = limits;
+  }
+}
+
+TEST(TipOver, AtTheTiltThatStopsTheRobotItIsAsSlowAsAPersonMayDriveItOff) {
+  const Parameters parameters;
+  for (const double key_m : {0.35, 1.55}) {
+    EXPECT_NEAR(limits_at(parameters, key_m, parameters.tilt_stop_rad).max_linear_mps, parameters.tilt_creep_mps, 1e-9);
+  }
+}
+
 TEST(TipOver, TopHeavyRobotIsLimitedInEveryAcceleration) {
   Parameters parameters;
   parameters.centre_of_mass_m = 1.5;

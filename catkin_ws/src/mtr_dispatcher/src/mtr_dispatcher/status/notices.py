@@ -22,7 +22,7 @@ MAX_FOREIGN = 16
 # Codes of drive control's sentences about sensors and base; others tell of obstacles, locks and sources.
 PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
     "waiting_for_lidar", "waiting_for_odometry", "lidar_", "odometry_", "imu_", "base_", "wheels_slip",
-    "second_publisher"))
+    "second_publisher", "tilt"))
 # Drive control at the border of the test area, and without a position in it.
 BORDER_OF_DRIVE = ("drive_control.area_", "drive_control.outside_area")
 # A robot that waits for a test area: the Operator has to act.
