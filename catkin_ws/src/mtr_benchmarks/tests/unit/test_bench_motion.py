@@ -9,11 +9,12 @@ from shapely.geometry import Polygon
 
 from mtr_benchmarks.harness.lines import line
 from mtr_benchmarks.harness.rows import all_met
-from mtr_benchmarks.motion import encounters, latency, posts, tip_over, tracking, wide_encounters
+from mtr_benchmarks.motion import encounters, grounds, latency, posts, tip_over, tracking, wide_encounters
 from mtr_benchmarks.motion.__main__ import PROMISED, report
 from mtr_benchmarks.motion.bound import Ends, lower_bound, shortest_way
 from mtr_benchmarks.motion.encounter import EncounterEnd, simulate
 from mtr_benchmarks.motion.limiter import PERIOD_S, Limiter
+from mtr_benchmarks.motion.rig import Rig
 from mtr_benchmarks.motion.trial import DrivenLeg
 from mtr_core.se2 import Pose2
 from mtr_core.states import Result
@@ -25,6 +26,8 @@ from mtr_motion_planner.parameters import MotionParameters
 from mtr_motion_planner.search.options import Target
 from mtr_motion_planner.search.planning import Planning
 from mtr_motion_planner.timing.plan import Moving
+from mtr_simulation.site.scenario import Scenario
+from mtr_simulation.site.surroundings import Wall
 
 PARAMETERS = MotionParameters()
 OUTLINE = RobotOutline(shipped_geometry().footprint(), PARAMETERS.slip)
@@ -106,6 +109,7 @@ def parts(**changed):
         "wide_encounters": wide_encounters.WideEncounterFigures(
             300, 0, 0, 4, 20, {"wide": 300, "walker": 100, "child": 50, "lying": 20}, {"lying": [0.5]}, {"lying": [7]}),
         "tip_over": tip_over.TipOverFigures(1.0, {"start": 1.0}, [60.0], {}),
+        "grounds": grounds.GroundFigures(2.0, 20.0, 0.4, 0.0, 0.5, 0, 3, 1.5, 0, 5.0, 0.0, {}),
         "latency": latency.LatencyFigures(20.0, 3.0, 25.0, 400, 5.0),
     }
     return {name: replace(part, **{key: value for key, value in changed.items() if hasattr(part, key)})
@@ -117,7 +121,9 @@ def test_promised_figures_are_numbers_on_top_and_everything_is_below():
     assert list(written) == [*PROMISED, "details", "table"]
     assert written["encounters"] == 1000 and written["details"]["tracking"]["pairs"] == 200
     assert written["details"]["tracking"]["min_clearance_m"] is None, "JSON has no infinity"
-    assert len(written["table"]) == len(PROMISED) + len((tracking.NOT_REACHED, tracking.CONTACTS))
+    more = (tracking.NOT_REACHED, tracking.CONTACTS, grounds.WAY, grounds.STEEP_WAY, grounds.DEAD_STOP,
+            grounds.CONTACTS, grounds.SLIPPERY_STOP, grounds.CABLE_LOAD)
+    assert len(written["table"]) == len(PROMISED) + len(more)
 
 
 def test_parts_that_were_not_run_have_no_rows():
@@ -131,6 +137,10 @@ def test_parts_that_were_not_run_have_no_rows():
     ("time_ratio_median", 99.0, True), ("not_reached", ["pair 7: REFUSED There is no way."], False),
     ("wide_movers", 299, False), ("wide_contacts_while_moving", 1, False), ("walker_contacts_while_moving", 1, False),
     ("child_contacts_while_moving", 50, True), ("lying_contacts_while_moving", 0, True),
+    ("slope_load_n", 0.9, False), ("climb_load_n", 0.0, False), ("slope_way_m", 0.1, False),
+    ("steep_way_m", 0.1, False), ("contacts", 1, False), ("dead_stop_load_n", 0.0, True),
+    ("slippery_contacts", 8, True), ("slippery_stop_m", 9.0, True),
+    ("cable_stops", 1, False), ("cable_tilt_deg", 8.1, False), ("cable_load_n", 0.0, True),
     ("contacts_with_car", 1, False), ("over_speed_limit_mps", 0.021, False), ("post_ways_driven", 0.9, False)])
 def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
     rows = report(parts(**{key: value})).rows
@@ -206,3 +216,50 @@ def test_drawn_movers_are_as_fast_as_their_group():
     assert max(speeds["walker"]) == wide_encounters.WALKING_MPS and min(speeds["walker"]) >= 1.5
     assert set(speeds["child"]) == {wide_encounters.RUNNING_MPS} and set(speeds["lying"]) == {0.0}
     assert max(speeds["wide"]) == 1.5
+
+
+def test_every_ground_is_driven_with_both_keys_and_no_drive_has_the_name_of_another():
+    found = grounds.drives()
+    assert len({drive.name for drive in found}) == len(found)
+    for key in ("low", "raised"):
+        own = [drive for drive in found if drive.key == key]
+        assert {drive.slope_deg for drive in own} >= {2.0, 3.0, 4.0, 6.0}
+        assert {drive.friction for drive in own} == {0.5, 0.3, 0.2, 0.15, 0.1}
+        assert {drive.obstacle for drive in own} == {"", "wall", "cable"}
+
+
+def test_figures_of_grounds_are_the_worst_of_their_drives():
+    found = grounds.drives()
+    fine = grounds.DriveEnd(20.0, 0.1, 0.5, 0.7, 3.0, False, 0)
+    ends = [fine._replace(way_m=0.01) if drive.slope_deg == 6.0 and drive.driver == grounds.PLANNER else fine
+            for drive in found]
+    assert all_met(grounds.figures(found, ends).rows())
+    bad = {grounds.SLOPE: ({"slope_deg": 3.0, "driver": "planner"}, fine._replace(least_load_n=0.5)),
+           grounds.CLIMB: ({"slope_deg": 4.0, "driver": "hand"}, fine._replace(least_load_n=0.5)),
+           grounds.WAY: ({"slope_deg": 2.0}, fine._replace(way_m=0.05)),
+           grounds.STEEP_WAY: ({"slope_deg": 6.0, "driver": "planner"}, fine._replace(way_m=-0.2)),
+           grounds.CONTACTS: ({"obstacle": "wall", "friction": 0.3}, fine._replace(touched=True)),
+           grounds.CABLE_STOPS: ({"obstacle": "cable"}, fine._replace(stops=1)),
+           grounds.CABLE_TILT: ({"obstacle": "cable"}, fine._replace(tilt_deg=9.0))}
+    for requirement, (which, end) in bad.items():
+        worst = next(index for index, drive in enumerate(found)
+                     if all(getattr(drive, key) == value for key, value in which.items()))
+        rows = grounds.figures(found, [*ends[:worst], end, *ends[worst + 1:]]).rows()
+        assert [row.requirement for row in rows if not row.is_met] == [requirement]
+
+
+def test_planner_stands_on_a_steep_slope_and_a_person_drives_off_it():
+    steep = grounds.Drive("low", slope_deg=6.0)
+    assert abs(grounds.simulate(steep).way_m) < grounds.STEEP_WAY.must
+    by_hand = grounds.simulate(steep._replace(driver=grounds.HAND))
+    assert 0.2 < by_hand.way_m < 0.5 and by_hand.least_load_n > grounds.CLIMB.must
+
+
+@pytest.mark.parametrize("seed", [2, 3, 4])
+def test_waves_of_one_degree_neither_slow_nor_stop_the_robot(seed):
+    walls = tuple(Wall(Pose2(0.0, side, 0.0), 16.0) for side in (6.0, -6.0))
+    away = grounds.FAR_AWAY
+    rig = Rig(Scenario(world_from_car=away, start_in_car=away.inverse(), start_offset_m=0.0, start_offset_rad=0.0,
+                       walls=walls, ground_tilt_rad=math.radians(1.0)), seed, lift_m=grounds.LIFTS_M["raised"])
+    sent = [rig.step((0.5, 0.0)).linear_mps for _ in range(400)]
+    assert min(sent[50:]) == pytest.approx(0.5) and rig.decision.message == ""

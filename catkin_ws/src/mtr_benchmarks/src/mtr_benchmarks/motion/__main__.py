@@ -14,13 +14,14 @@ from ..harness.report import BenchmarkReport, finish, write
 from .options import MotionOptions
 
 # Modules with a function `measure` that returns figures with rows.
-PARTS = ("tracking", "posts", "encounters", "wide_encounters", "tip_over", "latency")
+PARTS = ("tracking", "posts", "encounters", "wide_encounters", "tip_over", "grounds", "latency")
 # Figures on top of the file, in this order.
 PROMISED = ("time_ratio_median", "time_ratio_p95", "cross_track_p95_m", "heading_p95_deg", "stop_error_p95_m",
             "stop_heading_p95_deg", "over_speed_limit_mps", "post_ways_driven", "encounters", "contacts_while_moving",
             "false_stops", "wide_movers", "wide_contacts_while_moving", "walker_contacts_while_moving",
             "child_contacts_while_moving", "lying_contacts_while_moving", "stop_latency_p99_ms",
-            "drive_control_cpu_percent", "tip_margin_n")
+            "drive_control_cpu_percent", "tip_margin_n",
+            "slope_load_n", "climb_load_n", "slippery_contacts", "cable_stops", "cable_tilt_deg")
 
 
 def main(arguments: Optional[List[str]] = None) -> int:

@@ -69,18 +69,22 @@ class Rig:
         truth = self.sim.truth()
         return fastest_point_mps(truth.linear_mps, truth.angular_radps, truth.lateral_mps)
 
-    def step(self, velocity: Velocity, locked: bool = False) -> Any:
-        """One tick with this velocity of the planner, or with a motion lock; drive control's decision."""
+    def step(self, velocity: Velocity, locked: bool = False, by_hand: bool = False) -> Any:
+        """One tick with this velocity of the planner or a person, or with a motion lock; drive control's decision."""
         sensors = self._sensors
         self._front = sensors.front_scan or self._front
         self._rear = sensors.rear_scan or self._rear
+        wanted = {"manual" if by_hand else "planner": velocity}
         self.decision = self._control.step(
-            sensors.time_ns, planner=velocity, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
-            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu,
-            map=self._map)
+            sensors.time_ns, **wanted, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
+            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu, map=self._map)
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()
         return self.decision
+
+    def leave_alone(self) -> None:
+        """One tick in which drive control is dead: nothing is sent to the base."""
+        self._sensors = self.sim.step()
 
     def _settled(self, lift_m: float) -> Sensors:
         """Raise the lift and wait until nothing sways; the last readings."""
