@@ -19,6 +19,13 @@ def test_procedure_is_an_item_of_the_checklist_or_a_section_of_the_page(measure)
     assert name in (Check.__members__ if kind == "checklist" else anchors(page.OPERATION))
 
 
+@pytest.mark.parametrize("measure", [each for each in model.measures(FILE) if each.type == model.HARDWARE and each.where],
+                         ids=lambda measure: measure.id)
+def test_described_hardware_is_a_section_of_its_page(measure):
+    kind, _, name = measure.where.partition(":")
+    assert kind == "hardware" and name in anchors(model.TOP / "docs" / "hardware.md")
+
+
 @pytest.mark.parametrize("measure", PROCEDURES, ids=lambda measure: measure.id)
 def test_procedure_that_no_checklist_asks_for_is_open(measure):
     assert (measure.status == model.DONE) == measure.where.startswith("checklist:")
