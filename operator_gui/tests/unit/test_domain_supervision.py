@@ -3,6 +3,7 @@
 import io
 import math
 import pathlib
+import types
 from dataclasses import replace
 
 import pytest
@@ -10,10 +11,12 @@ import yaml
 
 from mtr_operator.cli.enter import Enter
 from mtr_operator.cli.release import PresenceQuestion
+from mtr_operator.cli.run import CommandLineRun
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
-from mtr_operator.domain.errors import InvalidParameter, OperatorAbsent, RobotFailed
+from mtr_operator.domain.errors import InvalidIdentity, InvalidParameter, OperatorAbsent, RobotFailed
 from mtr_operator.domain.identity.identity import Identity
+from mtr_operator.domain.identity.laboratory import laboratory_from
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import CONDITIONS_CONFIRMED, SUPERVISION
 from mtr_operator.domain.robot_status import PREFLIGHT_VALID_S, PreflightItem, PreflightReport, RobotStatus
@@ -257,3 +260,46 @@ def test_scenarios_that_press_or_pull_are_announced(name, words):
 def test_operating_conditions_are_those_of_the_hazard_file():
     hazards = pathlib.Path(__file__).parents[3] / "docs" / "safety" / "hazards.yaml"
     assert list(yaml.safe_load(hazards.read_text(encoding="utf-8"))["odd"]) == list(CONDITIONS)
+
+
+class Keyboard:
+    """Enter of the command line, pressed by the test."""
+
+    def __init__(self):
+        self.asked = []
+
+    def ask(self, answered):
+        self.asked.append(answered)
+
+    def withdraw(self, answered):
+        self.asked = [each for each in self.asked if each != answered]
+
+
+def test_command_line_asks_for_the_conditions_first_and_for_presence_later(clock):
+    said, keyboard = [], Keyboard()
+    question = PresenceQuestion(said.append, keyboard)
+    question.presence._clock = clock
+    question.presence.ask()
+    assert said[0].startswith("Confirm by Enter within 60 s") and "attendance: one trained person" in said[0]
+    keyboard.asked[0]()
+    assert question.presence.look() == "" and not question.presence.is_asked and keyboard.asked == []
+    clock.now_s += 900.0
+    assert question.presence.look() == "" and question.presence.is_asked
+    assert said[1] == "Press Enter within 60 s to confirm that you are in sight of the robot; else it stops."
+
+
+@pytest.mark.parametrize("stop", ["", "fence monitor, PL d"])
+def test_command_line_asks_unless_a_rated_stop_is_declared(stop):
+    run, said = object.__new__(CommandLineRun), []
+    run._scenario = AUTOLOCK
+    run._identity = types.SimpleNamespace(unattended_stop=laboratory_from({"unattended_stop": stop}).unattended_stop)
+    supervision = run._supervision(types.SimpleNamespace(say=said.append), Keyboard(), REAL)
+    assert supervision.is_unattended is bool(stop) and bool(said) is not bool(stop)
+    assert supervision.missing(IN_CHARGE) == ""
+    assert run._supervision(types.SimpleNamespace(say=said.append), Keyboard(), SIMULATED).presence is None
+
+
+@pytest.mark.parametrize("wrong", [7, "two\nlines", ["fence"]])
+def test_rated_stop_that_is_no_text_is_refused(wrong):
+    with pytest.raises(InvalidIdentity, match="^unattended_stop"):
+        laboratory_from({"unattended_stop": wrong})
