@@ -97,6 +97,10 @@ def test_jackal_relays_its_hardware_stop_unless_a_person_chose_otherwise():
     config = started()
     assert config.params["/drive_control/e_stop_topics"].value == [STOP]
     assert [node.type for node in config.nodes if node.name == "base_stop"] == ["base_stop"]
+    both = started("stop_input:=true")
+    assert both.params["/drive_control/e_stop_topics"].value == [STOP, "/peripherals/stop_input"]
+    chain = started("stop_input:=true", "base_stop:=false")
+    assert chain.params["/drive_control/e_stop_topics"].value == ["/peripherals/stop_input"]
     without = started("base_stop:=false")
     assert "/drive_control/e_stop_topics" not in without.params
     assert not [node for node in without.nodes if node.name == "base_stop"]
