@@ -6,13 +6,14 @@ import pytest
 
 from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import MAX_BLIND_S, POLL_PERIOD_S, RESEND_POLLS, ControlLoop
-from mtr_operator.domain.actions.preparation import CHARGE_LIMIT_S, prepare
+from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.robot_status import Interventions, Notification, PreflightItem, PreflightReport
+from mtr_operator.domain.supervision.refusals import CHARGE_LIMIT_S
 
 AHEAD = Ray(0.0, 0.0, 1.0, 0.0)
 

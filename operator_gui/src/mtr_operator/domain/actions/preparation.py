@@ -4,18 +4,10 @@ from __future__ import annotations
 
 from typing import Callable
 
-from ..battery.levels import is_critical
-from ..errors import CarActive, RobotFailed
+from ..errors import RobotFailed
 from ..geometry.ray import Ray
-from ..robot_status import (
-    DISK_FULL_CODE,
-    NO_STOP_CODE,
-    SHEET_CONTRADICTED_CODE,
-    CarCheck,
-    Mode,
-    RobotStatus,
-)
-from ..supervision.preflight_rule import preflight_hindrance
+from ..robot_status import CarCheck, Mode, RobotStatus
+from ..supervision.refusals import refuse_contradicted_sheet, refuse_unready
 from .area import await_area
 from .car import Car
 from .control_loop import ControlLoop
@@ -26,10 +18,6 @@ START_LIMIT_S = 60.0
 MAPPING_LIMIT_S = 600.0
 # A robot gives a silent application up after 3 s, and lets the next one take over.
 CONTROL_LIMIT_S = 10.0
-# A battery reports once a second.
-CHARGE_LIMIT_S = 5.0
-# A robot tells of its preflight once a second; one of before never does.
-PREFLIGHT_LIMIT_S = 3.0
 # The first waypoint makes the robot map the Car; before that nobody knows how long the Car is, so it lies well ahead.
 _AHEAD_OF_CAR = Ray(0.0, 0.0, 1.0, 0.0)
 _AHEAD_M = 5.0
@@ -41,11 +29,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
     _wait_until(loop, START_LIMIT_S, "did not start", _has_started)
     car.prepare()
     _wait_for_control(loop)
-    _refuse_without_preflight(loop)
-    _refuse_active_car(loop)
-    _refuse_with_full_disk(loop.status)
-    _refuse_with_bad_charge(loop)
-    _refuse_without_emergency_stop(loop.status)
+    refuse_unready(loop)
     await_area(loop)
     robot.say(f"move the key to {100.0 * key_height_m:g} cm")
     robot.set_maximum_speed(maximum_speed_mps)
@@ -54,7 +38,7 @@ def prepare(loop: ControlLoop, robot: Robot, car: Car, key_height_m: float, maxi
         robot.say("map the Car")
         robot.go_to(_AHEAD_OF_CAR, _AHEAD_M)
         _wait_until(loop, MAPPING_LIMIT_S, "did not find the Car", _is_ready)
-    _refuse_contradicted_sheet(loop.status)
+    refuse_contradicted_sheet(loop.status)
 
 
 def check_car(robot: Robot) -> CarCheck | None:
@@ -91,52 +75,6 @@ def _wait_for_control(loop: ControlLoop) -> None:
         if loop.waited_s >= until_s:
             raise RobotFailed("The robot is controlled by another application; end that one, then start again.")
         loop.step()
-
-
-def _refuse_without_preflight(loop: ControlLoop) -> None:
-    until_s = loop.waited_s + PREFLIGHT_LIMIT_S
-    while loop.preflight is None and loop.waited_s < until_s:
-        loop.step()
-    hindrance = preflight_hindrance(loop.preflight, loop.status)
-    if hindrance:
-        raise RobotFailed(hindrance)
-
-
-def _refuse_active_car(loop: ControlLoop) -> None:
-    said = loop.car_guard.begin(loop.car_link.signals)
-    if said:
-        raise CarActive(f"The test does not begin. {said}")
-
-
-def _refuse_with_full_disk(status: RobotStatus) -> None:
-    for notification in status.notifications:
-        if notification.code == DISK_FULL_CODE:
-            raise RobotFailed(notification.text)
-
-
-def _refuse_with_bad_charge(loop: ControlLoop) -> None:
-    until_s = loop.waited_s + CHARGE_LIMIT_S
-    while loop.status.battery_percent is None and loop.waited_s < until_s:
-        loop.step()
-    percent = loop.status.battery_percent
-    if percent is None:
-        raise RobotFailed("The robot does not report the charge of its battery; check the topic of its battery, then "
-                          "begin the test.")
-    if is_critical(percent):
-        raise RobotFailed(f"The robot's battery is nearly empty ({percent} %); charge it, then begin "
-                          "the test.")
-
-
-def _refuse_contradicted_sheet(status: RobotStatus) -> None:
-    for notification in status.notifications:
-        if notification.code == SHEET_CONTRADICTED_CODE:
-            raise RobotFailed(notification.text)
-
-
-def _refuse_without_emergency_stop(status: RobotStatus) -> None:
-    if any(notification.code == NO_STOP_CODE for notification in status.notifications):
-        raise RobotFailed("The robot has no hand-held emergency stop, so no test begins. Start it with its controller "
-                          "(controller:=true).")
 
 
 def _wait_until(loop: ControlLoop, limit_s: float, failure: str, condition: Callable[[RobotStatus], bool]) -> None:

@@ -14,8 +14,8 @@ _FIRST_DATE_S = 978_307_200.0
 
 
 def is_simulated_robot(status: RobotStatus) -> bool:
-    """True only for a robot whose Status shows that it is a simulation; one that does not is taken for a real one."""
-    return status.waits_for_answer or abs(status.sent_s - status.steady_s) <= _SAME_CLOCK_S
+    """True only for a robot whose Status shows that it is a simulation; any other one counts as real."""
+    return status.simulated or status.waits_for_answer or abs(status.sent_s - status.steady_s) <= _SAME_CLOCK_S
 
 
 def is_simulated(status: RobotStatus) -> bool:

@@ -3,10 +3,10 @@
 from PyQt5.QtCore import QT_TRANSLATE_NOOP
 
 from ..events import sentences as events
-from . import area, cars, figures, handle, identity, keeping, learn, limits, pairing, passes
+from . import cars, figures, handle, identity, keeping, learn, limits, pairing, passes
 from .bus import can, logs
 from .keys import phone, relay
-from .safety import supervision
+from .safety import area, supervision
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "A test is being measured: stop it first, then open or begin another one."),

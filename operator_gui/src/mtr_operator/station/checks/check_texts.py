@@ -66,7 +66,8 @@ def check_text(item: Item, speech: Speech = ENGLISH) -> str:
     # Robot, link and file may say braces.
     finding, said = item.finding, speech.sentence(item.said).replace("{", "{{").replace("}", "}}")
     first, second, third = (*item.numbers, math.nan, math.nan, math.nan)[:3]
-    texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said), **_of_area(translate, said),
+    texts = {**_of_link(translate), **_of_robot(translate, said), **_of_preflight(translate, said),
+             **_of_area(translate, said),
              **_of_place(translate, said, bool(item.numbers)), **_of_way(translate, said), **_of_unseen(translate),
              **_of_conditions(translate, said), **_of_signals(speech, item.said, said),
              **_of_battery(translate),

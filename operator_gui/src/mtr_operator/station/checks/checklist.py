@@ -20,8 +20,9 @@ from .preflight_check import preflight
 LEAST_FREE_BYTES, FEW_FREE_BYTES = 50_000_000, 500_000_000
 _BYTES_PER_MB = 1e6
 # No sensor of the robot shows these, so a person has to check them before it drives around the Car.
-UNSEEN = {Check.STOP_TRIAL: Finding.STOP_UNTRIED, Check.GROUND: Finding.GROUND_UNSEEN, Check.CABLES: Finding.CABLES_UNSEEN,
-          Check.OPENINGS: Finding.OPENINGS_UNSEEN, Check.FITTINGS: Finding.FITTINGS_UNSEEN,
+UNSEEN = {Check.STOP_TRIAL: Finding.STOP_UNTRIED, Check.GROUND: Finding.GROUND_UNSEEN,
+          Check.CABLES: Finding.CABLES_UNSEEN, Check.OPENINGS: Finding.OPENINGS_UNSEEN,
+          Check.FITTINGS: Finding.FITTINGS_UNSEEN,
           Check.AREA: Finding.AREA_UNSEEN, Check.PEOPLE: Finding.PEOPLE_UNSEEN, Check.WEATHER: Finding.WEATHER_UNSEEN,
           Check.LIGHT: Finding.LIGHT_UNSEEN, Check.CAR: Finding.CAR_UNSEEN,
           Check.ATTENDANCE: Finding.ATTENDANCE_UNSEEN}
