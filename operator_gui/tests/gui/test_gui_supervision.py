@@ -4,6 +4,7 @@ import dataclasses
 
 import pytest
 from PyQt5.QtCore import Qt
+from PyQt5.QtWidgets import QShortcut
 
 from mtr_operator.domain.robot_status import PreflightReport
 from mtr_operator.domain.supervision.car_signals import IGNITION, CarSignal, SignalState
@@ -38,7 +39,8 @@ def confirm(screen):
 
 def test_simulated_robot_asks_for_nothing(operator):
     screen = operator.choose("key_press")
-    assert screen.start.isEnabled() and not screen.conditions._rows.isVisible()
+    operator.wait(screen.start.isEnabled)
+    assert not screen.conditions._rows.isVisible()
     assert screen.conditions.announcement.isVisible() and "horn" in screen.conditions.announcement.text()
     operator.begin()
     operator.finish()
@@ -65,43 +67,62 @@ def test_real_robot_starts_once_everything_is_confirmed_and_the_record_says_so(r
     assert real.choose("key_press").conditions.confirmed == ()
 
 
-class Hours:
-    """Presence parameters are for people; here a question comes after every second."""
+class Clock:
+    """Wall time of the presence, which a test sets: a busy machine answers no question late."""
 
-    period_s, answer_s = 1.0, 1.5
+    def __init__(self):
+        self.now_s = 0.0
+
+    def __call__(self):
+        return self.now_s
 
 
-def begin(real, monkeypatch, **values):
-    """A test during which the person is soon asked, as far as a handle that nobody pulls."""
-    presence = real.application.flow.connecting.worker._presence
-    monkeypatch.setattr(presence, "parameters", Hours())
+@pytest.fixture
+def clock(real, monkeypatch):
+    """In place of the clock of the presence."""
+    made = Clock()
+    monkeypatch.setattr(real.application.flow.connecting.worker._presence, "_clock", made)
+    return made
+
+
+def begin(real):
+    """A test on a real robot, as far as a handle that nobody pulls."""
     screen = real.choose("handle_request")
     for name, text in {"measurements_distance_m": "10", "maximum_distance_m": "3", "border_distance_m": "1.8",
-                       "handle_timeout_s": "3600", **values}.items():
+                       "handle_timeout_s": "3600"}.items():
         screen.form.fields[name].edit.setText(text)
     confirm(screen)
     real.wait(screen.start.isEnabled)
     real.click(screen.start)
+    real.wait(real.window.measurement.taken.isVisible)
     return real.window.measurement
 
 
-def test_person_who_is_asked_answers_by_click_or_key_and_keeps_the_focus_on_stop(real, monkeypatch):
-    begin(real, monkeypatch)
+def test_person_who_is_asked_answers_by_click_or_key_and_keeps_the_focus_on_stop(real, clock):
+    begin(real)
     header = real.window.header
-    for answer in (lambda: real.click(header.presence.present), lambda: real.bot.keyClick(header.stop, Qt.Key_F9)):
+    shortcut, = header.presence.findChildren(QShortcut)
+    assert shortcut.key().toString() == "F9" and shortcut.context() == Qt.ApplicationShortcut
+    for answer in (lambda: real.click(header.presence.present), shortcut.activated.emit):
+        clock.now_s += 900.0
         real.wait(header.presence.isVisible)
         assert header.stop.isVisible() and not header.presence.present.hasFocus()
         answer()
         real.wait(header.presence.isHidden)
         assert real.model.phase is Phase.MEASURING
+    # A key that is pressed while nothing is asked says nothing.
+    shortcut.activated.emit()
     real.click(header.stop)
     real.wait(lambda: real.model.phase is Phase.PAUSED)
 
 
-def test_unanswered_question_pauses_the_test_which_resumes_with_the_person(real, monkeypatch):
-    screen = begin(real, monkeypatch)
+def test_unanswered_question_pauses_the_test_which_resumes_with_the_person(real, clock):
+    screen = begin(real)
+    clock.now_s += 900.0
+    real.wait(real.window.header.presence.isVisible)
+    clock.now_s += 60.0
     real.wait(lambda: real.model.phase is Phase.PAUSED)
-    assert screen.trouble.text().startswith("Nobody confirmed within 1.5 s to be present")
+    assert screen.trouble.text().startswith("Nobody confirmed within 60 s to be present")
     assert real.window.header.presence.isHidden()
     assert screen.conditions.isVisible() and "confirms that the operating conditions hold" in screen.conditions.text()
     real.wait(screen.resume.isEnabled)
