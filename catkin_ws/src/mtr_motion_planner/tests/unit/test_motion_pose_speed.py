@@ -56,6 +56,17 @@ def test_limit_falls_at_once_and_rises_by_two_steps():
     assert speed.limit(0.15) > low_mps + 2.0 * STEP_MPS - 1e-9
 
 
+def sigma_of(speed_mps):
+    """1 sigma at which the robot may just drive so fast."""
+    return 0.5 * (MARGIN_M - LIMITS.stopping_distance(speed_mps))
+
+
+def test_limit_is_the_speed_itself_on_a_step_and_rises_by_two_steps_or_not_at_all():
+    speed = PoseSpeed(LIMITS, MARGIN_M, CREEP_MPS)
+    limits_mps = [speed.limit(sigma_of(wanted_mps)) for wanted_mps in (0.3, 0.35, 0.399, 0.4, 0.35, 0.45)]
+    assert limits_mps == pytest.approx([0.3, 0.3, 0.3, 0.4, 0.35, 0.45])
+
+
 def driving(sigma_m):
     robot = SimulatedRobot(Pose2(0.0, -8.0, math.radians(90.0)))
     robot.position_sigma_m = sigma_m

@@ -102,7 +102,7 @@ class World:
             id=self._status_id, robot_session_id=7, stamp_s=clock.at(pose_s), sent_s=clock.at(now_s),
             steady_s=steady_s, waits_for_answer=True, x=x + error_x, y=y + error_y, heading=heading,
             speed_mps=speed_mps, pose_valid=True, position_sigma_m=self.pose_error.sigma_m, heading_sigma_rad=0.01,
-            key_x=KEY_X_M, key_height_m=robot.height_m(now_s),
+            key_x=KEY_X_M, key_height_m=robot.height_m(now_s), battery_percent=80,
             mode=Mode.FOLLOWING_WAYPOINT, car=CAR, waypoint_result=robot.result,
             waypoint_id=robot.waypoint.id if robot.waypoint else 0, interventions=robot.interventions(now_s),
             presses=tuple(PressReport(press.id, clock.at(press.start_s), clock.at(press.end_s))

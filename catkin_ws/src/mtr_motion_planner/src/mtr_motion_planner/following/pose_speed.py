@@ -5,8 +5,8 @@ import math
 from ..geometry.growth import MARGIN_SIGMAS
 from ..limits import MotionLimits
 
-# The limit changes in these steps, and rises by two at once: another limit makes another plan, and sigma is noisy.
-STEP_MPS = 0.05
+# The limit changes in steps, and rises by two at once: another limit makes another plan, and sigma is noisy.
+STEP_MPS, RISE_STEPS = 0.05, 2
 _ROUNDING = 1e-9
 
 
@@ -24,13 +24,12 @@ class PoseSpeed:
 
     def __init__(self, limits: MotionLimits, margin_m: float, creep_mps: float):
         self._limits, self._margin_m, self._creep_mps = limits, margin_m, creep_mps
-        self._limit_mps = math.inf
+        self._steps = math.inf
 
     def limit(self, sigma_m: float) -> float:
         """Speed limit in m/s at 1 sigma of the pose."""
         room_m = self._margin_m - MARGIN_SIGMAS * sigma_m
-        speed_mps = max(speed_within(self._limits, room_m), self._creep_mps)
-        stepped_mps = max(STEP_MPS * math.floor(speed_mps / STEP_MPS + _ROUNDING), self._creep_mps)
-        if stepped_mps < self._limit_mps or stepped_mps >= self._limit_mps + 2.0 * STEP_MPS - _ROUNDING:
-            self._limit_mps = stepped_mps
-        return self._limit_mps
+        steps = math.floor(speed_within(self._limits, room_m) / STEP_MPS + _ROUNDING)
+        if steps < self._steps or steps >= self._steps + RISE_STEPS:
+            self._steps = steps
+        return max(STEP_MPS * self._steps, self._creep_mps)
