@@ -23,6 +23,8 @@ STALLS_S = (0.3, 0.6, 1.0, 2.0)
 IN_FLIGHT_S = 0.05
 # The master is asked once a second.
 INTRUDER_SEEN_S = 1.5
+# Drive control reads the limits of the base every 5 s.
+CHANGE_SEEN_S = 7.0
 SAID_WITHIN_S = 1.0
 STARTED_WITHIN_S = 20.0
 OTHER_COMMAND = "/other_base/cmd_vel"
@@ -167,6 +169,21 @@ class DriveControlProcess(unittest.TestCase):
                     rospy.delete_param(limit) if value is None else rospy.set_param(limit, value)
                     self.node = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control")
                     self.assertEqual(self.node.exit_status(), 2)
+        finally:
+            rospy.set_param(limit, shipped)
+
+    def test_base_whose_limits_change_is_stopped_and_drives_again_when_they_are_restored(self):
+        limit = f"/{CONTROLLER}/linear/x/max_acceleration"
+        shipped = rospy.get_param(limit)
+        try:
+            for value in (20.0, shipped + 0.01, None):
+                with case(f"max_acceleration {value}"):
+                    rospy.delete_param(limit) if value is None else rospy.set_param(limit, value)
+                    wait_until(lambda: self.robot.commands[-1][1] == 0.0, "standstill", CHANGE_SEEN_S + STANDS_AFTER_S)
+                    wait_until(lambda: "max_acceleration" in self.message, "the limit's name", SAID_WITHIN_S)
+                    rospy.set_param(limit, shipped)
+                    wait_until(lambda: "max_acceleration" not in self.message, "its end", CHANGE_SEEN_S)
+                    self.cruise()
         finally:
             rospy.set_param(limit, shipped)
 

@@ -3,6 +3,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/base_limits.hpp"
 
+#include <sstream>
+#include <tuple>
+
 #include "mtr_drive_control/tip_over.hpp"
 
 namespace mtr_drive_control {
@@ -15,6 +18,22 @@ void check(const BaseLimits& base, const Parameters& parameters, const std::stri
                         "m/s2");
   mtr_core::check_range(name + "/angular/z/max_acceleration", base.angular_acceleration_radps2,
                         parameters.emergency_angular_deceleration_radps2, kMaxBaseAngularRadps2, "rad/s2");
+}
+
+std::string changed_limit(const BaseLimits& start, const BaseLimits& now, const std::string& name) {
+  const std::tuple<const char*, double, double> limits[] = {
+      {"/cmd_vel_timeout", start.command_timeout_s, now.command_timeout_s},
+      {"/linear/x/max_acceleration", start.linear_acceleration_mps2, now.linear_acceleration_mps2},
+      {"/angular/z/max_acceleration", start.angular_acceleration_radps2, now.angular_acceleration_radps2}};
+  for (const auto& [limit, before, after] : limits) {
+    // What is no number differs from everything.
+    if (!(before == after)) {
+      std::ostringstream text;
+      text << "Parameter " << name << limit << " was " << before << " and is " << after << '.';
+      return text.str();
+    }
+  }
+  return {};
 }
 
 }  // namespace mtr_drive_control

@@ -81,6 +81,8 @@ constexpr Sentence kBaseDisobeys{
     "drive_control.base_disobeys",
     "The base does not obey: told {sent_mps:.2f} m/s and {sent_radps:.2f} rad/s, its wheels do {measured_mps:.2f} m/s "
     "and {measured_radps:.2f} rad/s."};
+constexpr Sentence kBaseChanged{"drive_control.base_changed",
+                                "The limits of the base have changed since the start, so the robot is locked. {why}"};
 constexpr Sentence kImuFrozen{"drive_control.imu_frozen", "The IMU is frozen: it repeats the same values in motion."};
 constexpr Sentence kWheelsSlip{
     "drive_control.wheels_slip",

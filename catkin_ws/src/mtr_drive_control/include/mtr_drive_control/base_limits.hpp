@@ -32,4 +32,7 @@ struct BaseLimits {
 /// @param name namespace of the base's parameters, for the sentence
 void check(const BaseLimits& base, const Parameters& parameters, const std::string& name);
 
+/// The limit that differs from the one at the start, with both values; empty when none does.
+std::string changed_limit(const BaseLimits& start, const BaseLimits& now, const std::string& name);
+
 }  // namespace mtr_drive_control

@@ -65,10 +65,11 @@ BaseLimits checked_base(const std::string& controller, const Parameters& paramet
   }
 }
 
-void check_base(const std::string& controller, const Parameters& parameters) {
-  if (!mtr_core::is_lockstep() || ros::param::has(controller)) {
-    checked_base(controller, parameters);
+std::optional<BaseLimits> limits_of_base(const std::string& controller, const Parameters& parameters) {
+  if (mtr_core::is_lockstep() && !ros::param::has(controller)) {
+    return std::nullopt;
   }
+  return checked_base(controller, parameters);
 }
 
 }  // namespace mtr_drive_control

@@ -103,10 +103,17 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     rear_.emplace(node, names::kRearScan, mtr_description::message_frame(names::kRearLidar));
   }
   check_balance(parameters.limits, mtr_description::described_robot());
-  check_base(parameters.base_guard ? std::string(names::kBaseGuard) + kShippedController : parameters.base_controller,
-             parameters.limits);
+  watch_base(parameters);
   listen_to_locks(node);
   log_limits(parameters);
+}
+
+void Node::watch_base(const NodeParameters& parameters) {
+  const std::string controller =
+      parameters.base_guard ? std::string(names::kBaseGuard) + kShippedController : parameters.base_controller;
+  if (const std::optional<BaseLimits> limits = limits_of_base(controller, parameters.limits)) {
+    base_.emplace(controller, parameters.limits, *limits);
+  }
 }
 
 void Node::listen_to_locks(ros::NodeHandle& node) {
@@ -191,6 +198,9 @@ std::vector<EngagedLock> Node::own_locks() const {
   std::vector<EngagedLock> locks;
   if (mtr_core::is_asked_to_leave()) {
     locks.push_back({kOwner, problems::kLeaving()});
+  }
+  if (const std::string change = base_ ? base_->change() : std::string(); !change.empty()) {
+    locks.push_back({kOwner, problems::kBaseChanged({{"why", change}})});
   }
   if (const std::optional<Intruder> intruder = publishers_.intruder()) {
     locks.push_back({kOwner, problems::kSecondPublisher({{"node", intruder->node}, {"topic", intruder->topic}})});

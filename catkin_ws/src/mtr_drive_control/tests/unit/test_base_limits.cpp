@@ -43,5 +43,17 @@ TEST(BaseLimits, BaseThatGoesOnWithoutCommandsIsRefused) {
   }
 }
 
+TEST(BaseLimits, ChangedLimitIsNamedWithBothValues) {
+  EXPECT_EQ(changed_limit(kShipped, kShipped, "/base"), "");
+  EXPECT_EQ(changed_limit(kShipped, {0.25, 20.0, 6.0}, "/base"),
+            "Parameter /base/linear/x/max_acceleration was 2.5 and is 20.");
+  EXPECT_EQ(changed_limit(kShipped, {0.3, 2.5, 6.0}, "/base"), "Parameter /base/cmd_vel_timeout was 0.25 and is 0.3.");
+  EXPECT_EQ(changed_limit(kShipped, {0.25, 2.5, 6.1}, "/base"),
+            "Parameter /base/angular/z/max_acceleration was 6 and is 6.1.");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(changed_limit(kShipped, {nan, 2.5, 6.0}, "/base"), "");
+  EXPECT_NE(changed_limit(kShipped, {0.25, nan, 6.0}, "/base"), "");
+}
+
 }  // namespace
 }  // namespace mtr_drive_control

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "mtr_drive_control/base_limits.hpp"
@@ -16,10 +17,11 @@ inline constexpr char kShippedController[] = "/jackal_velocity_controller";
 /// does not survive.
 BaseLimits checked_base(const std::string& controller, const Parameters& parameters);
 
-/// Throws mtr_core::ConfigurationError unless the base's parameters are there and the mast survives them.
+/// The limits of the base; throws mtr_core::ConfigurationError unless its parameters are there and the mast survives
+/// them.
 ///
-/// A simulated robot without them has no base of its own, and is not asked for them.
+/// A simulated robot without them has no base of its own, and is not asked for them: there are none.
 /// @param controller namespace of a diff_drive_controller's parameters
-void check_base(const std::string& controller, const Parameters& parameters);
+std::optional<BaseLimits> limits_of_base(const std::string& controller, const Parameters& parameters);
 
 }  // namespace mtr_drive_control

@@ -18,6 +18,7 @@
 #include "mtr_drive_control/drive_control.hpp"
 #include "mtr_drive_control/ros/area_input.hpp"
 #include "mtr_drive_control/ros/base_parameters.hpp"
+#include "mtr_drive_control/ros/base_watch.hpp"
 #include "mtr_drive_control/ros/conversions.hpp"
 #include "mtr_drive_control/ros/map_input.hpp"
 #include "mtr_drive_control/ros/publisher_watch.hpp"
@@ -68,6 +69,7 @@ class Node {
   void spin();
 
  private:
+  void watch_base(const NodeParameters& parameters);
   void listen_to_locks(ros::NodeHandle& node);
   void listen_to_e_stop(ros::NodeHandle& node, const std::string& topic);
   bool is_e_stop(const std::string& owner) const;
@@ -100,6 +102,7 @@ class Node {
   ros::Publisher wheels_;
   ros::Publisher status_;
   PublisherWatch publishers_;
+  std::optional<BaseWatch> base_;
   std::string logged_kind_;
   bool logged_warning_ = false;
   std::optional<std::int64_t> begun_ns_;
