@@ -22,6 +22,8 @@ SENSOR_SILENT_S = 0.14
 ONE_TICK_S = 0.1
 # See mtr_drive_control/motion_watch.hpp.
 FROZEN_SEEN_S = 0.7
+# The accelerometer alone shows 10 deg, which its filter passes on within this; a gyro would show it at once.
+TILT_SEEN_S = 3.0
 # From any permitted velocity, see mtr_drive_control/parameters.hpp.
 STANDSTILL_WITHIN_S = 0.5
 TICK_S = 0.02
@@ -152,6 +154,16 @@ class DriveControl(unittest.TestCase):
                 self.planner.message = VelocityCommand(active=False)
                 self.time.advance_for(1.5)
                 self.setUp()
+
+    def test_robot_that_tilts_stops_until_it_is_level(self):  # H14
+        self.imu.pitch_rad = math.radians(10.0)
+        self.time.advance_until(lambda: self.status().zone == DriveStatus.BLOCKED, within_s=TILT_SEEN_S)
+        self.assertIn("The robot is tilted by", self.status().message)
+        self.time.advance_until(self.is_standing, within_s=STANDSTILL_WITHIN_S)
+        self.assertEqual(self.status().problems[0].code, "drive_control.tilted")
+        self.imu.pitch_rad = 0.0
+        self.time.advance_for(3.0 * TILT_SEEN_S)
+        self.setUp()
 
     def test_base_that_does_not_obey_stops_the_robot(self):  # A7
         standing = Twist()

@@ -64,25 +64,32 @@ class WheelsSpeaker(Speaker):
 
 
 class ImuSpeaker(Speaker):
-    """An IMU on level ground and a base whose wheels do not slip.
+    """An IMU on a base whose wheels do not slip.
 
     Like a live one it never says the same twice, unless it is frozen.
 
     Attributes:
         is_frozen: True while it repeats itself.
+        pitch_rad: of the ground, downhill ahead.
     """
 
     def __init__(self, wheels: WheelsSpeaker) -> None:
-        super().__init__(names.IMU_DATA, Imu(linear_acceleration=Vector3(0.0, 0.0, GRAVITY_MPS2)), schedule.SENSORS)
-        self._wheels = wheels
-        self.is_frozen = False
+        super().__init__(names.IMU_DATA, Imu(), schedule.SENSORS)
+        self._wheels, self._speed_mps = wheels, 0.0
+        self.is_frozen, self.pitch_rad = False, 0.0
 
     def speak(self, tick_ns: int) -> None:
         """Say the reading if it is time."""
         if not self.is_frozen:
             noise = GYRO_NOISE_RADPS if tick_ns % TWO_SWEEPS_NS else -GYRO_NOISE_RADPS
             self.message.angular_velocity.x = noise
-            self.message.angular_velocity.z = self._wheels.message.twist.twist.angular.z + noise
+            moved = self._wheels.message.twist.twist
+            self.message.angular_velocity.z = moved.angular.z + noise
+            acceleration = (moved.linear.x - self._speed_mps) / (schedule.SENSORS.period_ns * NS)
+            self._speed_mps = moved.linear.x
+            self.message.linear_acceleration = Vector3(
+                acceleration - GRAVITY_MPS2 * math.sin(self.pitch_rad), moved.linear.x * moved.angular.z,
+                GRAVITY_MPS2 * math.cos(self.pitch_rad))
         super().speak(tick_ns)
 
 

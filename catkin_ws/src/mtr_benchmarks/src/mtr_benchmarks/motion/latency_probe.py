@@ -27,6 +27,7 @@ BEAMS = 720
 FIELD_OF_VIEW_RAD = 1.5 * math.pi
 # An emergency stop from here takes one period.
 CRAWL_MPS = 0.03
+GRAVITY_MPS2 = 9.81
 START_LIMIT_S = 20.0
 # Stops fall anywhere between two of the node's ticks.
 BETWEEN_STOPS_S = (0.15, 0.25)
@@ -107,6 +108,7 @@ class DriveControlFeed:
             self._publish(self._odometry, odometry)
             imu = Imu()
             imu.angular_velocity.z = 1e-3 * random.random()
+            imu.linear_acceleration.z = GRAVITY_MPS2
             self._publish(self._imu, imu)
             if turn % 2:
                 self._publish(self._planner, VelocityCommand(linear_mps=CRAWL_MPS, active=True))
