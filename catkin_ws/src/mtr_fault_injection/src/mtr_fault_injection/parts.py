@@ -31,6 +31,7 @@ class Kind(enum.Enum):
     SECTOR = "sector"      # the same up to `amount` degrees to both sides of where it points
     DARK = "dark"          # no beam of a LiDAR measures: zero
     NEAR = "near"          # a cap: each beam ends 5 cm from the LiDAR
+    TILT = "tilt"          # an IMU on a robot whose rear is lifted by `amount` degrees
 
 
 class Place(enum.Enum):
@@ -53,17 +54,20 @@ class Part(NamedTuple):
 
 _OF_MESSAGES = (Kind.OFF, Kind.STUCK, Kind.GARBAGE, Kind.SLOW)
 _OF_LIDARS = (*_OF_MESSAGES, Kind.EMPTY, Kind.SECTOR, Kind.DARK, Kind.NEAR)
+_OF_IMU = (*_OF_MESSAGES, Kind.TILT)
 _OF_LINK = (Kind.OFF, Kind.SLOW, Kind.LOSE, Kind.DOUBLE, Kind.REORDER)
 _OF_NODES = (Kind.STOP, Kind.KILL, Kind.SLOW)
 LIDARS = ("front_lidar", "rear_lidar")
-SENSORS = (*LIDARS, "imu", "odometry", "gnss", "battery", "board")
+IMU = "imu"
+SENSORS = (*LIDARS, IMU, "odometry", "gnss", "battery", "board")
 NODES = ("base_guard", "car_locator", "controller_input", "dispatcher", "drive_control", "graph_watch", "localization",
          "motion_planner", "peripherals", "serial_bridge", "state_machine")
 LIFT, SERVOS, CAN = "lift", "servos", "can"
 LINK_COMMANDS, LINK_STATUSES, OPERATOR = "link_commands", "link_statuses", "operator"
 CLOCK, DISK, CPU = "clock", "disk", "cpu"
 _ALL = (
-    *(Part(name, Place.MESSAGES, _OF_LIDARS if name in LIDARS else _OF_MESSAGES) for name in SENSORS),
+    *(Part(name, Place.MESSAGES, _OF_LIDARS if name in LIDARS else _OF_IMU if name == IMU else _OF_MESSAGES)
+      for name in SENSORS),
     Part(LIFT, Place.SIMULATOR, (Kind.STUCK,)),
     Part(SERVOS, Place.SIMULATOR, (Kind.OFF,)),
     Part(CAN, Place.SIMULATOR, (Kind.OFF, Kind.GARBAGE, Kind.STOP)),
@@ -76,11 +80,11 @@ _ALL = (
     Part(CPU, Place.MACHINE, (Kind.SLOW, Kind.STOP)),
 )
 PARTS: Dict[str, Part] = {part.name: part for part in _ALL}
-# s, s, s, a share, and degrees: what a fault takes that does not say how much.
+# s, s, s, a share, and degrees twice: what a fault takes that does not say how much.
 USUAL_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 0.5, Kind.FORWARD: 0.4, Kind.BACK: 0.4, Kind.LOSE: 0.3,
-                                   Kind.SECTOR: 45.0}
+                                   Kind.SECTOR: 45.0, Kind.TILT: 5.0}
 MAX_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 10.0, Kind.FORWARD: 86400.0, Kind.BACK: 86400.0, Kind.LOSE: 1.0,
-                                 Kind.SECTOR: 180.0}
+                                 Kind.SECTOR: 180.0, Kind.TILT: 90.0}
 
 
 def catalogue() -> Dict[str, List[str]]:

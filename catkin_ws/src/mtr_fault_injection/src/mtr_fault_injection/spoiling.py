@@ -8,6 +8,7 @@ from typing import Any, Deque, List, Optional, Tuple
 
 from .parts import Kind
 from .schedule import Fault
+from .tilting import Tilting
 
 HEADER = "header"
 _BITS = {"uint8": 8, "uint16": 16, "uint32": 32, "uint64": 64}
@@ -29,10 +30,16 @@ class Spoiler:
         self._random = random.Random(seed)
         self._last: Optional[Any] = None
         self._late: Deque[Tuple[float, Any]] = collections.deque()
+        self._tilting: Optional[Tilting] = None
 
     def passed(self, message: Any, fault: Optional[Fault], now_s: float) -> List[Any]:
         """What arrives instead of a message that was sent now; None: nothing is wrong. now_s: of any steady clock."""
         kind = fault.kind if fault else None
+        if fault and kind is Kind.TILT:
+            self._tilting = self._tilting or Tilting()
+        if self._tilting:
+            wanted_deg = fault.amount if fault and kind is Kind.TILT else 0.0
+            message = self._tilting.passed(message, math.radians(wanted_deg), now_s)
         if kind is not Kind.STUCK:
             self._last = message
         if kind is Kind.OFF:

@@ -6,8 +6,9 @@ import random
 
 import pytest
 import rospy
+from geometry_msgs.msg import Vector3
 from nav_msgs.msg import Odometry
-from sensor_msgs.msg import LaserScan
+from sensor_msgs.msg import Imu, LaserScan
 
 from mtr_fault_injection.parts import NODES, PARTS, SENSORS, FaultError, Kind, catalogue, kind_of, part_of
 from mtr_fault_injection.schedule import MAX_DURATION_S, Schedule, fault_of
@@ -71,6 +72,43 @@ def test_lidar_without_echoes_says_so_in_its_sector_and_its_header_stays(kind, a
 def test_only_lidars_can_be_without_echoes(kind):
     with pytest.raises(FaultError):
         kind_of(part_of("imu"), kind)
+
+
+def imu(number):
+    message = Imu(linear_acceleration=Vector3(0.0, 0.0, 9.81), angular_velocity=Vector3(0.0, 0.0, 0.2))
+    message.header.stamp = rospy.Time(number)
+    return message
+
+
+def pitch_deg(message):
+    force = message.linear_acceleration
+    return math.degrees(math.atan2(-force.x, force.z))
+
+
+def test_robot_whose_rear_is_lifted_turns_to_the_tilt_and_back_as_gyro_and_accelerometer_say():
+    spoiler, turned_deg = Spoiler(1), 0.0
+    for number in range(300):
+        message = imu(number)
+        (said,) = spoiler.passed(message, fault("tilt", "imu") if 50 <= number < 150 else None, 0.02 * number)
+        turned_deg += math.degrees(said.angular_velocity.y) * 0.02
+        assert pitch_deg(said) == pytest.approx(turned_deg, abs=1e-6) and said.header.stamp.secs == number
+        assert math.hypot(said.linear_acceleration.x, said.linear_acceleration.z) == pytest.approx(9.81)
+        assert (message.linear_acceleration.x, message.angular_velocity.y) == (0.0, 0.0)
+        if number in (49, 299):
+            assert said is message
+        if 80 <= number < 150:
+            assert pitch_deg(said) == pytest.approx(5.0)
+            assert said.angular_velocity.x == pytest.approx(-0.2 * math.sin(math.radians(5.0)))
+
+
+def test_tilt_has_its_degrees_and_is_a_fault_of_the_imu_alone():
+    spoiler = Spoiler(1)
+    said = [spoiler.passed(imu(number), fault("tilt", "imu", amount=3.0), 0.02 * number)[0] for number in range(100)]
+    assert pitch_deg(said[-1]) == pytest.approx(3.0)
+    with pytest.raises(FaultError):
+        fault("tilt", "odometry")
+    with pytest.raises(FaultError):
+        fault("tilt", "imu", amount=91.0)
 
 
 def test_board_that_is_stuck_repeats_its_clock_too():

@@ -29,7 +29,7 @@ UNHEARD = "unheard"
 LOCKSTEP, PACED, CAR_BUS, MACHINE_CLOCK = "lockstep", "paced", "car_bus", "machine_clock"
 SMALL_DISK, GUARDED, SATELLITES = "small_disk", "guarded", "satellites"
 # What an amount is of a kind whose amount is no time.
-AMOUNTS = {"lose": " of all", "sector": " deg"}
+AMOUNTS = {"lose": " of all", "sector": " deg", "tilt": " deg"}
 BEGIN, END = "<!-- fault matrix: begin -->", "<!-- fault matrix: end -->"
 HEAD = ("| fault | while | wheels stand in | lift stands in | the Operator reads | within | state then | afterwards | "
         "a line at hand |",
