@@ -145,7 +145,7 @@ TEST(CollisionStop, AfterAStopItWaitsForThePauseAndGoesOn) {
   ASSERT_EQ(robot.drive({0.5, 0.0}, 5.0).zone, Zone::kBlocked);
   // Behind the place of the legs a wall is seen; that they are not seen would prove nothing.
   robot.scene.discs.clear();
-  robot.scene.walls = {wall_ahead(8.0)};
+  robot.scene.walls = {{{8.0, -9.0}, {8.0, 9.0}}};
   EXPECT_EQ(robot.drive({0.5, 0.0}, 0.9).velocity.linear_mps, 0.0);
   EXPECT_GT(robot.drive({0.5, 0.0}, 0.5).velocity.linear_mps, 0.1);
 }

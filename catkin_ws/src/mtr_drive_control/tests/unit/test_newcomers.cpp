@@ -137,7 +137,7 @@ TEST(SlowZone, LimitsTheCornersOfATurnOnTheSpot) {
   TestRobot robot;
   robot.settle();
   robot.drive({0.0, 0.0}, 1.0);
-  for (double y_m = 3.5; y_m > 1.6; y_m -= 0.02) {
+  for (double y_m = 3.5; y_m > 1.9; y_m -= 0.02) {
     robot.scene.discs = legs_at(0.0, y_m);
     robot.step({0.0, 0.0});
   }

@@ -130,8 +130,8 @@ def simulate(encounter: Encounter) -> EncounterEnd:
     """Let it happen."""
     scenario = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0,
                         start_offset_rad=0.0, person=encounter.walk)
-    rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m,
-              site_map=core.empty_map(MAP_HALF_SIDE_M) if encounter.is_localized else None)
+    rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
+    rig.site_map = core.empty_map(MAP_HALF_SIDE_M) if encounter.is_localized else None
     stopped, speed_mps, touched, watched = False, 0.0, False, True
     for velocity in _ticks(encounter.wanted):
         speed_mps = rig.corner_speed_mps

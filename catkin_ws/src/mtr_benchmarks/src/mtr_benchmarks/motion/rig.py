@@ -36,15 +36,16 @@ class Rig:
     Attributes:
         sim: physics and sensors.
         decision: drive control's newest one, None before the first.
+        site_map: of a localized robot, from mtr_drive_control_core; None: it is not localized.
     """
 
     def __init__(self, scenario: Scenario, seed: int, rear_lidar: bool = True, rain: float = 0.0,
-                 lift_m: float = 0.0, site_map: Optional[Any] = None):
-        """rain: share of the beams that end on a drop; lift_m: of the lift; site_map: of a localized robot."""
+                 lift_m: float = 0.0):
+        """rain: share of the beams that end on a drop; lift_m: height of the lift."""
         lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
         self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
-        self._map = site_map
+        self.site_map: Optional[Any] = None
         self._control = core.DriveControl(shipped_urdf(), rear_lidar=rear_lidar)
         self._key_height_m = ROBOT.key.min_height_m + lift_m
         self._front: Optional[Scan] = None
@@ -77,7 +78,7 @@ class Rig:
         wanted = {"manual" if by_hand else "planner": velocity}
         self.decision = self._control.step(
             sensors.time_ns, **wanted, locks=["operator"] if locked else [], front=self._front, rear=self._rear,
-            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu, map=self._map)
+            odometry=sensors.odometry, key_height_m=self._key_height_m, imu=sensors.imu, map=self.site_map)
         self.sim.command(self.decision.linear_mps, self.decision.angular_radps)
         self._sensors = self.sim.step()
         return self.decision
