@@ -182,7 +182,8 @@ def test_stop_from_another_thread_arrives_at_a_robot_that_has_fallen_silent__A4(
 
 
 def status(**changes):
-    return RobotStatus(1, 1, 0.1, mode=changes.pop("mode", Mode.FOLLOWING_WAYPOINT), key_height_m=1.0, **changes)
+    mode = changes.pop("mode", Mode.FOLLOWING_WAYPOINT)
+    return RobotStatus(1, 1, 0.1, mode=mode, key_height_m=1.0, battery_percent=80, **changes)
 
 
 @pytest.mark.parametrize(("changes", "may_move"), [
