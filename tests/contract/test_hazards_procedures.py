@@ -9,6 +9,7 @@ from mtr_operator.station.checks.finding import Check
 
 FILE = model.read()
 PROCEDURES = [measure for measure in model.measures(FILE) if measure.type == model.PROCEDURE]
+DESCRIBED = [measure for measure in model.measures(FILE) if measure.type == model.HARDWARE and measure.where]
 MAX_LINES = 150
 
 
@@ -19,8 +20,7 @@ def test_procedure_is_an_item_of_the_checklist_or_a_section_of_the_page(measure)
     assert name in (Check.__members__ if kind == "checklist" else anchors(page.OPERATION))
 
 
-@pytest.mark.parametrize("measure", [each for each in model.measures(FILE) if each.type == model.HARDWARE and each.where],
-                         ids=lambda measure: measure.id)
+@pytest.mark.parametrize("measure", DESCRIBED, ids=lambda measure: measure.id)
 def test_described_hardware_is_a_section_of_its_page(measure):
     kind, _, name = measure.where.partition(":")
     assert kind == "hardware" and name in anchors(model.TOP / "docs" / "hardware.md")

@@ -9,6 +9,7 @@ from mtr_description.mounts import KeyMount
 from mtr_peripherals.conversions import battery_charge, firmware_report, inputs_from, state_message
 from mtr_peripherals.core import Peripherals
 from mtr_peripherals.emergency import EmergencyStops
+from mtr_peripherals.firmware import InputsReport
 from mtr_peripherals.firmware_clock import RobotClock, SharedClock
 from mtr_peripherals.key_lift import KeyLift
 from mtr_peripherals.orders import FirmwareOrders
@@ -35,7 +36,8 @@ class PeripheralsPart:
         self._reports = Topic()
         self._emergency = EmergencyStops(parameters.emergency_owners, parameters.emergency_silent_after_s)
         self._charge: Optional[float] = None
-        self._desired, self._mode = topics.desired.input(), topics.mode.input()
+        self._board: Optional[InputsReport] = None
+        self._desired, self._mode, self._drive = topics.desired.input(), topics.mode.input(), topics.drive.input()
 
     def sense(self, sensors: Sensors) -> None:
         """What firmware and battery say at this tick."""
@@ -46,13 +48,17 @@ class PeripheralsPart:
             stamp_ns = self._times.observe(state.time_us, sensors.time_ns)
             report = firmware_report(state, stamp_ns, self._times)
             self._reports.add(stamp_ns, replace(report, lift_height_m=wire.single(report.lift_height_m)))
+            board = self._firmware.input_state()
+            self._board = InputsReport(self._times.steady_ns(board.time_us, sensors.time_ns), board.signal)
 
     def step(self, tick_ns: int) -> None:
         """One tick."""
         limit_s = self._parameters.order_silent_after_s
         inputs = inputs_from(self._desired.fresh_at(tick_ns, limit_s), self._mode.fresh_at(tick_ns, limit_s))
-        outcome = self._core.step(replace(inputs, emergency=self._emergency.reason(tick_ns)),
-                                  self._reports.until(tick_ns), tick_ns)
+        drive = self._drive.fresh_at(tick_ns, limit_s)
+        inputs = replace(inputs, emergency=self._emergency.reason(tick_ns), board=self._board,
+                         linear_mps=drive.linear_mps if drive else 0.0)
+        outcome = self._core.step(inputs, self._reports.until(tick_ns), tick_ns)
         self._orders.send(outcome, tick_ns)
         self._robot_clock.update(Instant(tick_ns, tick_ns))
         self._topics.peripherals.publish(state_message(outcome, battery_charge(self._charge), wire.stamp(tick_ns),

@@ -7,14 +7,15 @@ from geometry_msgs.msg import Twist
 from sensor_msgs.msg import Joy
 
 from mtr_core import names
-from mtr_msgs.msg import FirmwareCommand, FirmwarePress, LiftCommand, MotionLock, VelocityCommand
+from mtr_msgs.msg import FirmwareCommand, FirmwarePress, FirmwareSignals, LiftCommand, MotionLock, VelocityCommand
 
 from .profiles import PROFILES, recorded_name
 
 TYPES: Mapping[str, Any] = {
     names.JOY: Joy, names.WHEEL_COMMAND: Twist, names.PLANNER_VELOCITY: VelocityCommand,
     names.MANUAL_VELOCITY: VelocityCommand, names.MANUAL_LIFT: LiftCommand, names.MOTION_LOCK: MotionLock,
-    names.FIRMWARE_COMMAND: FirmwareCommand, names.FIRMWARE_PRESS: FirmwarePress}
+    names.FIRMWARE_COMMAND: FirmwareCommand, names.FIRMWARE_PRESS: FirmwarePress,
+    names.FIRMWARE_SIGNALS: FirmwareSignals}
 QUEUE = 100
 
 
