@@ -12,11 +12,21 @@ from mtr_core.states import State
 
 from . import problems
 from .calibration import RequestRefused
-from .firmware import FAULTS, GIVEN_UP, FirmwareReport, InputsReport, Led, ServoPress, Signal, SignalOrder
+from .firmware import (
+    FAULTS,
+    GIVEN_UP,
+    FirmwareReport,
+    InputsReport,
+    Led,
+    ServoPress,
+    Signal,
+    SignalOrder,
+    given_signal,
+    signal_order,
+)
 from .key_lift import KeyLift
 from .parameters import Parameters
 from .presses import Presses
-from .signals import given_signal, signal_order
 
 NS = 1e-9
 # From a lock to wheels that brake, as in drive control's `reaction_s`, whose other part is its tick.

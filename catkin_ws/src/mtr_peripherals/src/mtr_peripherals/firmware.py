@@ -1,7 +1,10 @@
-"""What passes between this package and the firmware, as plain data."""
+"""Messages to and from the firmware as plain data, and the meaning of its inputs and signals."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from dataclasses import dataclass
+from typing import Optional
+
+from mtr_core.liveness import NS, is_fresh
 
 from . import problems
 
@@ -56,6 +59,11 @@ FAULTS = {1: problems.LIFT_JAMMED, 2: problems.LIFT_SENSOR_BROKEN, 3: problems.N
 # Of FirmwareState.lift_state.
 CALIBRATING = 2
 
+# FirmwareInputs come every 80 ms.
+SIGNAL_SILENT_S = 0.5
+# A closed input that is reported later says nothing; drive control then treats the topic as silent after 0.25 s.
+STOP_LATE_S = 0.15
+
 
 @dataclass(frozen=True)
 class FirmwareReport:
@@ -98,3 +106,31 @@ class ServoPress:
     strength: float
     hold_ms: int
     latest_ns: int
+
+
+def signal_order(sets_off: bool, linear_mps: float, is_controlled: bool, uses_stop_input: bool) -> SignalOrder:
+    """Return the signals at a tick.
+
+    linear_mps: velocity sent to the wheels. is_controlled: an application controls the robot, which may move at any
+    time; the beacon shows it.
+    """
+    signal = Signal.SETS_OFF if sets_off else Signal.REVERSES if linear_mps < 0.0 else Signal.NONE
+    has_beacon = sets_off or is_controlled or linear_mps != 0.0
+    return SignalOrder(signal, has_beacon, uses_stop_input)
+
+
+def given_signal(report: Optional[InputsReport], now_ns: int) -> int:
+    """Return the signal that the board reports as given; none when it is silent."""
+    if report is None or not is_fresh((now_ns - report.stamp_ns) * NS, SIGNAL_SILENT_S):
+        return Signal.NONE.value
+    return report.signal
+
+
+def is_stop(state: int, age_s: float) -> Optional[bool]:
+    """Return whether a report of the stop input means stop: any state but closed does, however old it is.
+
+    None for a closed input whose report waited on its way; it says nothing about now.
+    """
+    if state != StopInput.CLOSED.value:
+        return True
+    return False if is_fresh(age_s, STOP_LATE_S) else None

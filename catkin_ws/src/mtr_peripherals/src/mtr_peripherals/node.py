@@ -46,14 +46,13 @@ from .conversions import (
 )
 from .core import STOPPED, Inputs, Outcome, Peripherals
 from .emergency import EmergencyStops
-from .firmware import FirmwareReport, InputsReport
+from .firmware import SIGNAL_SILENT_S, FirmwareReport, InputsReport, is_stop
 from .firmware_clock import FirmwareClock, RobotClock, SharedClock
 from .health_watch import HealthWatch
 from .key_lift import KeyLift
 from .latest import Latest
 from .orders import FirmwareOrders
 from .parameters import Parameters
-from .signals import SIGNAL_SILENT_S, is_stop
 
 # Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
 # hands on every 20 ms.

@@ -11,11 +11,21 @@ from mtr_description.shipped import shipped_geometry
 from mtr_msgs.msg import FirmwareInputs
 from mtr_peripherals.conversions import inputs_report
 from mtr_peripherals.core import Inputs, Peripherals
-from mtr_peripherals.firmware import GIVEN_UP, FirmwareReport, InputsReport, Signal, SignalOrder, StopInput
+from mtr_peripherals.firmware import (
+    GIVEN_UP,
+    STOP_LATE_S,
+    FirmwareReport,
+    InputsReport,
+    Signal,
+    SignalOrder,
+    StopInput,
+    given_signal,
+    is_stop,
+    signal_order,
+)
 from mtr_peripherals.firmware_clock import FirmwareClock
 from mtr_peripherals.key_lift import KeyLift
 from mtr_peripherals.parameters import Parameters
-from mtr_peripherals.signals import STOP_LATE_S, given_signal, is_stop, signal_order
 
 JAMMED = 1
 
