@@ -120,7 +120,7 @@ class AreaBorder(unittest.TestCase):
         self.robot.start()
         self.addCleanup(self.robot.close)
         self.dispatcher = self.start_dispatcher()
-        self.addCleanup(lambda: self.dispatcher.stop())
+        self.addCleanup(self.stop_dispatcher)
         self.drive = NodeProcess("mtr_drive_control", "drive_control_node", "drive_control")
         self.addCleanup(self.drive.stop)
         self.window = Window(*self.ports)
@@ -131,6 +131,10 @@ class AreaBorder(unittest.TestCase):
         status_port, command_port = self.ports
         return NodeProcess("mtr_dispatcher", "dispatcher_node", "dispatcher", status_port=status_port,
                            command_port=command_port)
+
+    def stop_dispatcher(self):
+        """The one that runs now."""
+        self.dispatcher.stop()
 
     def take_status(self, message):
         """Note how far the robot has come, and what drive control says."""

@@ -6,10 +6,9 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.cli.arguments import argument_parser
-from mtr_operator.domain.actions.area import TOO_OLD, await_area, set_area
 from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import ControlLoop
-from mtr_operator.domain.actions.preparation import prepare
+from mtr_operator.domain.actions.preparation import TOO_OLD, await_area, prepare, set_area
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.errors import InvalidParameter, RobotFailed
 from mtr_operator.domain.geometry.area import (

@@ -99,9 +99,10 @@ constexpr Sentence kUnseenGround{
 // Test area
 constexpr Sentence kOutsideArea{"drive_control.outside_area",
                                 "The robot is {distance_m:.2f} m outside the test area; drive it back by hand."};
-constexpr Sentence kAreaBorder{"drive_control.area_border",
-                               "Stopped at the border of the test area, {distance_m:.2f} m away; drive back by hand, or "
-                               "draw the area again."};
+constexpr Sentence kAreaBorder{
+    "drive_control.area_border",
+    "Stopped at the border of the test area, {distance_m:.2f} m away; drive back by hand, or "
+    "draw the area again."};
 constexpr Sentence kAreaPoseUnknown{
     "drive_control.area_position_unknown",
     "The robot's position in the test area is unknown; it can only be driven by hand, at a crawl."};

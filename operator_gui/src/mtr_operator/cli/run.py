@@ -5,9 +5,9 @@ from __future__ import annotations
 import argparse
 import contextlib
 
-from mtr_operator.domain.actions.area import set_area
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.event_observer import EventObserver, run_told
+from mtr_operator.domain.actions.preparation import set_area
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import OperatorError

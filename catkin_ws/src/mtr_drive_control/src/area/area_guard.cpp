@@ -53,8 +53,7 @@ std::optional<AreaGuard::Place> AreaGuard::place_at(std::int64_t tick_ns, const 
     return std::nullopt;
   }
   const double margin_m =
-      parameters_.area_gap_m +
-      kSigmas * (pose->position_sigma_m + pose->heading_sigma_rad * footprint_.radius_m());
+      parameters_.area_gap_m + kSigmas * (pose->position_sigma_m + pose->heading_sigma_rad * footprint_.radius_m());
   const double age_s = static_cast<double>(tick_ns - pose->stamp_ns) * 1e-9;
   const Pose now = pose->map_from_base.after(wheels, age_s);
   const double clearance_m = area_->polygon->clearance_m(footprint_, now);
@@ -77,9 +76,9 @@ AreaAssessment AreaGuard::assess(const DesiredMotion& desired, const StopPath& s
     return {{}, Zone::kBlocked, obstruction_};
   }
   // A person loads the robot before an area is set, and drives a lost one to where it finds its position.
-  return has_polygon(area_) ? AreaAssessment{at_most(desired.velocity, parameters_.area_crawl_mps), Zone::kSlowed,
-                                             obstruction_}
-                            : AreaAssessment{desired.velocity, Zone::kClear, {}};
+  return has_polygon(area_)
+             ? AreaAssessment{at_most(desired.velocity, parameters_.area_crawl_mps), Zone::kSlowed, obstruction_}
+             : AreaAssessment{desired.velocity, Zone::kClear, {}};
 }
 
 AreaAssessment AreaGuard::assess_inside(const Velocity& desired, const StopPath& stop_path) const {

@@ -68,8 +68,7 @@ std::vector<Point> outline_of(const Footprint& footprint) {
     const int steps = std::max(1, static_cast<int>(std::ceil(distance_m(start, end) / kOutlineStepM)));
     for (int step = 0; step < steps; ++step) {
       const double share = static_cast<double>(step) / steps;
-      outline.push_back(
-          {start.x_m + share * (end.x_m - start.x_m), start.y_m + share * (end.y_m - start.y_m)});
+      outline.push_back({start.x_m + share * (end.x_m - start.x_m), start.y_m + share * (end.y_m - start.y_m)});
     }
   }
   return outline;

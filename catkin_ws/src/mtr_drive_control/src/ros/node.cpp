@@ -79,8 +79,7 @@ NodeParameters Node::read(mtr_core::ParameterReader& reader) {
 
 Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
     : drive_control_(parameters.limits, parameters.collision,
-                     shape_of(mtr_description::described_robot(), parameters.rear_lidar), kPeriodS,
-                     parameters.area),
+                     shape_of(mtr_description::described_robot(), parameters.rear_lidar), kPeriodS, parameters.area),
       locks_(owners_of(parameters), parameters.limits.lock_timeout_s, mtr_core::lockstep_waiting()),
       e_stop_topics_(parameters.e_stop_topics),
       ticker_(node, mtr_core::kDriveControl),

@@ -135,7 +135,8 @@ class MotionPlanner:
 
     def _arranged(self, now: Situation) -> Optional[Site]:
         try:
-            self.site = Site(self._goal.waypoint, now.car, now.robot, self._outline, self._parameters, now.area)
+            self.site = Site(self._goal.waypoint, now.car, now.robot, self._outline, self._parameters,
+                             area=now.area)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), None)
         return self.site

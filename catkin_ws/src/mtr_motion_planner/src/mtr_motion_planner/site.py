@@ -40,7 +40,7 @@ class Site:
     """
 
     def __init__(self, goal: Waypoint, car: EstimatedCar, state: RobotState, robot: RobotOutline,
-                 parameters: MotionParameters, area: DrawnArea = NO_AREA):
+                 parameters: MotionParameters, *, area: DrawnArea = NO_AREA):
         """OutlineUnusable or PlanRefused when one cannot plan here."""
         self.area = area
         self._car, self._reach_m, self._margins = car, robot.front_m, parameters.margins

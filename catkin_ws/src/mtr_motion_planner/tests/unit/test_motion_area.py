@@ -25,7 +25,7 @@ def footprint_at(pose):
     return Polygon([pose.apply(x, y) for x, y in ((front, width), (-rear, width), (-rear, -width), (front, -width))])
 
 
-def robot_at(x, y, heading_deg, corners=CORNERS, car=None, parameters=PARAMETERS):
+def robot_at(x, y, heading_deg, *, corners=CORNERS, car=None, parameters=PARAMETERS):
     robot = SimulatedRobot(Pose2(x, y, math.radians(heading_deg)), car, parameters=parameters)
     robot.area = DrawnArea(corners)
     return robot
@@ -93,5 +93,6 @@ def test_parameter_and_drawn_area_hold_together():
 
 
 def test_area_of_a_message():
-    assert area_from(AreaMessage(x=[1.0, 2.0, 3.0], y=[4.0, 5.0, 6.0])) == DrawnArea(((1.0, 4.0), (2.0, 5.0), (3.0, 6.0)))
+    corners = ((1.0, 4.0), (2.0, 5.0), (3.0, 6.0))
+    assert area_from(AreaMessage(x=[1.0, 2.0, 3.0], y=[4.0, 5.0, 6.0])) == DrawnArea(corners)
     assert area_from(AreaMessage()) == NO_AREA

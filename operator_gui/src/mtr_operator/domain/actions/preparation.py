@@ -7,8 +7,8 @@ from typing import Callable
 from ..errors import RobotFailed
 from ..geometry.ray import Ray
 from ..robot_status import CarCheck, Mode, RobotStatus
+from ..supervision.area import await_area
 from ..supervision.refusals import refuse_contradicted_sheet, refuse_unready
-from .area import await_area
 from .car import Car
 from .control_loop import ControlLoop
 from .robot import Robot

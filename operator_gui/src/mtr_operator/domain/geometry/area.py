@@ -1,6 +1,6 @@
 """Corners of a test area: what a robot accepts, as text, and a rectangle to begin with.
 
-They are in the robot's start frame, in which it localizes itself from its start on: x ahead and y to the left of it there.
+They are in the robot's start frame, in which it localizes itself from its start on: x ahead, y to the left there.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations

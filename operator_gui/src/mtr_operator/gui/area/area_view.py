@@ -24,8 +24,8 @@ _KEY_REACH_M = 0.5
 # Seen at least, to each side of where the robot started.
 _ROOM_M = (8.0, 8.0)
 _MARGIN_PX = 30.0
-_WAYS = {Qt.Key.Key_Up: (1.0, 0.0), Qt.Key.Key_Down: (-1.0, 0.0), Qt.Key.Key_Left: (0.0, 1.0),
-         Qt.Key.Key_Right: (0.0, -1.0)}
+_WAYS: dict[int, Point] = {Qt.Key.Key_Up: (1.0, 0.0), Qt.Key.Key_Down: (-1.0, 0.0), Qt.Key.Key_Left: (0.0, 1.0),
+                           Qt.Key.Key_Right: (0.0, -1.0)}
 
 
 class AreaView(PictureView):

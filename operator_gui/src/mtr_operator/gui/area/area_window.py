@@ -32,8 +32,8 @@ RECTANGLE_M = (16.0, 14.0)
 
 
 class AreaWindow(QDialog):
-    """Attributes: view: the picture. enforced, notice: what the robot reports, and what becomes of the sketch. rectangle,
-    undo, clear, take, send, withdraw: the buttons."""
+    """Attributes: view: the picture. enforced, notice: what the robot reports, and what becomes of the sketch.
+    rectangle, undo, clear, take, send, withdraw: the buttons."""
 
     def __init__(self, flow: Flow, appearance: Appearance, parent: QWidget | None = None):
         super().__init__(parent)
@@ -193,8 +193,8 @@ class AreaWindow(QDialog):
             else:
                 return self.tr("Waits until the robot confirms the area.")
         if not sketch.corners:
-            return self.tr("Click the corners one after the other, or begin with a rectangle. Drag a corner to move it, "
-                           "right-click it to remove it.")
+            return self.tr("Click the corners one after the other, or begin with a rectangle. Drag a corner to move "
+                           "it, right-click it to remove it.")
         return translated(sketch.problem) or self.tr("Drawn: {count} corners, {size} m2. Set it, then check that it is "
                                                      "shown in green.").format(
             count=len(sketch.corners), size=f"{area_m2(sketch.corners):.0f}")

@@ -116,8 +116,9 @@ class MeasurementPicture(QObject):
         self.areas.is_complete = model.done == model.total
         self.lines.is_visible = test.scenario.lines_stay
         self.lines.stretches = self._stretches(car)
-        self._panel.view.show_layers([GridLayer(), self.border, self.lines, self.areas, CarLayer(car, mapped is not None),
-                                      self.points, self.trail, self.sight, self.waypoint, self.robot, ScaleLayer()])
+        self._panel.view.show_layers([GridLayer(), self.border, self.lines, self.areas,
+                                      CarLayer(car, mapped is not None), self.points, self.trail, self.sight,
+                                      self.waypoint, self.robot, ScaleLayer()])
 
     def _compute_picture(self, car: CarDimensions) -> None:
         """In a thread, one after the other: that of many zones takes seconds, and Stop has to be heard meanwhile."""

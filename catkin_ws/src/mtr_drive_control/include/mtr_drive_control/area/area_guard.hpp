@@ -58,8 +58,8 @@ using StopPath = std::function<std::vector<PathPoint>(const Velocity&)>;
 /// Third opinion on a motion, after locks and collision stop.
 ///
 /// A velocity is permitted when the footprint stays inside the border by the gap and 2 sigma of the pose until the stop
-/// from it has ended. A robot that is outside already may move slowly such that it gets no farther out. With an area and
-/// without a pose in it a person may crawl, and the planner moves nothing.
+/// from it has ended. A robot that is outside already may move slowly such that it gets no farther out. With an area
+/// and without a pose in it a person may crawl, and the planner moves nothing.
 class AreaGuard {
  public:
   AreaGuard(const AreaParameters& parameters, const Footprint& footprint);

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Sequence
 
+from ..actions.control_loop import ControlLoop
 from ..errors import RobotFailed
 from ..geometry.pose import Point
 from ..requests import AreaOrder
 from ..robot_status import AreaState, RobotStatus
-from .control_loop import ControlLoop
 
 # A robot confirms an area with its next Status; a busy laptop reads older Statuses first.
 CONFIRMED_WITHIN_S = 5.0
