@@ -8,7 +8,7 @@ import pytest
 from mtr_operator.cli.arguments import argument_parser
 from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import ControlLoop
-from mtr_operator.domain.actions.preparation import TOO_OLD, await_area, prepare, set_area
+from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.errors import InvalidParameter, RobotFailed
 from mtr_operator.domain.geometry.area import (
@@ -23,6 +23,7 @@ from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import AreaOrder
 from mtr_operator.domain.results.session_record import TEST_AREA, area_record
 from mtr_operator.domain.robot_status import AreaState, Problem
+from mtr_operator.domain.supervision.area import TOO_OLD, await_area, set_area
 from mtr_operator.robot_link.virtual.area import VirtualArea
 from mtr_operator.station.checks.area_check import test_area as area_item
 from mtr_operator.station.checks.finding import Finding, State

@@ -7,7 +7,6 @@ import contextlib
 
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.event_observer import EventObserver, run_told
-from mtr_operator.domain.actions.preparation import set_area
 from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import OperatorError
@@ -19,6 +18,7 @@ from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWA
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
+from mtr_operator.domain.supervision.area import set_area
 from mtr_operator.domain.supervision.conditions import CONDITIONS
 from mtr_operator.domain.supervision.supervision import Supervision
 from mtr_operator.domain.verdict.assessment import Assessment
