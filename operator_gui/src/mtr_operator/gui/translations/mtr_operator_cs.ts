@@ -611,342 +611,342 @@
         <translation>Poloha</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <location filename="../../station/checks/check_texts.py" line="53"/>
         <source>LiDARs</source>
         <translation>Lidary</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="52"/>
+        <location filename="../../station/checks/check_texts.py" line="53"/>
         <source>Lift and buttons</source>
         <translation>Zdvih a tlačítka</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="53"/>
+        <location filename="../../station/checks/check_texts.py" line="54"/>
         <source>Battery</source>
         <translation>Baterie</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="54"/>
+        <location filename="../../station/checks/check_texts.py" line="55"/>
         <source>CAN bus</source>
         <translation>Sběrnice CAN</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="54"/>
+        <location filename="../../station/checks/check_texts.py" line="55"/>
         <source>Car&apos;s locks</source>
         <translation>Zámky auta</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="56"/>
+        <location filename="../../station/checks/check_texts.py" line="57"/>
         <source>Clocks</source>
         <translation>Hodiny</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="57"/>
+        <location filename="../../station/checks/check_texts.py" line="58"/>
         <source>Remote key</source>
         <translation>Klíč</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="58"/>
+        <location filename="../../station/checks/check_texts.py" line="59"/>
         <source>Disk</source>
         <translation>Disk</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="58"/>
+        <location filename="../../station/checks/check_texts.py" line="59"/>
         <source>Limits</source>
         <translation>Meze</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="80"/>
+        <location filename="../../station/checks/check_texts.py" line="82"/>
         <source>Not known while the robot is silent.</source>
         <translation>Dokud robot mlčí, není známo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="81"/>
+        <location filename="../../station/checks/check_texts.py" line="83"/>
         <source>The robot&apos;s newest message is {first} s old.</source>
         <translation>Nejnovější zpráva robotu je stará {first} s.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="82"/>
+        <location filename="../../station/checks/check_texts.py" line="84"/>
         <source>The robot has not answered for {first} s.</source>
         <translation>Robot už {first} s neodpovídá.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="83"/>
+        <location filename="../../station/checks/check_texts.py" line="85"/>
         <source>The link to the robot is encrypted.</source>
         <translation>Spojení s robotem je šifrované.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="84"/>
+        <location filename="../../station/checks/check_texts.py" line="86"/>
         <source>The link is not encrypted: whoever is in its network can listen and send.</source>
         <translation>Spojení není šifrované: kdo je v jeho síti, může poslouchat i vysílat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="92"/>
+        <location filename="../../station/checks/check_texts.py" line="94"/>
         <source>It takes orders, and reports nothing against a test.</source>
         <translation>Přijímá pokyny a nehlásí nic, co by bránilo testu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="93"/>
+        <location filename="../../station/checks/check_texts.py" line="95"/>
         <source>The robot is still starting.</source>
         <translation>Robot se ještě spouští.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="94"/>
+        <location filename="../../station/checks/check_texts.py" line="96"/>
         <source>The robot reports a fault.</source>
         <translation>Robot hlásí poruchu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="95"/>
+        <location filename="../../station/checks/check_texts.py" line="97"/>
         <source>Another application controls the robot.</source>
         <translation>Robot ovládá jiná aplikace.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="97"/>
+        <location filename="../../station/checks/check_texts.py" line="99"/>
         <source>The one by hand is heard, and released.</source>
         <translation>Ruční ovladač je slyšet a je uvolněný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="98"/>
+        <location filename="../../station/checks/check_texts.py" line="100"/>
         <source>The one by hand is engaged: the robot stands.</source>
         <translation>Na ručním ovladači je stisknuto: robot stojí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="99"/>
+        <location filename="../../station/checks/check_texts.py" line="101"/>
         <source>The robot has none by hand.</source>
         <translation>Robot nemá ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="100"/>
+        <location filename="../../station/checks/check_texts.py" line="103"/>
         <source>The robot does not say whether it has one by hand.</source>
         <translation>Robot neříká, zda má ruční ovladač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="133"/>
+        <location filename="../../station/checks/check_texts.py" line="136"/>
         <source>Known beside the Car.</source>
         <translation>Vůči autu známa.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="134"/>
+        <location filename="../../station/checks/check_texts.py" line="137"/>
         <source>Not known yet: a test begins with a drive around the Car.</source>
         <translation>Zatím neznámá: test začíná objetím auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="135"/>
+        <location filename="../../station/checks/check_texts.py" line="138"/>
         <source>The robot does not know its position.</source>
         <translation>Robot nezná svou polohu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="105"/>
+        <location filename="../../station/checks/check_texts.py" line="108"/>
         <source>The robot reports nothing against them.</source>
         <translation>Robot nehlásí nic, co by mluvilo proti nim.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="217"/>
+        <location filename="../../station/checks/check_texts.py" line="222"/>
         <source>At {first} %; what a test takes is told when it is chosen.</source>
         <translation>Na {first} %; kolik test spotřebuje, se ukáže po jeho zvolení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="218"/>
+        <location filename="../../station/checks/check_texts.py" line="223"/>
         <source>At {first} %; the test takes about {second} %.</source>
         <translation>Na {first} %; test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="219"/>
+        <location filename="../../station/checks/check_texts.py" line="224"/>
         <source>At {first} % it may not suffice: the test takes about {second} %.</source>
         <translation>Na {first} % nemusí stačit: test spotřebuje asi {second} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="220"/>
+        <location filename="../../station/checks/check_texts.py" line="225"/>
         <source>Low: {first} %.</source>
         <translation>Slabá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="221"/>
+        <location filename="../../station/checks/check_texts.py" line="226"/>
         <source>Nearly empty: {first} %.</source>
         <translation>Téměř vybitá: {first} %.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="229"/>
+        <location filename="../../station/checks/check_texts.py" line="234"/>
         <source>Load {first} %, lock message every {second} ms.</source>
         <translation>Vytížení {first} %, zpráva o zámcích každých {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="230"/>
+        <location filename="../../station/checks/check_texts.py" line="235"/>
         <source>Load {first} %, no lock message yet.</source>
         <translation>Vytížení {first} %, zpráva o zámcích zatím nepřišla.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="231"/>
+        <location filename="../../station/checks/check_texts.py" line="236"/>
         <source>There is none: the Car is a substitute inside the application.</source>
         <translation>Žádná není: auto je náhrada uvnitř aplikace.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="232"/>
+        <location filename="../../station/checks/check_texts.py" line="237"/>
         <source>Load {first} %: messages may be late, and so the time of events.</source>
         <translation>Vytížení {first} %: zprávy se mohou opožďovat, a s nimi čas událostí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="233"/>
+        <location filename="../../station/checks/check_texts.py" line="238"/>
         <source>The lock message comes every {first} ms; the profile says {second} ms.</source>
         <translation>Zpráva o zámcích chodí každých {first} ms; profil uvádí {second} ms.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="234"/>
+        <location filename="../../station/checks/check_texts.py" line="239"/>
         <source>No CAN adapter is chosen.</source>
         <translation>Není zvolen žádný adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="235"/>
+        <location filename="../../station/checks/check_texts.py" line="240"/>
         <source>The Car says: {said}.</source>
         <translation>Auto hlásí: {said}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="236"/>
+        <location filename="../../station/checks/check_texts.py" line="241"/>
         <source>The Car does not say whether it is locked.</source>
         <translation>Auto neříká, zda je zamčené.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="237"/>
+        <location filename="../../station/checks/check_texts.py" line="242"/>
         <source>Events of the Car have a time on the robot&apos;s clock.</source>
         <translation>Události auta mají čas na hodinách robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="238"/>
+        <location filename="../../station/checks/check_texts.py" line="243"/>
         <source>Not known without an adapter.</source>
         <translation>Bez adaptéru není známo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="239"/>
+        <location filename="../../station/checks/check_texts.py" line="244"/>
         <source>The Car has reacted {first} s ago: the key is awake.</source>
         <translation>Auto reagovalo před {first} s: klíč je vzhůru.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="240"/>
+        <location filename="../../station/checks/check_texts.py" line="245"/>
         <source>Whether it is awake nobody knows before the Car reacts to it.</source>
         <translation>Zda je vzhůru, se pozná, až na něj auto zareaguje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="247"/>
+        <location filename="../../station/checks/check_texts.py" line="252"/>
         <source>{first} GB are free.</source>
         <translation>Volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="248"/>
+        <location filename="../../station/checks/check_texts.py" line="253"/>
         <source>Only {first} GB are free.</source>
         <translation>Volných je jen {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="249"/>
+        <location filename="../../station/checks/check_texts.py" line="254"/>
         <source>Nearly full: {first} GB are free.</source>
         <translation>Téměř plný: volných je {first} GB.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="250"/>
+        <location filename="../../station/checks/check_texts.py" line="255"/>
         <source>The system does not say how much room there is.</source>
         <translation>Systém neříká, kolik je na něm místa.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="251"/>
+        <location filename="../../station/checks/check_texts.py" line="256"/>
         <source>Limits loaded: {first}.</source>
         <translation>Načtené meze: {first}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="252"/>
+        <location filename="../../station/checks/check_texts.py" line="257"/>
         <source>None: the lines get no verdict.</source>
         <translation>Žádné: přímky nebudou hodnoceny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="260"/>
+        <location filename="../../station/checks/check_texts.py" line="265"/>
         <source>Check the Wi-Fi and that the robot is on; the link comes back by itself.</source>
         <translation>Zkontrolujte Wi-Fi a že je robot zapnutý; spojení se obnoví samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="264"/>
+        <location filename="../../station/checks/check_texts.py" line="269"/>
         <source>Wait a moment.</source>
         <translation>Chvíli počkejte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="265"/>
+        <location filename="../../station/checks/check_texts.py" line="270"/>
         <source>Make sure that nothing blocks the robot; if the fault stays, switch it off and on.</source>
         <translation>Ujistěte se, že robotu nic nebrání; pokud porucha trvá, vypněte jej a zapněte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="267"/>
+        <location filename="../../station/checks/check_texts.py" line="272"/>
         <source>End the other application; control comes here by itself.</source>
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="277"/>
+        <location filename="../../station/checks/check_texts.py" line="282"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="278"/>
+        <location filename="../../station/checks/check_texts.py" line="283"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="287"/>
+        <location filename="../../station/checks/check_texts.py" line="295"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="299"/>
+        <location filename="../../station/checks/check_texts.py" line="307"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="301"/>
+        <location filename="../../station/checks/check_texts.py" line="309"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="302"/>
+        <location filename="../../station/checks/check_texts.py" line="310"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="305"/>
+        <location filename="../../station/checks/check_texts.py" line="313"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="306"/>
+        <location filename="../../station/checks/check_texts.py" line="314"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="307"/>
+        <location filename="../../station/checks/check_texts.py" line="315"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="308"/>
+        <location filename="../../station/checks/check_texts.py" line="316"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="309"/>
+        <location filename="../../station/checks/check_texts.py" line="317"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="310"/>
+        <location filename="../../station/checks/check_texts.py" line="318"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="313"/>
+        <location filename="../../station/checks/check_texts.py" line="321"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="314"/>
+        <location filename="../../station/checks/check_texts.py" line="322"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="315"/>
+        <location filename="../../station/checks/check_texts.py" line="323"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -971,7 +971,7 @@
         <translation>brání testu</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="132"/>
+        <location filename="../../station/checks/check_texts.py" line="135"/>
         <source>Known beside the Car to {first} cm (1 sigma).</source>
         <translation>Vůči autu známa na {first} cm (1 sigma).</translation>
     </message>
@@ -981,37 +981,37 @@
         <translation>Rozměry auta</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="136"/>
+        <location filename="../../station/checks/check_texts.py" line="139"/>
         <source>The robot has it from the data sheet.</source>
         <translation>Robot je zná z technického listu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="137"/>
+        <location filename="../../station/checks/check_texts.py" line="140"/>
         <source>Only as the LiDARs see it at their height: distances from the Car&apos;s outline may be up to {first} cm too long.</source>
         <translation>Jen tak, jak je vidí LiDARy ve své výšce: vzdálenosti od obrysu auta mohou být až o {first} cm delší.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="143"/>
+        <location filename="../../station/checks/check_texts.py" line="146"/>
         <source>Not known before the Car is mapped.</source>
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="289"/>
+        <location filename="../../station/checks/check_texts.py" line="297"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="297"/>
+        <location filename="../../station/checks/check_texts.py" line="305"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="86"/>
+        <location filename="../../station/checks/check_texts.py" line="88"/>
         <source>Not encrypted; it does not leave this computer.</source>
         <translation>Nešifrováno; neopouští tento počítač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="262"/>
+        <location filename="../../station/checks/check_texts.py" line="267"/>
         <source>Pair this laptop with the robot in the connection window, and have the robot encrypt its link.</source>
         <translation>Spárujte tento notebook s robotem v okně připojení a nechte robot šifrovat spojení.</translation>
     </message>
@@ -1021,37 +1021,37 @@
         <translation>Kontrola robotu</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="111"/>
+        <location filename="../../station/checks/check_texts.py" line="114"/>
         <source>{first} of {second} right, {age} ago.</source>
         <translation>{first} z {second} v pořádku, před {age}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="112"/>
+        <location filename="../../station/checks/check_texts.py" line="115"/>
         <source>{first} of {second} right, but {age} ago.</source>
         <translation>{first} z {second} v pořádku, ale už před {age}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="113"/>
+        <location filename="../../station/checks/check_texts.py" line="116"/>
         <source>{first} of {second} wrong, {age} ago.</source>
         <translation>{first} z {second} špatně, před {age}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="115"/>
+        <location filename="../../station/checks/check_texts.py" line="118"/>
         <source>Never made since the robot was started.</source>
         <translation>Od spuštění robotu nebyla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="116"/>
+        <location filename="../../station/checks/check_texts.py" line="119"/>
         <source>The robot does not say whether one was made.</source>
         <translation>Robot neříká, zda byla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="268"/>
+        <location filename="../../station/checks/check_texts.py" line="273"/>
         <source>Make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Proveďte ji na robotu znovu: rosrun mtr_bringup preflight</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="269"/>
+        <location filename="../../station/checks/check_texts.py" line="274"/>
         <source>Then make it again on the robot: rosrun mtr_bringup preflight</source>
         <translation>Potom ji na robotu proveďte znovu: rosrun mtr_bringup preflight</translation>
     </message>
@@ -1061,132 +1061,132 @@
         <translation>Cesta přímek</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="149"/>
+        <location filename="../../station/checks/check_texts.py" line="152"/>
         <source>As far as the robot has seen, nothing stands on the lines.</source>
         <translation>Pokud robot viděl, na přímkách nic nestojí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="150"/>
+        <location filename="../../station/checks/check_texts.py" line="153"/>
         <source>Something stands in the way of lines {lines}, the nearest {distance} m from the Car.</source>
         <translation>V cestě přímek {lines} něco stojí, nejblíže {distance} m od auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="152"/>
+        <location filename="../../station/checks/check_texts.py" line="155"/>
         <source>The robot has not seen all of the way of lines {lines}.</source>
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="279"/>
+        <location filename="../../station/checks/check_texts.py" line="287"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="154"/>
+        <location filename="../../station/checks/check_texts.py" line="157"/>
         <source>Looked at when the Car is mapped and a test is chosen.</source>
         <translation>Ověřuje se, až bude auto zmapováno a test vybrán.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="56"/>
+        <location filename="../../station/checks/check_texts.py" line="57"/>
         <source>Robot&apos;s clock</source>
         <translation>Hodiny robotu</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="101"/>
+        <location filename="../../station/checks/check_texts.py" line="104"/>
         <source>Within {first} s of this laptop&apos;s.</source>
         <translation>Od hodin tohoto notebooku se liší nejvýše o {first} s.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="103"/>
+        <location filename="../../station/checks/check_texts.py" line="106"/>
         <source>The robot tells simulated time.</source>
         <translation>Robot udává simulovaný čas.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="139"/>
+        <location filename="../../station/checks/check_texts.py" line="142"/>
         <source>Known to {first} cm (95 %): distances from the Car&apos;s outline may be wrong by as much.</source>
         <translation>Znám na {first} cm (95 %): o tolik mohou být vzdálenosti od obrysu auta chybné.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="141"/>
+        <location filename="../../station/checks/check_texts.py" line="144"/>
         <source>Known to {first} cm only (95 %): the robot may touch the Car nearer than {second} m.</source>
         <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="291"/>
+        <location filename="../../station/checks/check_texts.py" line="299"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="47"/>
+        <location filename="../../station/checks/check_texts.py" line="48"/>
         <source>Ground next to the Car</source>
         <translation>Zem vedle auta</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="47"/>
+        <location filename="../../station/checks/check_texts.py" line="48"/>
         <source>Cables</source>
         <translation>Kabely</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="48"/>
+        <location filename="../../station/checks/check_texts.py" line="49"/>
         <source>Doors and lids</source>
         <translation>Dveře a víka</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="48"/>
+        <location filename="../../station/checks/check_texts.py" line="49"/>
         <source>Fittings</source>
         <translation>Nástavby</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="160"/>
+        <location filename="../../station/checks/check_texts.py" line="165"/>
         <source>The LiDARs see nothing below their plane: no person lying or kneeling, no child, no wheel chocks.</source>
         <translation>LiDARy nevidí nic pod svou rovinou: nikoho, kdo leží nebo klečí, dítě ani zakládací klíny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="162"/>
+        <location filename="../../station/checks/check_texts.py" line="167"/>
         <source>The robot does not see cables, and drives around the whole Car.</source>
         <translation>Robot kabely nevidí a objíždí celé auto.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="163"/>
+        <location filename="../../station/checks/check_texts.py" line="168"/>
         <source>The robot does not see an open door, lid or tailgate above the LiDARs. A hatch may open by itself for a key behind the Car.</source>
         <translation>Otevřené dveře, víko ani čelo korby nad LiDARy robot nevidí. Víko kufru se může samo otevřít, je-li klíč za autem.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="280"/>
+        <location filename="../../station/checks/check_texts.py" line="288"/>
         <source>Walk around the Car: nobody within 2 m, wheel chocks removed.</source>
         <translation>Obejděte auto: do 2 m nikdo, klíny odstraněny.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="281"/>
+        <location filename="../../station/checks/check_texts.py" line="289"/>
         <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
         <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="283"/>
+        <location filename="../../station/checks/check_texts.py" line="291"/>
         <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
         <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="285"/>
+        <location filename="../../station/checks/check_texts.py" line="293"/>
         <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
         <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="294"/>
+        <location filename="../../station/checks/check_texts.py" line="302"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robota (technický list nebo svinovací metr), restartujte s ním robota a zmapujte vozidlo znovu; nebo měřte z větší vzdálenosti.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="165"/>
+        <location filename="../../station/checks/check_texts.py" line="170"/>
         <source>The robot does not see what stands out above or below the LiDARs, such as a tow bar. It keeps 10 to 25 cm from the Car&apos;s ends.</source>
         <translation>Robot nevidí, co vyčnívá nad rovinou lidarů nebo pod ní, například tažné zařízení. Od konců auta udržuje 10 až 25 cm.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="222"/>
+        <location filename="../../station/checks/check_texts.py" line="227"/>
         <source>The robot does not report its charge.</source>
         <translation>Robot nehlásí stav nabití.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="303"/>
+        <location filename="../../station/checks/check_texts.py" line="311"/>
         <source>Check that the base publishes it on the robot&apos;s topic of the battery (docs/other-bases.md).</source>
         <translation>Ověřte, že jej podvozek publikuje na tématu baterie robotu (docs/other-bases.md).</translation>
     </message>
@@ -1196,154 +1196,179 @@
         <translation>Zkušební prostor</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="122"/>
+        <location filename="../../station/checks/check_texts.py" line="125"/>
         <source>The robot keeps inside an area of {first} m2.</source>
         <translation>Robot neopustí prostor o {first} m2.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="123"/>
+        <location filename="../../station/checks/check_texts.py" line="126"/>
         <source>The robot&apos;s launch file sets an area of {first} m2.</source>
         <translation>Prostor o {first} m2 určuje spouštěcí soubor robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="124"/>
+        <location filename="../../station/checks/check_texts.py" line="127"/>
         <source>The robot has none.</source>
         <translation>Robot žádný nemá.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="125"/>
+        <location filename="../../station/checks/check_texts.py" line="128"/>
         <source>None; a simulated robot needs none.</source>
         <translation>Žádný; simulovaný robot ho nepotřebuje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="126"/>
+        <location filename="../../station/checks/check_texts.py" line="129"/>
         <source>The robot does not say whether it keeps inside one.</source>
         <translation>Robot nesděluje, zda nějaký dodržuje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="270"/>
+        <location filename="../../station/checks/check_texts.py" line="275"/>
         <source>Draw it on the start page under Test area.</source>
         <translation>Nakreslete ho na úvodní stránce pod Zkušební prostor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="271"/>
+        <location filename="../../station/checks/check_texts.py" line="276"/>
         <source>Stay where you can stop the robot before an edge.</source>
         <translation>Zůstaňte tam, kde robot zastavíte dřív než u hrany.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="49"/>
+        <location filename="../../station/checks/check_texts.py" line="50"/>
         <source>Area</source>
         <translation>Plocha</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="49"/>
+        <location filename="../../station/checks/check_texts.py" line="50"/>
         <source>People</source>
         <translation>Lidé</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="50"/>
+        <location filename="../../station/checks/check_texts.py" line="51"/>
         <source>Weather</source>
         <translation>Počasí</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="50"/>
+        <location filename="../../station/checks/check_texts.py" line="51"/>
         <source>Light</source>
         <translation>Světlo</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="51"/>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="51"/>
+        <location filename="../../station/checks/check_texts.py" line="52"/>
         <source>Attendance</source>
         <translation>Dozor</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="55"/>
+        <location filename="../../station/checks/check_texts.py" line="56"/>
         <source>Car&apos;s signals</source>
         <translation>Signály auta</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="114"/>
+        <location filename="../../station/checks/check_texts.py" line="117"/>
         <source>Made at rest only; a real robot needs one in motion.</source>
         <translation>Provedena jen vstoje; skutečný robot potřebuje kontrolu za jízdy.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="174"/>
+        <location filename="../../station/checks/check_texts.py" line="179"/>
         <source>Closed or marked, 2 m free around the paths, no edge, stairs, dock or kerb inside?</source>
         <translation>Uzavřená nebo vyznačená, 2 m volno kolem drah, uvnitř žádná hrana, schody, rampa ani obrubník?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="176"/>
+        <location filename="../../station/checks/check_texts.py" line="181"/>
         <source>Trained adults only, nobody lies, kneels or works at the Car?</source>
         <translation>Jen poučení dospělí, nikdo u auta neleží, nekleká ani nepracuje?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="177"/>
+        <location filename="../../station/checks/check_texts.py" line="182"/>
         <source>No ice, snow, heavy rain or fog, no low sun into a LiDAR, mean wind below 8 m/s?</source>
         <translation>Žádný led, sníh, silný déšť ani mlha, žádné nízké slunce do LiDARu, průměrný vítr pod 8 m/s?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="179"/>
+        <location filename="../../station/checks/check_texts.py" line="184"/>
         <source>Is the area lit?</source>
         <translation>Je plocha osvětlená?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="180"/>
+        <location filename="../../station/checks/check_texts.py" line="185"/>
         <source>Parking brake applied, gear P, chocks placed, cabin empty, windows closed, alarm off or announced?</source>
         <translation>Ruční brzda zatažená, zařazeno P, klíny založené, kabina prázdná, okna zavřená, alarm vypnutý nebo ohlášený?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="182"/>
+        <location filename="../../station/checks/check_texts.py" line="187"/>
         <source>Is a trained person within 10 m and in sight of the robot, with a hardware emergency stop?</source>
         <translation>Je do 10 m a na dohled od robotu poučená osoba s hardwarovým nouzovým zastavením?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="184"/>
+        <location filename="../../station/checks/check_texts.py" line="189"/>
         <source>Confirmed by a person.</source>
         <translation>Potvrzeno osobou.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="197"/>
+        <location filename="../../station/checks/check_texts.py" line="202"/>
         <source>Dry or wet asphalt or concrete, steps and cables below 15 mm, slope at most 2 degrees?</source>
         <translation>Suchý nebo mokrý asfalt či beton, schůdky a kabely pod 15 mm, sklon nejvýše 2 stupně?</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="207"/>
+        <location filename="../../station/checks/check_texts.py" line="212"/>
         <source>Ignition, gear, speed and doors are received, and do not forbid motion.</source>
         <translation>Zapalování, řazení, rychlost a dveře se přijímají a jízdě nebrání.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="209"/>
+        <location filename="../../station/checks/check_texts.py" line="214"/>
         <source>Not received from the Car: {signals}.</source>
         <translation>Z auta nepřicházejí: {signals}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="210"/>
+        <location filename="../../station/checks/check_texts.py" line="215"/>
         <source>The car profile names no signal for: {signals}.</source>
         <translation>Profil auta neuvádí signál pro: {signals}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="272"/>
+        <location filename="../../station/checks/check_texts.py" line="277"/>
         <source>Make it on the robot: rosrun mtr_bringup preflight --drive</source>
         <translation>Proveďte ji na robotu: rosrun mtr_bringup preflight --drive</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="274"/>
+        <location filename="../../station/checks/check_texts.py" line="279"/>
         <source>Close it.</source>
         <translation>Zavřete je.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="275"/>
+        <location filename="../../station/checks/check_texts.py" line="280"/>
         <source>Wake the Car; watch ignition, gear and doors yourself meanwhile.</source>
         <translation>Probuďte auto; zatím sami sledujte zapalování, řazení a dveře.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="276"/>
+        <location filename="../../station/checks/check_texts.py" line="281"/>
         <source>Watch them yourself: the robot does not stop for them.</source>
         <translation>Sledujte je sami: robot kvůli nim nezastaví.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="47"/>
+        <source>Stop trial</source>
+        <translation>Zkouška zastavení</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="102"/>
+        <source>The robot has none by hand, so no test begins.</source>
+        <translation>Robot nemá ruční nouzové zastavení, proto žádná zkouška nezačne.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="163"/>
+        <source>The robot may not notice a lost controller while its receiver stays plugged in.</source>
+        <translation>Ztrátu ovladače robot nemusí poznat, dokud zůstává zapojený jeho přijímač.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="284"/>
+        <source>Start the robot with its controller (controller:=true).</source>
+        <translation>Spusťte robot s ručním ovladačem (controller:=true).</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="285"/>
+        <source>Press the stop button in your hand: the robot reports it here. Then release it.</source>
+        <translation>Stiskněte tlačítko zastavení v ruce: robot to zde ohlásí. Pak jej uvolněte.</translation>
     </message>
 </context>
 <context>
@@ -7868,57 +7893,57 @@
         <translation>Odstranit zkušební prostor.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>A test area has {} corners; the number must be between {} and {}.</source>
         <translation>Zkušební prostor má rohů: {}; musí jich být od {} do {}.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>Corners of a test area must be within {} m of where the robot started.</source>
         <translation>Rohy zkušebního prostoru musí být do {} m od místa, kde se robot spustil.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>Two neighbouring corners of the test area are at the same place.</source>
         <translation>Dva sousední rohy zkušebního prostoru jsou na stejném místě.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>The border of the test area crosses itself.</source>
         <translation>Hranice zkušebního prostoru se kříží.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>The test area is {} m2 large; it must be between {} and {} m2.</source>
         <translation>Zkušební prostor má {} m2; musí mít od {} do {} m2.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>Corner {} of the test area must be two numbers, x and y in m, such as 4.0 -2.5.</source>
         <translation>Roh {} zkušebního prostoru musí být dvě čísla, x a y v m, například 4.0 -2.5.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>The robot does not know its position yet, so it cannot keep a test area.</source>
         <translation>Robot ještě nezná svou polohu, takže zkušební prostor nemůže dodržet.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>The robot&apos;s launch file sets its test area; begin the test without another one.</source>
         <translation>Zkušební prostor určuje spouštěcí soubor robotu; začněte test bez dalšího.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>The robot&apos;s software is too old to keep a test area; update it, or begin without one.</source>
         <translation>Software robotu je pro zkušební prostor příliš starý; aktualizujte ho, nebo začněte bez prostoru.</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>The robot did not accept the test area. {}</source>
         <translation>Robot zkušební prostor nepřijal. {}</translation>
     </message>
     <message>
-        <location filename="../texts/area.py" line="5"/>
+        <location filename="../texts/safety/area.py" line="5"/>
         <source>No test begins. {}</source>
         <translation>Test nezačne. {}</translation>
     </message>
@@ -8041,6 +8066,11 @@
         <location filename="../texts/safety/supervision.py" line="5"/>
         <source>The Car may sound its horn when it locks or unlocks. Announce the test; people next to the Car wear ear protection.</source>
         <translation>Auto může při zamčení nebo odemčení zatroubit. Zkoušku ohlaste; lidé u auta nosí chrániče sluchu.</translation>
+    </message>
+    <message>
+        <location filename="../texts/application.py" line="11"/>
+        <source>The robot has no hand-held emergency stop, so no test begins. Start it with its controller (controller:=true).</source>
+        <translation>Robot nemá ruční nouzové zastavení, proto žádná zkouška nezačne. Spusťte jej s ovladačem (controller:=true).</translation>
     </message>
 </context>
 <context>
