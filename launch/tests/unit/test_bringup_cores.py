@@ -137,4 +137,4 @@ def test_no_part_of_it_needs_ros():
 
 def test_dispatcher_of_the_cores_waits_for_the_application():
     assert simulated_robot().dispatcher == dataclasses.replace(DispatcherParameters(), lockstep_operator=True,
-                                                               warn_without_emergency_stop=False)
+                                                               warn_without_emergency_stop=False, simulated=True)

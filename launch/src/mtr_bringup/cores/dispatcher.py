@@ -1,9 +1,11 @@
 """The dispatcher between its core, the application and the other parts, as mtr_dispatcher's node in lock-step."""
 # SPDX-License-Identifier: Apache-2.0
-from typing import Callable, Deque
+from typing import Callable, Deque, Optional
 
 from mtr_core.liveness import NS
 from mtr_core.schedule import DISPATCHER
+from mtr_dispatcher.area.keeper import AreaKeeper
+from mtr_dispatcher.area.order import AreaOrder
 from mtr_dispatcher.conversions import desired_message, lock_message
 from mtr_dispatcher.core import Dispatcher
 from mtr_dispatcher.parameters import Parameters
@@ -16,6 +18,13 @@ from . import wire
 from .topics import Topics
 
 
+class NoArea(AreaKeeper):
+    """Accepts no test area: drive control in one process does not enforce one, and Status must not say that it does."""
+
+    def take(self, session_id: int, order: Optional[AreaOrder]) -> None:
+        """See AreaKeeper."""
+
+
 class DispatcherPart:
     """Says a Status at each tick, and once it is answered what the robot shall do."""
 
@@ -24,7 +33,7 @@ class DispatcherPart:
     def __init__(self, topics: Topics, parameters: Parameters, identity: Identity,
                  lock: Callable[[MotionLock], None]):
         """lock: takes its reason to stand still."""
-        self._core, self._parameters = Dispatcher(parameters, identity), parameters
+        self._core, self._parameters = Dispatcher(parameters, identity, NoArea(required=False)), parameters
         self._topics, self._lock = topics, lock
         self._emergency = EmergencyWatch(parameters.emergency_stop)
         self._inputs = (topics.pose.input(lag_ns=0), topics.car.input(), topics.mode.input(),

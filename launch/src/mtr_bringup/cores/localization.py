@@ -58,7 +58,8 @@ def pose_message(estimate: Estimate) -> LocalizedPose:
         valid=estimate.valid, x=estimate.x_m, y=estimate.y_m, heading=estimate.heading_rad,
         covariance=estimate.covariance, speed_mps=estimate.speed_mps, yaw_rate_radps=estimate.yaw_rate_radps,
         message=estimate.message, problems=wire.problems(estimate.problems), mode=estimate.mode,
-        degenerate=estimate.degenerate, map_revision=estimate.map_revision)
+        degenerate=estimate.degenerate, map_revision=estimate.map_revision,
+        origin_id=estimate.origin_id)
 
 
 def surface_map(made: MapResult) -> SurfaceMap:

@@ -33,7 +33,7 @@ class RobotParameters:
 def simulated_robot() -> RobotParameters:
     """As sim.launch has them unless it is told otherwise."""
     return RobotParameters(
-        DispatcherParameters(lockstep_operator=True, warn_without_emergency_stop=False),
+        DispatcherParameters(lockstep_operator=True, warn_without_emergency_stop=False, simulated=True),
         StateMachineParameters(resume_by_operator=False, signal_s=0.0),
         _in_file("mtr_car_locator", "unknown_car.yaml", LocatorParameters),
         MotionParameters(accept_nav_goal=True),
