@@ -1152,8 +1152,8 @@
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="288"/>
-        <source>Walk around the Car: nobody within 2 m, wheel chocks removed.</source>
-        <translation>Obejděte auto: do 2 m nikdo, klíny odstraněny.</translation>
+        <source>Walk around the Car: nobody within 2 m, no chock beyond its outline.</source>
+        <translation>Obejděte auto: do 2 m nikdo, žádný klín mimo jeho obrys.</translation>
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="289"/>
