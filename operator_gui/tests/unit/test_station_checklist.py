@@ -8,6 +8,7 @@ import pytest
 from mtr_operator.domain.absent_car import NO_ADAPTER
 from mtr_operator.domain.ports import BusTraffic, LockState
 from mtr_operator.domain.robot_status import (
+    AreaState,
     CarDimensions,
     EmergencyStop,
     Mode,
@@ -43,7 +44,8 @@ from mtr_operator.station.sight.ways import Ways
 
 STATUS = RobotStatus(id=1, robot_session_id=1, stamp_s=1.0, pose_valid=True, mode=Mode.FOLLOWING_WAYPOINT,
                      battery_percent=80, position_sigma_m=0.02, sent_s=1.0, steady_s=1.0,
-                     emergency_stop=EmergencyStop.RELEASED)
+                     emergency_stop=EmergencyStop.RELEASED,
+                     area=AreaState(True, False, 1, 9, ((4.0, 4.0), (-4.0, 4.0), (-4.0, -4.0)), 9))
 TRAFFIC = BusTraffic(0.3, 0.1, 0.1)
 LIDAR = Problem("drive_control.lidar_covered", (("lidar", "rear LiDAR"),), "The rear LiDAR is covered.")
 
