@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "mtr_core/python_problem.hpp"
+#include "mtr_core/steady_time.hpp"
 #include "mtr_drive_control/drive_control.hpp"
 #include "mtr_drive_control/interventions.hpp"
 #include "mtr_drive_control/tip_over.hpp"
@@ -149,8 +150,10 @@ class RobotDrive {
   }
 
   /// @param key stamp in ns and height in m, where it is known
+  /// @param speed_limit stamp in ns and m/s of the state machine's newest mode; nothing before the first one
   Decision step(std::int64_t tick_ns, const py::object& odometry, const py::object& imu,
-                const std::optional<std::pair<std::int64_t, double>>& key, const std::optional<CommandTuple>& planner) {
+                const std::optional<std::pair<std::int64_t, double>>& key, const std::optional<CommandTuple>& planner,
+                const std::optional<std::pair<std::int64_t, double>>& speed_limit) {
     Inputs inputs;
     inputs.sensors = {front_.sweep(), rear_.sweep(), motion_of(tick_ns, odometry)};
     inputs.imu = imu_of(tick_ns, imu);
@@ -158,6 +161,8 @@ class RobotDrive {
     inputs.locks = locks_.engaged_at(tick_ns);
     inputs.locks_age_s = locks_.age_s();
     inputs.planner = source_command_of(planner);
+    inputs.speed_limit =
+        speed_limit ? SpeedLimit{speed_limit->first, speed_limit->second} : SpeedLimit{mtr_core::kNeverNs, 0.0};
     Decision decision = control_.step(tick_ns, inputs);
     counted_ = counter_.count(decision);
     return decision;
@@ -190,7 +195,8 @@ void bind_robot(py::module& module) {
       .def("take_lock", &RobotDrive::take_lock, py::arg("owner"), py::arg("stamp_ns"), py::arg("engaged"),
            py::arg("problems") = std::vector<mtr_core::ProblemTuple>(), py::arg("reason") = "")
       .def("step", &RobotDrive::step, py::arg("tick_ns"), py::kw_only(), py::arg("odometry"), py::arg("imu"),
-           py::arg("key"), py::arg("planner"), "Velocity of this tick in lock-step, with what its node keeps.")
+           py::arg("key"), py::arg("planner"), py::arg("speed_limit"),
+           "Velocity of this tick in lock-step, with what its node keeps.")
       .def_property_readonly("interventions", &RobotDrive::interventions);
 }
 

@@ -27,6 +27,7 @@ class DriveControlPart:
         self._topics, self._command = topics, command
         self._core = RobotDrive(urdf, True, list(LOCK_OWNERS), DRIVE_CONTROL.period_ns * 1e-9)
         self._planner, self._peripherals = topics.velocity.input(), topics.peripherals.input()
+        self._mode = topics.mode.input()
         self._sensors: Optional[Sensors] = None
 
     def sense(self, sensors: Sensors) -> None:
@@ -44,13 +45,18 @@ class DriveControlPart:
         """One tick."""
         assert self._sensors is not None
         decision = self._core.step(tick_ns, odometry=self._sensors.odometry, imu=self._sensors.imu,
-                                   key=self._key(tick_ns), planner=self._wanted(tick_ns))
+                                   key=self._key(tick_ns), planner=self._wanted(tick_ns),
+                                   speed_limit=self._speed_limit(tick_ns))
         self._command(decision.linear_mps, decision.angular_radps)
         self._topics.drive.publish(_status(decision, tick_ns, self._core.interventions))
 
     def _key(self, tick_ns: int) -> Optional[Tuple[int, float]]:
         state = self._peripherals.at(tick_ns)
         return (state.header.stamp.to_nsec(), state.key_height_m) if state is not None and state.alive else None
+
+    def _speed_limit(self, tick_ns: int) -> Optional[Tuple[int, float]]:
+        mode = self._mode.at(tick_ns)
+        return None if mode is None else (mode.header.stamp.to_nsec(), mode.max_speed_mps)
 
     def _wanted(self, tick_ns: int) -> Optional[Tuple[int, float, float, bool]]:
         wanted = self._planner.at(tick_ns)

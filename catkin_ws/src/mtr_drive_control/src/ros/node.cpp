@@ -86,7 +86,7 @@ Node::Node(ros::NodeHandle& node, const NodeParameters& parameters)
       manual_(node, names::kManualVelocity, mtr_core::kControllerInput, mtr_core::kClockStep.period_ns,
               parameters.manual_expected),
       planner_(node, names::kPlannerVelocity, mtr_core::kMotionPlanner),
-      mode_(node, names::kRobotMode, mtr_core::kStateMachine, mtr_core::kClockStep.period_ns, false),
+      mode_(node, names::kRobotMode, mtr_core::kStateMachine),
       odometry_(node, names::kWheelOdometry, mtr_core::kSensors, 0),
       imu_(node, names::kImuData, mtr_core::kSensors, 0),
       peripherals_(node, names::kPeripheralsState, mtr_core::kPeripherals),
