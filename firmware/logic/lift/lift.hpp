@@ -11,8 +11,8 @@
 
 namespace mtr {
 
-/// The host repeats its order; only another height is a new one. After a jam the motor rests and tries again once. Then it
-/// stays off, whatever the height: only hold(), which is a decision of the host, permits another attempt.
+/// The host repeats its order; only another height is a new one. After a jam the motor rests and tries again once.
+/// Then it stays off for any height: only hold(), a decision of the host, permits another attempt.
 class Lift {
  public:
   Lift() : stall_(kStallUm) {}

@@ -886,67 +886,67 @@
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="295"/>
+        <location filename="../../station/checks/check_texts.py" line="296"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="307"/>
+        <location filename="../../station/checks/check_texts.py" line="308"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="309"/>
+        <location filename="../../station/checks/check_texts.py" line="310"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="310"/>
+        <location filename="../../station/checks/check_texts.py" line="311"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="313"/>
+        <location filename="../../station/checks/check_texts.py" line="314"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="314"/>
+        <location filename="../../station/checks/check_texts.py" line="315"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="315"/>
+        <location filename="../../station/checks/check_texts.py" line="316"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="316"/>
+        <location filename="../../station/checks/check_texts.py" line="317"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="317"/>
+        <location filename="../../station/checks/check_texts.py" line="318"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="318"/>
+        <location filename="../../station/checks/check_texts.py" line="319"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="321"/>
+        <location filename="../../station/checks/check_texts.py" line="322"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="322"/>
+        <location filename="../../station/checks/check_texts.py" line="323"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="323"/>
+        <location filename="../../station/checks/check_texts.py" line="324"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -996,12 +996,12 @@
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="297"/>
+        <location filename="../../station/checks/check_texts.py" line="298"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="305"/>
+        <location filename="../../station/checks/check_texts.py" line="306"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
@@ -1111,7 +1111,7 @@
         <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="299"/>
+        <location filename="../../station/checks/check_texts.py" line="300"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1156,22 +1156,22 @@
         <translation>Obejděte auto: do 2 m nikdo, žádný klín mimo jeho obrys.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="289"/>
+        <location filename="../../station/checks/check_texts.py" line="290"/>
         <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
         <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="291"/>
+        <location filename="../../station/checks/check_texts.py" line="292"/>
         <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
         <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="293"/>
+        <location filename="../../station/checks/check_texts.py" line="294"/>
         <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
         <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="302"/>
+        <location filename="../../station/checks/check_texts.py" line="303"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robota (technický list nebo svinovací metr), restartujte s ním robota a zmapujte vozidlo znovu; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1186,7 +1186,7 @@
         <translation>Robot nehlásí stav nabití.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="311"/>
+        <location filename="../../station/checks/check_texts.py" line="312"/>
         <source>Check that the base publishes it on the robot&apos;s topic of the battery (docs/other-bases.md).</source>
         <translation>Ověřte, že jej podvozek publikuje na tématu baterie robotu (docs/other-bases.md).</translation>
     </message>

@@ -285,7 +285,8 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
         Finding.STOP_UNTRIED: translate("Check", "Press the stop button in your hand: the robot reports it here. "
                                                  "Then release it."),
         Finding.WAY_HINDERED: translate("Check", "Move it, or measure from nearer; the robot does not drive into it."),
-        Finding.GROUND_UNSEEN: translate("Check", "Walk around the Car: nobody within 2 m, no chock beyond its outline."),
+        Finding.GROUND_UNSEEN: translate("Check", "Walk around the Car: nobody within 2 m, no chock beyond its "
+                                                  "outline."),
         Finding.CABLES_UNSEEN: translate("Check", "Put the laptop into the Car, or tape the CAN cable flat to the "
                                                   "ground. Unplug the charging cable."),
         Finding.OPENINGS_UNSEEN: translate("Check", "Close doors, bonnet, boot and tailgate. Switch off a hatch that "
