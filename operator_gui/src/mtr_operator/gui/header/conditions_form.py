@@ -25,7 +25,6 @@ class ConditionsForm(QWidget):
     def __init__(self, scenario: AnyScenario, parent: QWidget | None = None):
         super().__init__(parent)
         self.announcement = Prose(translated(scenario.announcement))
-        self.announcement.setVisible(bool(scenario.announcement))
         self.boxes = {name: QCheckBox() for name in CONDITIONS}
         self._rows = QWidget()
         rows = QVBoxLayout(self._rows)
@@ -46,6 +45,8 @@ class ConditionsForm(QWidget):
         layout.setSpacing(S)
         layout.addWidget(self.announcement)
         layout.addWidget(self._rows)
+        # A widget without a parent would open as a window of its own, and take the focus.
+        self.announcement.setVisible(bool(scenario.announcement))
         self._rows.hide()
 
     @property
