@@ -97,7 +97,7 @@ tidy: setup build ## Look for defects in all C++ with clang-tidy; some minutes. 
 	@$(RUN) python setup/tidy.py $(TIDY)
 
 unit: setup build ## Only the tests that need no ROS master
-	@$(RUN) python setup/run_tests.py lint unit gtest
+	@$(RUN) python setup/run_tests.py lint unit window gtest
 
 firmware-test: setup build ## Only the tests of the firmware, on the PC and on the emulated boards
 	@$(RUN) python setup/run_tests.py firmware

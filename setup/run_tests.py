@@ -1,6 +1,6 @@
 """Runs the test suites and prints one line with the sum of their results.
 
-Usage: run_tests.py all | [lint] [unit] [gtest] [firmware] [rostest] [system]
+Usage: run_tests.py all | [lint] [unit] [window] [gtest] [firmware] [rostest] [system]
 
 Suites that are named run one after the other; all of them run in three lanes, because most of them use one core and
 wait for some of their time.
@@ -129,11 +129,17 @@ def in_packages(pattern: str) -> List[pathlib.Path]:
 
 
 def unit() -> Counts:
-    """Tests without a ROS master."""
-    folders = [*in_packages("tests/unit"), TOP / "operator_gui" / "tests", TOP / "tests" / "architecture",
+    """Tests without a ROS master or a window."""
+    folders = [*in_packages("tests/unit"), TOP / "operator_gui" / "tests" / "unit", TOP / "tests" / "architecture",
                TOP / "tests" / "contract", TOP / "tests" / "fuzz"]
     paths = sorted(str(folder) for folder in folders if any(folder.rglob("test_*.py")))
     return pytest("unit", paths, UNIT_LIMIT_S)
+
+
+def window() -> Counts:
+    """Tests of the application's window and of the programs that the Operator starts."""
+    tests = TOP / "operator_gui" / "tests"
+    return pytest("window", [str(tests / "end_to_end"), str(tests / "gui")], UNIT_LIMIT_S)
 
 
 def system() -> Counts:
@@ -243,11 +249,11 @@ def failures(names: Sequence[str]) -> List[str]:
 
 
 SUITES: Dict[str, Callable[[], Counts]] = {
-    "lint": lint, "unit": unit, "gtest": gtest, "firmware": firmware, "rostest": rostest, "system": system,
+    "lint": lint, "unit": unit, "window": window, "gtest": gtest, "firmware": firmware, "rostest": rostest,
+    "system": system,
 }
-# Of the two long ones one waits for nodes and the other for windows, for a tenth to a third of their time; the short
-# ones fill that, and are over long before them.
-LANES = (("system",), ("unit",), ("rostest", "lint", "gtest", "firmware"))
+# Lanes of similar length. Three keep two cores busy: tests of nodes and windows wait for up to a third of it.
+LANES = (("window",), ("system", "unit"), ("rostest", "lint", "gtest", "firmware"))
 
 if __name__ == "__main__":
     sys.exit(main(sys.argv[1:]))
