@@ -20,12 +20,15 @@ from mtr_operator.station.readiness import Phase
 # Before the fixtures of this folder shorten it.
 SHIPPED_MS = HoldButton.HOLD_MS
 # Rows of the checklist behind the status word.
-LISTED = ["Link", "Encryption", "Robot", "Preflight", "Emergency stop", "Position", "Car's size", "Way of the lines",
-          "Stop trial", "Ground next to the Car", "Cables", "Doors and lids", "Fittings", "LiDARs", "Lift and buttons",
-          "Battery", "CAN bus", "Car's locks", "Clocks", "Robot's clock", "Remote key", "Disk", "Limits"]
+LISTED = ["Link", "Encryption", "Robot", "Preflight", "Emergency stop", "Position", "Test area", "Car's size",
+          "Way of the lines", "Stop trial", "Ground next to the Car", "Cables", "Doors and lids", "Fittings", "Area",
+          "People", "Weather", "Light", "Car", "Attendance", "LiDARs", "Lift and buttons", "Battery", "CAN bus",
+          "Car's locks", "Car's signals", "Clocks", "Robot's clock", "Remote key", "Disk", "Limits"]
 # Of the checks that no sensor makes.
 UNSEEN_ADVICE = ["Press the stop button", "Walk around the Car", "Put the laptop into the Car", "Close doors",
                  "Remove carriers"]
+# Operating conditions that a person confirms.
+CONDITIONS = ["Area", "People", "Weather", "Light", "Car", "Attendance"]
 KEYS = pytest.mark.parametrize("key", [Qt.Key_Space, Qt.Key_Return, Qt.Key_Enter], ids=["Space", "Return", "Enter"])
 
 
@@ -164,6 +167,12 @@ def test_what_no_sensor_shows_is_left_to_a_person_with_what_to_do__B10(operator)
         assert len(text) <= 250 and max(len(sentence.split()) for sentence in sentences) <= 25
 
 
+def test_operating_conditions_are_questions_to_a_person(operator):
+    texts, first = rows(operator), LISTED.index("Area")
+    for name, text in zip(CONDITIONS, texts[first:]):
+        assert text.startswith(f"? {name} ") and text.endswith("?") and len(text) <= 150
+
+
 def test_checklist_knows_the_test_that_is_chosen_and_follows_what_happens__B10(operator, opener):
     operator.choose("key_press")
     status = operator.window.header.status
@@ -208,7 +217,7 @@ def test_start_is_offered_again_after_a_silence_that_began_while_the_screen_was_
     passed_s = [model._clock()]
     monkeypatch.setattr(model, "_clock", lambda: passed_s[0])
     main.types.chosen.emit("key_press")
-    tell(application)
+    tell(application, simulated=True)
     assert screen.start.isEnabled() and not screen._hindrance.text()
     draw = screen._show_obstacles
 
@@ -216,9 +225,9 @@ def test_start_is_offered_again_after_a_silence_that_began_while_the_screen_was_
         passed_s[0] += 2.0
         draw()
     monkeypatch.setattr(screen, "_show_obstacles", draw_slowly)
-    tell(application, battery_percent=70)
+    tell(application, battery_percent=70, simulated=True)
     assert not screen.start.isEnabled() and screen._hindrance.text()
-    tell(application, battery_percent=70)
+    tell(application, battery_percent=70, simulated=True)
     assert screen.start.isEnabled() and not screen._hindrance.text()
 
 
