@@ -96,6 +96,7 @@ def lint() -> Counts:
         "clang-tidy": [sys.executable, "setup/tidy.py", "--changed"],
         "mypy": [sys.executable, "-m", "mypy"],
         "mypy-operator": [sys.executable, "-m", "mypy", "--config-file", "operator_gui/mypy.ini"],
+        "commit-messages": [sys.executable, "setup/commit_message.py", "--branch"],
         "catkin-lint": ["/usr/bin/catkin_lint", "--quiet", "-W1", *map(str, PACKAGES)],
     }
     results = [check(name, command) for name, command in checks.items()]
