@@ -23,6 +23,7 @@ def real(operator, opener):
     def of_real(status):
         steady_s = 50_000.0 + status.stamp_s
         return dataclasses.replace(status, sent_s=NOW_S + status.stamp_s, steady_s=steady_s, waits_for_answer=False,
+                                   simulated=False,
                                    preflight=PreflightReport(50_000.0, (), 40, 0, 50_000.0))
     opener.spoil = of_real
     operator.wait(lambda: operator.model.robot.status.steady_s > 50_000.0)
