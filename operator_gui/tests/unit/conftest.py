@@ -31,7 +31,7 @@ class FakeRobot(RobotLink):
             steady_s=world.time_s, x=world.x, y=world.y, heading=world.heading,
             speed_mps=world.speed_mps, pose_valid=True, position_sigma_m=0.03, heading_sigma_rad=0.01, key_x=KEY_X_M,
             key_height_m=world.height_m, mode=world.mode, car=world.car, car_frame=world.frame,
-            preflight=PreflightReport(), battery_percent=80,
+            preflight=PreflightReport(), battery_percent=80, simulated=True,
             car_check=world.check and replace(world.check, id=world.checked_id), waypoint_result=world.result,
             waypoint_id=world.waypoint.id if world.waypoint else 0, waypoint_message=world.message,
             presses=tuple(press for press in world.presses if press.end_s <= world.time_s)))

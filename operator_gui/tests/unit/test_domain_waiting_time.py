@@ -73,7 +73,7 @@ def set_clock(world, by_s, **changes):
     """Some seconds after the start, for good."""
     begin_s = world.time_s
     world.spoil = lambda status: replace(
-        status, steady_s=100.0 + status.stamp_s, **changes,
+        status, **changes,
         **{name: status.stamp_s + by_s * (status.stamp_s > begin_s + SET_S) for name in ("stamp_s", "sent_s")})
 
 

@@ -140,7 +140,10 @@ def test_each_start_is_the_same_robot_but_for_its_id():
     options.continued = "progress.json"
     later = robot_link(options)._robot.status()
     assert begun == again == FakeRobotLink(3)._robot.status()
-    assert dataclasses.replace(later, robot_session_id=begun.robot_session_id) == begun != later
+    same = dataclasses.replace(later, robot_session_id=begun.robot_session_id, area=begun.area)
+    assert same == begun != later
+    # The origin of the test area belongs to the session.
+    assert dataclasses.replace(later.area, origin_id=begun.area.origin_id) == begun.area
 
 
 CAR = CarDimensions(4.5, 1.8, 0.01, 0.01)

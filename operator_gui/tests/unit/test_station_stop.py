@@ -226,7 +226,7 @@ def test_robot_that_was_ordered_round_the_car_may_move_until_it_has_finished(mod
 
 
 def test_robot_left_mapping_by_a_former_application_does_not_hinder_a_test():
-    motion, robot = Motion(), status(mode=Mode.MAPPING_CAR)
+    motion, robot = Motion(), status(mode=Mode.MAPPING_CAR, simulated=True)
     motion.learn(robot, 10.0)
     snapshot = RobotSnapshot(robot, LockState.LOCKED, "")
     assert readiness_of(snapshot, 0.0, Phase.IDLE, motion).can_start
