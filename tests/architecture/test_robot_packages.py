@@ -1,6 +1,7 @@
 """A robot gets mtr_bringup and what that needs there, and nothing that only other computers need."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
+import runpy
 import subprocess
 from typing import Dict, List, Set
 
@@ -81,3 +82,21 @@ def test_commands_of_a_robot_import_nothing_that_it_lacks():
         files = [modules[name] for name in left if name in modules]
         left = {name for path in files for name in imports(path)} - seen
     assert {name for name in seen if name.startswith("mtr_") and "." not in name} <= installed
+
+
+# proto is also a package of pip, which finds its modules itself.
+SETUPS = [folder / "setup.py" for folder in package_folders()
+          if (folder / "setup.py").exists() and folder.name != "proto"]
+
+
+@pytest.mark.parametrize("path", SETUPS, ids=lambda path: path.parent.name)
+def test_every_python_package_is_installed(path, monkeypatch):
+    declared = []
+    monkeypatch.setattr("catkin_pkg.python_setup.generate_distutils_setup",
+                        lambda **arguments: declared.extend(arguments["packages"]) or {})
+    monkeypatch.setattr("distutils.core.setup", lambda **_: None)
+    monkeypatch.chdir(path.parent)
+    runpy.run_path(str(path))
+    source = path.parent / "src"
+    assert sorted(declared) == sorted(".".join(each.parent.relative_to(source).parts)
+                                      for each in source.rglob("__init__.py"))

@@ -4,9 +4,9 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-PARTS = ("can_bus", "faults", "gazebo", "gui", "harness", "kills", "link", "liveness", "localization",
-         "localization.drives", "localization.ends", "localization.judging", "localization.methods", "motion",
-         "preflight", "ranges", "real", "real_time", "serial", "simulation", "soak", "truth")
+PARTS = ("can_bus", "car_clearance", "faults", "gazebo", "gui", "harness", "kills", "lidar_course", "link", "liveness",
+         "localization", "localization.drives", "localization.ends", "localization.judging", "localization.methods",
+         "motion", "preflight", "ranges", "real", "real_time", "serial", "simulation", "soak", "truth")
 PACKAGES = ["mtr_benchmarks", *(f"mtr_benchmarks.{part}" for part in PARTS)]
 
 setup(**generate_distutils_setup(packages=PACKAGES, package_dir={"": "src"}))
