@@ -151,7 +151,8 @@ def test_no_test_begins_on_a_real_robot_without(real_robot, robot_link, supervis
 def real_robot_fixture(robot_link, car_link, world):
     """run(supervision, identity, report) measures on a robot whose clock is that of a real one."""
     def run(supervision, identity=IN_CHARGE, report=FINE, observer=None):
-        world.spoil = lambda status: replace(status, simulated=False, sent_s=1.7e9 + status.stamp_s, steady_s=STEADY_S + status.stamp_s,
+        world.spoil = lambda status: replace(status, simulated=False, sent_s=1.7e9 + status.stamp_s,
+                                             steady_s=STEADY_S + status.stamp_s,
                                              preflight=report)
         progress = run.progress = Progress(AUTOLOCK.name, PARAMETERS.to_mapping(), identity=identity)
         loop = ControlLoop(robot_link, car_link, observer)
