@@ -76,7 +76,7 @@ CActionCollection movement(const Record& record, const CPose2D& before) {
   return actions;
 }
 
-/// As in the configuration that MRPT ships for its icp-slam application, with a finer points map.
+/// Configuration of MRPT's icp-slam application, with a finer points map.
 void configure(mrpt::slam::CMetricMapBuilderICP& builder) {
   builder.setVerbosityLevel(mrpt::system::LVL_ERROR);
   mrpt::maps::CSimplePointsMap::TMapDefinition points;

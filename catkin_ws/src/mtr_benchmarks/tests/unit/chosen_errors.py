@@ -1,4 +1,4 @@
-"""Drives of the localization's benchmark with errors that a test chooses, and the table of them."""
+"""Drives of the localization benchmark with errors chosen by a test, and their table."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 
@@ -37,7 +37,7 @@ SEGMENTS = [{"kind": "kidnap", "begin_s": 4.0}]
 
 
 def errors(key_m, standing=True, on_axis=False, beyond_m=2.0, nees=3.0):
-    """A hundred rows of the same."""
+    """Return a hundred identical rows."""
     one = np.ones(100)
     whitened = np.full((100, 3), np.sqrt(nees / 3.0))
     return PoseErrors(0.02 * np.arange(100), key_m * one, 0.1 * one, whitened, np.full(100, standing),
@@ -45,7 +45,7 @@ def errors(key_m, standing=True, on_axis=False, beyond_m=2.0, nees=3.0):
 
 
 def kidnapped_errors(key_m):
-    """Errors of a robot that is lifted at 4 s; key_m has errors by (begin, end)."""
+    """Return errors of a robot that is lifted at 4 s; key_m has errors by (begin, end)."""
     stamps = np.arange(0.0, 20.0, 0.02)
     values = np.full(len(stamps), 0.005)
     for (begin_s, end_s), error_m in key_m.items():
@@ -55,23 +55,23 @@ def kidnapped_errors(key_m):
 
 
 def drive(scene, variant, seed):
-    """One of those that the benchmark has."""
+    """Return a drive of the benchmark."""
     return BenchmarkDrive(selection.options(scene, seed), variant)
 
 
 def result(scene, variant, seed, key_m):
-    """A drive with rows near the Car, far out, and on an axis."""
+    """Return a drive with rows near the Car, far out, and on an axis."""
     parts = [errors(key_m), errors(key_m, beyond_m=9.9), errors(key_m, standing=False, on_axis=True)]
     return DriveResult(drive(scene, variant, seed), {THIS_SYSTEM: MethodOutcome(joined(parts), 0.5, CAR)}, {}, [])
 
 
 def failed(scene, variant, method, sentence="The Car was not located."):
-    """A drive that gave nothing."""
+    """Return a failed drive."""
     return DriveResult(drive(scene, variant, 9), {}, {method: sentence}, [])
 
 
 def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005, opposed_m=0.0025, pitched_m=0.014):
-    """Two seeds of everything that the table asks for."""
+    """Return two seeds of each kind of drive in the table."""
     found = [result(scene, variant, seed, each_m) for scene in SCENES for seed in (1, 2)
              for variant, each_m in ((PLAIN, key_m), (RANGE_BIAS, biased_m), (TILT, tilted_m),
                                     (OPPOSED, opposed_m))]
@@ -85,5 +85,5 @@ def all_results(key_m=0.004, biased_m=0.006, tilted_m=0.005, opposed_m=0.0025, p
 
 
 def rows(results):
-    """The table as it is written, by the name of the row."""
+    """Return the table as written to the file, by name of the row."""
     return {row["name"]: row for row in report.report(results, None).document()["table"]}

@@ -1,4 +1,4 @@
-"""Makes the drives with chosen errors importable by the tests beside them."""
+"""Makes the drives with chosen errors importable by the tests in this folder."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys

@@ -1,4 +1,4 @@
-"""A robot that was carried away while it drove is judged by what it said and by nothing else, and none is hidden."""
+"""Abducted robots are evaluated only by their published poses, and none is left out."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -28,7 +28,7 @@ FAR_OFF, LOST, RIGHT = (2.0, 0.05, True), (5.0, 3.0, False), (0.01, 0.005, True)
 
 
 def fate(course):
-    """Fate of a robot that says (error, sigma, valid) from each of the instants on, since it was carried away."""
+    """Return the result of a robot with (error, sigma, valid) from each of the times on, since it was carried away."""
     stamps = np.arange(0.0, 29.0, 0.02)
     rows = np.tile(RIGHT, (len(stamps), 1)).astype(float)
     for begin_s, state in course.items():
@@ -171,7 +171,7 @@ def task(tmp_path, keep=False):
 
 
 class Stage:
-    """In place of recording and replay: what each drive gives, by its turn."""
+    """Replaces recording and replay; each drive gives the next of the results."""
 
     def __init__(self, monkeypatch, turns):
         self.turns, self.names = list(turns), []
@@ -228,13 +228,13 @@ MAP_FROM_CAR = Pose2(-3.0, 1.5, 0.7)
 
 
 def circle():
-    """Poses round the Car."""
+    """Return poses around the Car."""
     angles = STAMPS / 20.0 * 2.0 * math.pi
     return np.stack([4.0 * np.cos(angles), 3.0 * np.sin(angles), angles + math.pi / 2.0], axis=1)
 
 
 def tracked(poses_in_map, covariance):
-    """Key track of a system whose key frames were right."""
+    """Return the key track of a system with right key frames."""
     true = pose_track(STAMPS, circle())
     track = pose_track(STAMPS, poses_in_map, np.tile(covariance, (len(STAMPS), 1, 1)), np.ones(len(STAMPS)) > 0.0)
     frames = pose_track(STAMPS[::25], compose(MAP_FROM_CAR, circle())[::25])
@@ -258,7 +258,7 @@ def test_uncertain_heading_counts_by_the_key_s_lever():
 
 
 def test_pose_between_the_truth_s_stamps_is_not_smeared_by_the_robot_s_own_jump():
-    """The system finds itself at once; only its own jump tells when, not the mean of before and after."""
+    """The estimate jumps at one instant; interpolating it would give a mean of before and after."""
     poses = compose(MAP_FROM_CAR, circle())
     poses[500:] += (3.0, 0.0, 0.0)
     found = tracked(poses, np.eye(3))

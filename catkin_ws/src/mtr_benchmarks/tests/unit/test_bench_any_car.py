@@ -1,4 +1,4 @@
-"""Cars that seeds draw: they can exist, the robot gets round them, and what is said of them is judged as it is."""
+"""Random Cars are plausible, the robot gets around them, and estimates are evaluated correctly."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -56,7 +56,7 @@ def test_way_round_keeps_away_from_all_and_ends_where_it_was_before(drive):
 
 
 def outline(shape):
-    """Places on the Car's outline, every 5 cm."""
+    """Return places on the Car's outline, every 5 cm."""
     x, y = 0.5 * shape.length_m, 0.5 * shape.width_m
     steps = [index / 100.0 for index in range(-100, 101)]
     return [*((share * x, side * y) for share in steps for side in (1, -1)),

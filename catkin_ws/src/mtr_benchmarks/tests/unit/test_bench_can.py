@@ -1,4 +1,5 @@
-"""The benchmark of the Car's bus: what is lost is counted, what could not be filled is not met."""
+"""Benchmark of the Car's bus: lost frames are counted, and a bus that could not be filled does not meet the
+requirement."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import random
@@ -66,7 +67,8 @@ def test_signal_that_is_hidden_among_few_messages_is_found(monkeypatch):
 
 @pytest.fixture(name="log")
 def log_fixture(tmp_path):
-    """Four messages of a car for two seconds: a counter, a still one, an extended one, one with a check sum."""
+    """Return a log of two seconds with four messages of a car: a counter, a constant, an extended one, and one with a
+    checksum."""
     lines = []
     for number in range(200):
         stamp = f"({1000.0 + 0.01 * number:.6f}) can0"

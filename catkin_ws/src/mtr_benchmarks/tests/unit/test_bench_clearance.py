@@ -1,4 +1,4 @@
-"""Whole tests around random Cars touch nothing, and the benchmark that says so finds a contact where there is one."""
+"""Complete tests around random Cars have no contacts, and the benchmark detects a contact if there is one."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import math
@@ -21,7 +21,7 @@ SALOON = TrueCar(4.8, 1.85, 1.45, 0.9, 2.8, 0.32, 0.2, 0.05, 0.02, 0.2, spare_wh
 
 @functools.lru_cache(maxsize=None)
 def end_of(number):
-    """What the test of a Car came to."""
+    """Return the result of the test of a Car."""
     return trial.run((SEED, number))
 
 

@@ -1,4 +1,4 @@
-"""The benchmark's robot drives round the Car where it should, and its recording holds sensors and truth."""
+"""The benchmark's robot drives around the Car as planned, and its recording contains sensors and truth."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import math
@@ -47,7 +47,7 @@ EIGHTHS = tuple(math.pi / 4.0 * step for step in range(8))
 
 
 def follow(leg, pose):
-    """Poses of a robot that does at once what it has to, until the leg is finished."""
+    """Return the poses of a robot that follows commands immediately, until the leg is finished."""
     follower, poses, done = LegFollower(leg, pose, TICK_S), [pose], False
     while not done:
         (speed, turning), done = follower.update(poses[-1])
@@ -57,7 +57,7 @@ def follow(leg, pose):
 
 
 def whole_way(shape, plan):
-    """All poses of the pattern."""
+    """Return all poses of the pattern."""
     poses = [START]
     for piece in pieces(shape, START, plan):
         poses += follow(piece.leg, poses[-1])

@@ -1,4 +1,4 @@
-"""Whatever ends a benchmark ends its robot and what else it has opened."""
+"""The end of a benchmark, for whatever reason, ends its robot and releases all of its resources."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
@@ -12,8 +12,8 @@ import pytest
 from mtr_benchmarks.harness.own_process import OwnProcessError, in_own_process
 
 LIMIT_S = 30.0
-# Instead of roslaunch: it is reachable like a robot, and leaves a file when it was ended in order.
-# Both programs sleep in steps: a signal that arrives just before pause(2) is only handled after the next one.
+# Replacement of roslaunch: it accepts connections like a robot, and writes a file when it was ended in order. Both
+# programs sleep in steps, because a signal that arrives just before pause(2) is only handled after the next one.
 ROBOT = """#!{python}
 import pathlib, signal, socket, sys, time
 arguments = dict(each.split(":=", 1) for each in sys.argv if ":=" in each)
@@ -24,7 +24,7 @@ signal.signal(signal.SIGINT, lambda *_: sys.exit((folder / "ended").write_text("
 while True:
     time.sleep(0.05)
 """
-# What needs a robot: in this process, as the soak, or in one of its own, as the matrix.
+# Program with a robot in its own process, like the soak, or in a child process, like the matrix.
 BENCHMARK = """
 import contextlib, os, pathlib, sys, time
 from mtr_benchmarks.harness.own_process import end_in_order, in_own_process
@@ -54,7 +54,7 @@ def waited(condition):
 
 
 def is_gone(process):
-    # One that nobody has waited for is a zombie.
+    # A terminated process that was not waited for is a zombie.
     stat = pathlib.Path(f"/proc/{process}/stat")
     try:
         return stat.read_text(encoding="ascii").rpartition(")")[2].split()[0] == "Z"
@@ -64,7 +64,7 @@ def is_gone(process):
 
 @pytest.fixture(name="benchmark_in")
 def fixture_benchmark_in(tmp_path):
-    """Starts the benchmark; its process when its robot runs."""
+    """Return a function that starts the benchmark and returns its process when its robot runs."""
     (tmp_path / "roslaunch").write_text(ROBOT.format(python=sys.executable), encoding="utf-8")
     (tmp_path / "roslaunch").chmod(0o755)
     (tmp_path / "benchmark.py").write_text(BENCHMARK, encoding="utf-8")

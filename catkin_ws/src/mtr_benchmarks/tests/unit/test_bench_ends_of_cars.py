@@ -1,4 +1,4 @@
-"""Benchmark of the Car's ends in short, and what it draws and counts."""
+"""Short form of the benchmark of the Car's ends, with its random Cars and its counts."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -11,7 +11,8 @@ from mtr_benchmarks.localization.ends.bodies import FRONT_INSET_M, REAR_INSET_M,
 from mtr_benchmarks.localization.ends.coverage import SIDES, EndErrors, by_kind, ends_of_seed, rows
 from mtr_benchmarks.localization.ends.views import cast, view_of
 
-# Chosen before they were first fitted. The counts are the same on each run: every random number comes from the seed.
+# These seeds were chosen before the first fit. Every random number depends on the seed, so that the counts are the same
+# in each run.
 SEEDS = range(40001, 40037)
 EXACT = EndErrors(1, "both bumpers; nothing known", *4 * (0.0,), *4 * (0.01,))
 
@@ -27,14 +28,14 @@ def test_every_car_is_located(found):
 
 @pytest.mark.parametrize("side", SIDES)
 def test_intervals_hold_95_percent_of_the_sides(found, side):
-    """As few as here are held by chance in one of ten thousand honest samples."""
+    """Fewer covered sides than the limit occur by chance in one of ten thousand consistent samples."""
     held = sum(each.is_held(side) for each in found)
     assert held >= binom.ppf(1e-4, len(found), 0.95)
 
 
 @pytest.mark.parametrize("side", ("front", "rear"))
 def test_sigmas_of_the_ends_are_not_larger_than_the_errors_are(found, side):
-    """Normalised errors of sigmas twice too large have a mean square of 0.25."""
+    """With sigmas that are twice too large, normalised errors have a mean square of 0.25."""
     squares = [(each.error_m(side) / each.sigma_m(side)) ** 2 for each in found]
     assert 0.4 < np.mean(squares) < 1.6
 
@@ -54,7 +55,7 @@ def test_cars_are_drawn_with_ends_that_have_nothing_to_do_with_each_other():
     cars = [drawn_car(seed) for seed in range(1, 601)]
     insets_m = np.array([(car.front_inset_m, car.rear_inset_m) for car in cars])
     assert np.all(insets_m >= 0.0) and np.all(insets_m <= (FRONT_INSET_M[1], REAR_INSET_M[1]))
-    # One standard deviation of the correlation of independent ones is 0.04.
+    # The correlation of independent values has a standard deviation of 0.04.
     assert abs(np.corrcoef(insets_m.T)[0, 1]) < 0.16
     assert len({(car.front_seen, car.rear_seen, bool(car.sheet.known_length_m), bool(car.sheet.front_overhang_m))
                 for car in cars}) == 16

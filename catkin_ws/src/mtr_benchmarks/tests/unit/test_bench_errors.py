@@ -1,4 +1,4 @@
-"""The benchmark's errors are those that were put in, and its covariances are judged rightly."""
+"""The benchmark's errors are those that were injected, and its covariances are evaluated correctly."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -20,7 +20,7 @@ NO_COVARIANCE = np.zeros((3, 3))
 
 
 def truth_of(poses_in_car, judged_from_s=0.0):
-    """Truth of a drive whose first half is the loop."""
+    """Return the truth of a drive whose first half is the loop."""
     count = len(poses_in_car)
     meta = {"map_from_car": {"x_m": -3.0, "y_m": 1.5, "heading_rad": 0.7},
             "segments": [{"kind": "loop", "begin_s": -1.0, "end_s": 10.0}]}
@@ -29,7 +29,7 @@ def truth_of(poses_in_car, judged_from_s=0.0):
 
 
 def circle():
-    """Poses round the Car."""
+    """Return poses around the Car."""
     angles = STAMPS / 20.0 * 2.0 * math.pi
     return np.stack([4.0 * np.cos(angles), 3.0 * np.sin(angles), angles + math.pi / 2.0], axis=1)
 
@@ -131,7 +131,7 @@ def test_dead_reckoning_takes_the_gyro_s_bias_off_after_standing():
 
 
 def sweep_of_a_wall(turning_radps):
-    """A wall at x = 3 seen by a robot at the origin that turns; its LiDAR at (0.1, 0)."""
+    """Return a sweep of a wall at x = 3 from a rotating robot at the origin; its LiDAR is at (0.1, 0)."""
     stamps = 1.0 + np.linspace(0.0, 0.03, 200)
     angles = np.linspace(-0.8, 0.8, 200)
     headings = turning_radps * (stamps - 1.0)

@@ -1,4 +1,4 @@
-"""How a cell of the matrix is judged of whose fault nothing is to be noticed, and what standing is."""
+"""Evaluation of cells of the matrix with an unnoticeable fault, and definition of standstill."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from types import SimpleNamespace

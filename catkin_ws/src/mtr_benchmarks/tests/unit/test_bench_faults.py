@@ -1,4 +1,4 @@
-"""How an outcome of the matrix of states and faults is judged."""
+"""Evaluation of outcomes in the matrix of states and faults."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import importlib.util
@@ -167,7 +167,7 @@ def test_lift_has_a_time_of_its_own(lift_stood_s, is_right):
 def test_robot_that_may_drive_on_must_not_stand_and_a_line_is_judged_only_where_there_is_one():
     drives = replace(CELL, expected=replace(MUST, stands_s=None, record=None))
     assert wrong(drives, replace(SEEN, stood_s=None, end_mps=0.3)) == []
-    # It stands for an instant where it turns.
+    # The robot stops for an instant while it turns.
     assert wrong(drives, replace(SEEN, stood_s=0.7, end_mps=0.0)) == []
 
 
@@ -182,7 +182,7 @@ def test_matrix_of_no_cells_and_times_of_no_robot_are_not_what_they_must_be():
     drove = campaign.Found(CELL, SEEN, [])
     assert [row.is_met for row in report([drove]).rows] == [True, False, True] and SEEN.stood_s > 0.5
     assert not all(row.is_met for row in report([drove._replace(outcome=None)]).rows[1:])
-    # One that stood before did not take any time to stand.
+    # A robot that was stopped before has no time to standstill.
     assert len(report([campaign.Found(replace(CELL, state="ready"), SEEN, [])]).rows) == 2
 
 

@@ -1,4 +1,4 @@
-"""The benchmark's figures say what the errors say: of scenes, kidnappings, a campaign, and of real time."""
+"""The benchmark's figures follow from the errors: of scenes, kidnappings, a campaign, and of real time."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import asdict, replace
 

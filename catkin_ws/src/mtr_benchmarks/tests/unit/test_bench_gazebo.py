@@ -1,4 +1,4 @@
-"""Figures of runs in Gazebo and MuJoCo: pose errors, the pace, and what a run has to be."""
+"""Figures of runs in Gazebo and MuJoCo: pose errors, real-time factor, and requirements."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

@@ -1,4 +1,4 @@
-"""Rows of all benchmarks are judged, written and printed alike."""
+"""Rows of all benchmarks are evaluated, written and printed in the same way."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math

@@ -1,4 +1,4 @@
-"""Bounds of honest drives: they hold for drives of which it is known that they are honest."""
+"""Bounds of consistent drives contain drives that are known to be consistent."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
@@ -17,7 +17,8 @@ def drive(whitened):
 
 
 def honest(noise, lasting):
-    """Errors of variance 1, of which a share is one for the whole drive and the rest lasts for ten seconds."""
+    """Return errors of variance 1: a share is constant during the drive, and the rest is correlated over ten
+    seconds."""
     white = noise.standard_normal((2 * SECONDS, 3))
     kept = np.exp(-0.5 / 10.0)
     fast = np.empty_like(white)

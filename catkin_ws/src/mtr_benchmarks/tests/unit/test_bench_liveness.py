@@ -1,4 +1,4 @@
-"""What the benchmark of stopped nodes and of clocks that are set calls a surge, and the clock that it sets."""
+"""Detection of surges in the benchmarks of stopped nodes and clock steps, and the settable clock."""
 # SPDX-License-Identifier: Apache-2.0
 import subprocess
 import sys
@@ -88,7 +88,7 @@ def test_clock_is_set_for_a_process_that_runs_and_the_steady_one_is_not(tmp_path
 
 
 class Driving:
-    """A robot that drives on; what it counts is its clock's."""
+    """Robot that drives on and counts the steps of its clock."""
 
     def __init__(self, counts_steps):
         self.wheels = [Motion(0.0, 0.5, 0.0)]

@@ -1,4 +1,4 @@
-"""The motion benchmark's yardsticks: bounds that nothing beats, and drive control's own limits."""
+"""References of the motion benchmark: lower bounds of durations, and drive control's own limits."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -90,7 +90,7 @@ def test_limiter_reaches_what_is_allowed_and_never_jumps(wanted):
 
 
 def tracked(**changed):
-    """Figures of pairs that are as they must be."""
+    """Return figures of pairs that meet all limits."""
     return tracking.TrackingFigures(**{
         "pairs": 200, "time_ratio_median": 9.0, "time_ratio_p95": 1.15, "time_ratio_worst": 1.3,
         "cross_track_p95_m": 0.02, "cross_track_worst_m": 0.03, "heading_p95_deg": 1.0, "heading_worst_deg": 2.0,
@@ -100,7 +100,7 @@ def tracked(**changed):
 
 
 def parts(**changed):
-    """Figures of all parts, as they must be but for what has changed."""
+    """Return figures of all parts that meet all limits except for the changes."""
     found = {
         "tracking": tracked(),
         "posts": posts.PostsFigures(0.02, 1.0, {"0.2 m/s, 0.65 m": 0.01}),
@@ -149,7 +149,7 @@ def test_figure_is_met_or_the_benchmark_says_so(key, value, is_good):
 
 
 def leg(result, message="", time_s=4.0):
-    """Of a robot that stands where it should."""
+    """Return the leg of a robot at its goal."""
     return DrivenLeg(result, message, time_s, Pose2(0.0, 0.0, 0.0), (), 1.0)
 
 

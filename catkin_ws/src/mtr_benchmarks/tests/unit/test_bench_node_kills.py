@@ -1,4 +1,4 @@
-"""What is found of a test whose files lost, doubled or changed something, and of a robot that went on for too long."""
+"""Findings about a test with lost, duplicate or changed lines, and about a robot that drove on for too long."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import random
@@ -26,7 +26,7 @@ PARAMETERS = {"measurements_distance_m": 10.0, "minimum_distance_m": 0.5, "passe
 
 @pytest.fixture(scope="module")
 def measured(tmp_path_factory):
-    """Folder of a test that came to its end, on the robot and the Car inside the application."""
+    """Return the folder of a completed test with the simulated robot and Car of the application."""
     folder = tmp_path_factory.mktemp("measured")
     parameters = folder / "parameters.json"
     parameters.write_text(json.dumps(PARAMETERS), encoding="utf-8")
@@ -38,7 +38,7 @@ def measured(tmp_path_factory):
 
 @pytest.fixture
 def kept(measured, tmp_path):
-    """The same in a place of its own, looked at once."""
+    """Return a copy of the test after its first inspection."""
     shutil.copytree(measured, tmp_path / "out")
     found = Kept(tmp_path / "out", "autolock", PARAMETERS)
     found.look()
@@ -46,7 +46,7 @@ def kept(measured, tmp_path):
 
 
 def read_otherwise(monkeypatch, edit):
-    """What is read of the files from now on has other results."""
+    """Edit the results when the files are read from now on."""
     def load(*arguments):
         progress = load_progress(*arguments)
         return SimpleNamespace(results=edit(list(progress.results)), measured_car=progress.measured_car,
@@ -117,7 +117,7 @@ def test_zero_counts_from_when_nothing_else_is_sent_any_more():
 
 
 def speeds(stop_s, until_s=10.0):
-    """Of a robot that drives at 0.5 m/s until a time and stands from then on."""
+    """Return the speeds of a robot that drives at 0.5 m/s until a time and then stops."""
     return [(0.04 * index, 0.5 if 0.04 * index < stop_s else 0.0) for index in range(int(until_s / 0.04))]
 
 
@@ -127,10 +127,10 @@ def speeds(stop_s, until_s=10.0):
     ("peripherals", 5.9, 8.0, True, True),
     ("peripherals", 6.1, 8.0, True, False),
     ("state_machine", 99.0, 8.0, True, False),
-    # Back before it had to stand; away for good.
+    # The node is back before the robot had to stop; the node does not return.
     ("motion_planner", 99.0, 5.3, False, True),
     ("motion_planner", 99.0, None, True, False),
-    # It stood before.
+    # The robot was stopped before.
     ("state_machine", 3.0, 8.0, False, True)])
 def test_zero_is_sent_in_time_after_a_death_unless_the_node_is_back(node, stop_s, back_s, is_judged, stopped_in_time):
     kill = kill_of(node, speeds(stop_s), speeds(stop_s + 0.1), 5.0, back_s)
@@ -189,7 +189,7 @@ def test_robot_that_turns_has_not_stopped():
 
 
 @pytest.mark.parametrize("comes_again, goes_on, is_back", [
-    # Without an application time stands, and who is back says nothing.
+    # Without an application simulated time stops, and a restarted node publishes nothing.
     (True, False, True), (True, True, False), (False, True, False), (False, False, False)])
 def test_silent_node_is_back_when_it_was_started_and_the_test_came_to_its_end(
         monkeypatch, comes_again, goes_on, is_back):

@@ -1,4 +1,4 @@
-"""The preflight names what is wrong within 5 s of motion: simulated drives on robots that are put together wrongly."""
+"""The preflight reports the fault of a wrongly assembled robot within 5 s of simulated motion."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 
@@ -12,7 +12,7 @@ from mtr_benchmarks.preflight.drive import drive_of, drives, record
 from mtr_benchmarks.preflight.verdicts import Verdict, asks_for_more, counts, says, verdict_on
 from mtr_bringup.preflight.finding import bad, good, needs_more
 
-# One with perfect LiDARs, one with bad ones and a person who walks about.
+# One drive with perfect LiDARs, one with bad LiDARs and a walking person.
 DRIVES = {"lot": (4, False), "lot_person": (5, True)}
 
 
@@ -42,7 +42,7 @@ def test_wrong_diagnosis_that_also_asks_for_more_is_wrong():
 
 
 class Says:
-    """In place of the preflight's judge."""
+    """Replaces the preflight's judge."""
 
     def __init__(self, *findings):
         self.found = findings

@@ -1,4 +1,4 @@
-"""Picture of the range benchmark: what it shows, and figures that are not complete."""
+"""Content of the range benchmark's picture, and incomplete figures."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 

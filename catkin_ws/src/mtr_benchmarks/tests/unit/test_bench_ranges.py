@@ -1,4 +1,4 @@
-"""The benchmark of ranges: its Cars are what they say, and its figures and verdicts."""
+"""Benchmark of ranges: properties of its Cars, figures and verdicts."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -34,7 +34,7 @@ def test_presses_at_one_place_agree_under_fading():
     for seed in range(400):
         radial = Radial(Radio(2.0, 0.88, 0.0), np.random.default_rng([seed, 0]), np.random.default_rng([seed, 1]))
         pairs.append(radial.press(radial.mean_d50_m) == radial.press(radial.mean_d50_m))
-    # Of a bivariate normal of correlation 0.88: 1/2 + asin(0.88) / pi.
+    # Expectation for a bivariate normal distribution with a correlation of 0.88: 1/2 + asin(0.88) / pi.
     assert np.mean(pairs) == pytest.approx(0.5 + math.asin(0.88) / math.pi, abs=0.07)
 
 
@@ -50,7 +50,7 @@ def test_truth_of_a_narrow_radial_is_where_its_own_presses_end(share):
 def test_key_is_noticed_later_by_the_reaction_time():
     rng = np.random.default_rng(1)
     depths = [noticed_at(Polling(), 0.4, rng) for _ in range(800)]
-    # One and a half polls and the delay.
+    # The mean reaction time is one and a half polls plus the delay.
     assert np.mean(depths) == pytest.approx(0.4 * (1.5 * 0.3 + 0.03), abs=0.01)
 
 
@@ -62,7 +62,7 @@ def test_all_methods_measure_the_same_radials():
 
 
 class FarDesign:
-    """Stands in for senpy's: it wants presses beyond the range, which senpy refuses when it has bounds."""
+    """Replaces senpy's design: it requests presses beyond the range, which senpy rejects if it has bounds."""
 
     def __init__(self, **options):
         assert not [name for name in options if "bound" in name]
@@ -158,7 +158,7 @@ def test_value_that_is_no_number_is_the_worst_one():
 
 
 def measured():
-    """Lines of all methods and Cars whose intervals are right."""
+    """Return lines of all methods and Cars with correct intervals."""
     rng = np.random.default_rng(4)
 
     def lines(sigma_m):

@@ -29,14 +29,14 @@ FRAME, LEVER, DELAY_S = Pose2(3.0, -2.0, 0.7), (0.2, -0.05), 0.04
 
 
 def drive(off_m=0.0):
-    """Round a circle of 2 m, with an error that grows to off_m."""
+    """Return a drive on a circle of 2 m, with an error that grows to off_m."""
     angle = 0.25 * STAMPS_S
     poses = np.stack([2.0 * np.sin(angle) + off_m * STAMPS_S / 25.0, 2.0 - 2.0 * np.cos(angle), angle], axis=1)
     return pose_track(STAMPS_S, poses)
 
 
 def truth(noise_m=0.0, seed=1):
-    """Of a sensor at the lever, in a frame and on a clock of its own."""
+    """Return the truth of a sensor at the lever, in its own frame and on its own clock."""
     angle = 0.25 * (TRUTH_S - DELAY_S)
     poses = compose(FRAME, np.stack([2.0 * np.sin(angle), 2.0 - 2.0 * np.cos(angle), angle], axis=1))
     cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
@@ -64,7 +64,7 @@ def test_error_of_a_track_is_scored_on_places_that_it_was_not_fitted_to():
 
 
 def written(path):
-    """A short drive with one LiDAR and a truth."""
+    """Write a short drive with one LiDAR and a truth."""
     with rosbag.Bag(str(path), "w") as bag:
         for number in range(40):
             stamp = rospy.Time.from_sec(10.0 + 0.1 * number)

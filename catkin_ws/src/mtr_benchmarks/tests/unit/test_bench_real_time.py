@@ -19,7 +19,7 @@ BEGIN_S, END_S = 100.0, 110.0
 
 
 def spoken(period_s, pause_s=0.0):
-    """Arrivals at a rate, with one pause of so much more in the middle."""
+    """Return periodic arrivals with a pause that is longer by pause_s in the middle."""
     count = round((END_S - BEGIN_S) / period_s) + 1
     return [BEGIN_S + index * period_s for index in range(count)
             if not BEGIN_S + 5.0 < BEGIN_S + index * period_s < BEGIN_S + 5.0 + pause_s + 0.5 * period_s]
@@ -75,7 +75,7 @@ def test_a_good_robot_meets_every_row():
 
 
 def table_of(rows):
-    """The rows as the file has them, by name."""
+    """Return the rows in their file format, by name."""
     return {row["name"]: row for row in (each.as_json() for each in rows)}
 
 
@@ -133,7 +133,7 @@ def a_run(status=0, lines=GOOD, touched=()):
 
 
 def made_of(made, folder):
-    """Whole tests on an idle machine, the robot replaced by what came of each."""
+    """Return complete tests on an idle machine, with given results instead of the robot."""
     made = list(made)
     seeds = range(1, len(made) + 1)
     return whole_tests(folder, [Machine.IDLE], seeds, run_one=lambda simulator, options: made[options.seed - 1])

@@ -1,4 +1,4 @@
-"""The end of a measurement's part in the graph of nodes."""
+"""Shutdown of a measurement's ROS node."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 import rospy

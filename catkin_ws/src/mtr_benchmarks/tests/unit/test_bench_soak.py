@@ -1,4 +1,4 @@
-"""Soak: what grows is found and what only wavers is not; processes are read from /proc."""
+"""Soak: growth is detected and fluctuation is not; processes are read from /proc."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import os
@@ -65,11 +65,11 @@ WHOLE = {name: usages(name) for name in PROCESSES}
 @pytest.mark.parametrize("samples, missing", [
     (WHOLE, []), ({}, sorted(PROCESSES)),
     ({name: each for name, each in WHOLE.items() if name != "localization"}, ["localization"]),
-    # The watcher ended before; a process was not there from the beginning, or was away for a while.
+    # The watcher ended early; a process was missing at the beginning, or for a while.
     ({name: each[:100] for name, each in WHOLE.items()}, sorted(PROCESSES)),
     ({**WHOLE, "dispatcher": usages("")[100:]}, ["dispatcher"]),
     ({**WHOLE, "dispatcher": [*usages("")[:100], *usages("")[200:]]}, ["dispatcher"]),
-    # One that nobody expected and that grew in two looks.
+    # An unexpected process grew within two samples.
     ({**WHOLE, "other": [(10.0, Usage(40, 30, 20, 0)), (20.0, Usage(900, 3000, 200, 0))]}, ["other"])])
 def test_process_that_was_not_seen_all_the_time_is_missing(samples, missing):
     assert unseen(samples, 3600.0) == missing
@@ -99,7 +99,7 @@ def test_use_of_a_process_is_read_and_its_node_has_a_name():
     here, there = socket.socketpair()
     command = [sys.executable, "-c", "print('ready', flush=True); input()", "__name:=localization"]
     with here, there, subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as child:
-        # Before, it is another program that only becomes this one.
+        # Before its first output, the child may still be a copy of this process.
         assert child.stdout.readline() == b"ready\n"
         assert below(os.getpid())[child.pid] == "localization"
         usage = usage_of(child.pid, {})

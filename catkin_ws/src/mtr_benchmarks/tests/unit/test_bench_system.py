@@ -1,4 +1,4 @@
-"""What the benchmark gives the Car locator of a Car, and which size it judges by what."""
+"""Data that the benchmark gives to the Car locator, and selection of the evaluated size."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The table of the localization's benchmark: each row that was promised, and no failure hides behind its figures."""
+"""Table of the localization benchmark: every promised row exists, and figures do not hide failures."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_table_has_every_row_of_the_goals_and_meets_them():
 
 
 def sure(scene, variant, seed, nees):
-    """A drive whose normalised error squared is that."""
+    """Return a drive with a given normalised squared error."""
     return DriveResult(drive(scene, variant, seed),
                        {THIS_SYSTEM: MethodOutcome(errors(0.004, nees=nees), 0.5, CAR)}, {}, [])
 
@@ -149,7 +149,7 @@ def test_row_says_for_how_long_the_position_was_unknown():
 
 
 def partly_unknown(scene, variant, share):
-    """A drive that is right but does not know its pose for this share of its time."""
+    """Return a correct drive without a valid pose for a share of its time."""
     unknown = errors(0.003)
     unknown.key_m[:round(100 * share)] = np.nan
     return DriveResult(drive(scene, variant, 7), {THIS_SYSTEM: MethodOutcome(unknown, 0.5, CAR)}, {}, [])
@@ -176,7 +176,7 @@ def test_further_error_tells_for_how_long_the_pose_was_not_valid():
 
 
 def without(name, results):
-    """All drives but those whose name begins so."""
+    """Return all drives except those with a prefix of the name."""
     return [each for each in results if not each.drive.name.startswith(name)]
 
 

@@ -1,4 +1,4 @@
-"""How what takes longer with something is held against the same without it."""
+"""Comparison of delays with and without a condition."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 

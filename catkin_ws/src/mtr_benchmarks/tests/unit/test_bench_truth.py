@@ -25,7 +25,7 @@ UNLOCKED = Change(12.0, False, True, 0, Place(0.0, 2.4, 1.0))
 
 
 class Seen:
-    """As much of a world as a judge of Autolock looks at."""
+    """The part of a world that a judge of Autolock needs."""
 
     def __init__(self, *changes):
         self.car = CarBody(1.5, 2.5, 0.0)
@@ -36,7 +36,7 @@ NO_LOCK = MeasuredDistance("lock", LineStatus.NOT_REACHED, None, None)
 
 
 def verdict(told_m, *changes, sigma_m=0.03):
-    """Of a line that tells an unlock distance, or None for not reached, and no lock distance."""
+    """Return the verdict on a line with an unlock distance, or None for not reached, and without a lock distance."""
     status = LineStatus.NOT_REACHED if told_m is None else LineStatus.OK
     told = (MeasuredDistance("unlock", status, told_m, sigma_m), NO_LOCK)
     return judge_autolock(Seen(*changes), RAY, told, WINDOW)
@@ -79,7 +79,7 @@ def test_position_is_as_far_off_as_its_sigma_allows():
 
 @pytest.mark.parametrize("share", [1.0, 0.2])
 def test_too_small_a_sigma_of_the_position_is_found(monkeypatch, share):
-    """With the sigma that the robot should tell no line is wrong, with a fifth of it some are."""
+    """With the right sigma no line is wrong; with a fifth of it some are."""
     def too_sure(chance):
         error = pose_error(chance)
         return error._replace(sigma_m=share * error.sigma_m)
@@ -99,7 +99,7 @@ def test_cars_frames_tell_a_change_from_the_first_one_after_it():
 
 @pytest.fixture(scope="module", name="lines")
 def lines_fixture():
-    """The short form."""
+    """Return the lines of the short form."""
     return [run_line(SEED, number) for number in range(LINES)]
 
 

@@ -1,4 +1,4 @@
-"""Whole tests at the limit, and ranges over reflecting ground: their short forms, and the rows that judge them."""
+"""Short forms of complete tests at the limit and of ranges over reflecting ground, and their rows."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from types import SimpleNamespace

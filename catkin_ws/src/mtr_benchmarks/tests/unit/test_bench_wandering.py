@@ -1,4 +1,4 @@
-"""A robot that is carried away is put down where it has room, and drives on near the Car without touching anything."""
+"""An abducted robot is put down at a free place, and drives on near the Car without contacts."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -30,13 +30,13 @@ from mtr_simulation.site.scenario import SCENARIOS, Scenario
 from mtr_simulation.site.surroundings import Cone, ParkedCar, Pole, Walk, Wall
 
 TICK_S = 0.02
-# Its circle: the key's tip and the rear corners.
+# Radius of the robot's circle, which contains the key's tip and the rear corners.
 ROBOT_RADIUS_M = 0.35
 BESIDE = Pose2(0.5, 2.6, 0.0)
 
 
 def wandered(bodies, pose, seed, duration_s=25.0):
-    """Poses and commands of a robot that does at once what it has to."""
+    """Return poses and commands of a robot that follows commands immediately."""
     wanderer, poses, commands, done = Wanderer(bodies, stream(seed, "test"), duration_s, TICK_S), [pose], [], False
     while not done:
         (speed, turning), done = wanderer.update(poses[-1])
@@ -71,7 +71,7 @@ def test_each_thing_of_a_site_is_where_it_stands():
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_what_the_robot_touches_is_nearer_than_its_circle(scene):
-    """The shapes are those of the physics: what has room is not touched, and what stands in the Car is."""
+    """The shapes match the physics: places with room have no contact, and places inside the Car have one."""
     site = SCENARIOS[scene]
     sim, bodies = Sim(1, site), site_bodies(site)
     noise = np.random.default_rng(2)
@@ -96,7 +96,7 @@ def test_jump_ends_at_a_free_place_and_is_as_long_as_it_may_be(scene):
 
 
 def test_jump_leaves_out_what_is_taken():
-    """Everything but a gap to the left is full."""
+    """All places except a gap to the left are occupied."""
     bodies = [Body(Pose2(0.0, 20.0, 0.0), 30.0, 19.0), Body(Pose2(-20.0, 0.0, 0.0), 19.0, 30.0),
               Body(Pose2(20.0, 0.0, 0.0), 19.0, 30.0)]
     chance = np.random.default_rng(1)

@@ -14,7 +14,7 @@ from .learning import is_found
 from .listening import Listened, on_terminal, on_virtual_bus
 from .replaying import Replayed, replayed_autolock
 
-# Of issue 19's table.
+# Names and limits of the rows of each bus.
 LOST = "frames lost: {}"
 LATENCY = "change sent to judged, 99 %: {}"
 CORES = "processor of the link, of one core: {}"
@@ -24,14 +24,14 @@ FOUND_RECORDED = Requirement("learn in recorded traffic: the hidden signal is pr
                              at_least=True)
 REPLAY = Requirement("replay: largest difference of a distance", "mm", must=0.1)
 DISTANCES = Requirement("replay: distances that are compared", "(count)", must=10, at_least=True)
-# A bus that this computer could not fill proves nothing.
+# Least bus load: a result on a bus that this computer could not fill proves nothing.
 _FULL_LOAD = 0.99
 _SHORT_S, _SHORT_PLACEMENTS = 5.0, 5
 _MM_PER_M = 1000.0
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--seconds", type=float, default=60.0, help="of full load on each bus, default %(default)s")
@@ -55,7 +55,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 def report(listened: Sequence[Listened], found: Sequence[bool], replayed: Replayed,
            recorded: Sequence[bool] = ()) -> BenchmarkReport:
-    """Rows of the table. recorded: placements in the traffic of cars; without them they have no row."""
+    """Return the table. recorded: results with recorded traffic of cars; their row is omitted if there are none."""
     rows = [row for each in listened for row in _rows(each)]
     rows.append(_found(FOUND, found))
     rows += [_found(FOUND_RECORDED, recorded)] if recorded else []

@@ -1,4 +1,4 @@
-"""How often the right signal is learned from a bus at full load, wherever it lies and whatever is beside it."""
+"""Measures how often learning finds the right signal on a fully loaded bus, at any position and next to any traffic."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import pathlib
@@ -12,17 +12,18 @@ from mtr_operator.domain.ports import LockState
 
 from .traffic import TrafficMessage, made_traffic, recorded_traffic
 
-# 500 kbit/s carry so many frames of 8 bytes a second, without stuffed bits.
+# Frames of 8 bytes per second on a bus of 500 kbit/s, without stuff bits.
 _FRAMES_PER_S = 4500.0
-# What tells a state comes at least so often.
+# Longest cycle of a message that carries a state.
 _SLOWEST_S = 0.5
 _STEP_S = 0.01
-# A person reads, acts and answers.
+# Reaction of a person to a prompt: delay of the action and of the answer.
 _ACTS_S, _ANSWERS_S = 0.6, 1.3
 
 
 def is_found(seed: int, prompts: int = 10, log: Optional[pathlib.Path] = None) -> bool:
-    """True when the first proposal is the signal that was hidden. log: of a car, in place of traffic made by chance."""
+    """Return True if the first proposal is the hidden signal. log: recording of a car, used instead of random
+    traffic."""
     chance = random.Random(seed)
     locked = [True]
     messages = list(made_traffic(chance, _FRAMES_PER_S) if log is None

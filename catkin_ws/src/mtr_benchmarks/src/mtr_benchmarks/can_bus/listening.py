@@ -1,4 +1,4 @@
-"""What the application's link makes of a bus at full load: frames lost, processor, latency of a change."""
+"""Measures the application's link on a fully loaded bus: lost frames, processor time, latency of a change."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os
@@ -22,15 +22,20 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .load import BITRATE_BPS, DATA_BITRATE_BPS, LOCK_ID, Sent, run
 
 _STATUS_S = 0.1
-# After the last frame was sent; a link that has not read it by then has lost it.
+# Waiting time after the last frame was sent; frames that have not been read by then count as lost.
 _PATIENCE_S = 10.0
 _STATE_BITS = 0x03
 
 
 @dataclass(frozen=True)
 class Listened:
-    """sent_frames: by the bus. lost: of them not heard or not in the log. latencies_s: of each change, from before its
-    frame was sent until the link had judged it. cores: processor time of the link by wall time."""
+    """Result of one bus.
+
+    Attributes:
+        sent_frames: frames sent on the bus.
+        latencies_s: of each change, from before its frame is sent until the link has evaluated it.
+        cores: processor time of the link divided by wall time.
+    """
 
     name: str
     sent_frames: int
@@ -42,16 +47,16 @@ class Listened:
 
     @property
     def lost(self) -> int:
-        """Frames that are missing in either place."""
+        """Number of frames that the link has not received or the log does not contain."""
         return self.sent_frames - min(self.heard, self.logged)
 
     def latency_ms(self, percent: float) -> float:
-        """NaN without a change."""
+        """Return a percentile of the latencies; NaN without a change."""
         return 1000.0 * float(np.percentile(self.latencies_s, percent)) if self.latencies_s else float("nan")
 
 
 class _TimedLink(CanCarLink):
-    """Notes when it has judged a frame whose state differs from the one before."""
+    """Records when it has evaluated a frame with a changed state."""
 
     def __init__(self, *arguments: Any, **options: Any):
         super().__init__(*arguments, **options)
@@ -69,7 +74,7 @@ class _TimedLink(CanCarLink):
 
 
 def on_virtual_bus(folder: pathlib.Path, seconds: float, is_fd: bool) -> Listened:
-    """Through python-can's virtual bus, whose sender is a thread of this process."""
+    """Measure with python-can's virtual bus; the sender is a thread of this process."""
     name = "CAN FD 2 Mbit/s, virtual bus" if is_fd else "classic 500 kbit/s, virtual bus"
     link = _TimedLink("virtual", name, BITRATE_BPS, data_bitrate=DATA_BITRATE_BPS if is_fd else None)
     with can.Bus(interface="virtual", channel=name) as bus:
@@ -80,7 +85,7 @@ def on_virtual_bus(folder: pathlib.Path, seconds: float, is_fd: bool) -> Listene
 
 
 def on_terminal(folder: pathlib.Path, seconds: float) -> Listened:
-    """Through the driver of serial-line adapters, from a process of its own."""
+    """Measure with the driver for serial adapters; the sender is a separate process."""
     master, slave = os.openpty()
     tty.setraw(slave)
     command = [sys.executable, "-m", "mtr_benchmarks.can_bus.load", str(master), str(seconds)]
@@ -98,7 +103,7 @@ def on_terminal(folder: pathlib.Path, seconds: float) -> Listened:
 
 
 def _sent_by(process: "subprocess.Popen[str]") -> Sent:
-    """Start it, now that the link has opened its adapter, and wait until it has sent all."""
+    """Start the sender after the link has opened its adapter, and wait for its result."""
     if process.stdin is None or process.stdout is None:
         raise OSError("The sender has no pipes.")
     process.stdin.write("\n")
@@ -107,7 +112,8 @@ def _sent_by(process: "subprocess.Popen[str]") -> Sent:
 
 
 def _listened(name: str, link: _TimedLink, folder: pathlib.Path, send: Callable[[], Sent], is_inside: bool) -> Listened:
-    """Listen while it is sent; is_inside: by a thread of this process, whose processor time is not the link's."""
+    """Receive while the bus is loaded. is_inside: a thread of this process sends; its processor time is not the
+    link's."""
     log = folder / f"{name.partition(',')[0].replace(' ', '_').replace('/', '')}_{int(is_inside)}.blf"
     link.log_to(log)
     link.connect()
@@ -128,7 +134,7 @@ def _listened(name: str, link: _TimedLink, folder: pathlib.Path, send: Callable[
 
 
 def _statuses_while(link: CanCarLink, goes_on: Callable[[], bool]) -> None:
-    """The robot's Statuses, as in a test."""
+    """Feed the robot's Statuses to the link, as in a test."""
     number = 0
     while goes_on():
         number += 1

@@ -1,7 +1,7 @@
-"""A bus at full load: frames at the pace of the wire, among them a lock message whose changes are noted when sent.
+"""Loads a bus fully at the pace of the wire; one of the messages is a lock message whose changes are time-stamped.
 
-`python -m mtr_benchmarks.can_bus.load FD SECONDS` is an slcan adapter on the pseudo-terminal whose master is the file
-descriptor FD, in a process of its own; one line of JSON tells what it has sent.
+`python -m mtr_benchmarks.can_bus.load FD SECONDS` acts as an slcan adapter in a separate process. FD is the file
+descriptor of the pseudo-terminal's master. It prints one line of JSON that describes the sent frames.
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
@@ -17,11 +17,12 @@ from mtr_operator.car_link.fake_message import DemoLockMessage
 LOCK_ID = 0x320
 BITRATE_BPS, DATA_BITRATE_BPS = 500_000, 2_000_000
 _CYCLE_S = 0.02
-# As often as the lock message's flag of a change allows, with room.
+# The lock message's change flag must have ended before the next change.
 _CHANGE_CYCLES = 10
-# ISO 11898-1 with the gap of three bits; stuffed bits are left out, so that more frames come than on a wire.
+# Frame lengths by ISO 11898-1 with the interframe space of three bits; without stuff bits, so the load is higher than
+# on a wire.
 _CLASSIC_BITS, _FD_BITS, _FD_DATA_BITS = 47 + 64, 30, 36 + 8 * 64
-# Sent together, for a sleep is no shorter.
+# Frames are sent in bursts, because a sleep cannot be shorter.
 _BURST_S = 0.001
 _PASSIVE_ENTRY = 1
 _BACKGROUND_ID, _BACKGROUND_IDS = 0x400, 100
@@ -31,8 +32,12 @@ _ANSWERS = {b"F": b"F00\r", b"V": b"V1013\r", b"N": b"N0001\r"}
 
 @dataclass(frozen=True)
 class Sent:
-    """What was sent. changes_s: monotonic clock, before each frame that shows a change. load: part of the wire's time
-    that was used; less than 1 when this computer did not suffice."""
+    """Sent frames.
+
+    Attributes:
+        load: used share of the wire's time; less than 1 if this computer was too slow.
+        changes_s: monotonic time before each frame that shows a change.
+    """
 
     frames: int
     load: float
@@ -41,7 +46,8 @@ class Sent:
 
 
 def run(send: Callable[[int, bytes], None], is_fd: bool, seconds: float) -> Sent:
-    """Send the frames of this time, even if the process is delayed; send: takes identifier and data of a frame."""
+    """Send all frames of a time span, even if the process is delayed. send: called with a frame's identifier and
+    data."""
     period_s = _FD_BITS / BITRATE_BPS + _FD_DATA_BITS / DATA_BITRATE_BPS if is_fd else _CLASSIC_BITS / BITRATE_BPS
     message, background = DemoLockMessage(), bytes(64 if is_fd else 8)
     message.source = _PASSIVE_ENTRY
@@ -65,20 +71,20 @@ def run(send: Callable[[int, bytes], None], is_fd: bool, seconds: float) -> Sent
 
 
 class Adapter:
-    """An slcan adapter at the master's end of a pseudo-terminal."""
+    """slcan adapter at the master's end of a pseudo-terminal."""
 
     def __init__(self, terminal: int):
         self._terminal = terminal
         self._line = b""
 
     def send(self, can_id: int, data: bytes) -> None:
-        """A frame of the bus, with its stamp; commands are answered in between."""
+        """Send a received frame with its time stamp to the host; answer pending commands first."""
         self.answer(0.0)
         stamp_ms = round(time.monotonic() * _MS_PER_S) % _STAMP_LIMIT_MS
         os.write(self._terminal, f"t{can_id:03X}{len(data)}{data.hex().upper()}{stamp_ms:04X}\r".encode())
 
     def answer(self, patience_s: float) -> None:
-        """What the host asks."""
+        """Answer the host's commands."""
         if not select.select([self._terminal], [], [], patience_s)[0]:
             return
         *lines, self._line = (self._line + os.read(self._terminal, 4096)).split(b"\r")
@@ -87,12 +93,12 @@ class Adapter:
 
 
 def main(terminal: int, seconds: float) -> None:
-    """Answer until a line on the standard input starts it, send, and tell what was sent."""
+    """Answer commands until a line on the standard input starts the load, send it, and print the result."""
     adapter = Adapter(terminal)
     while sys.stdin not in select.select([terminal, sys.stdin], [], [])[0]:
         adapter.answer(0.0)
     print(json.dumps(asdict(run(adapter.send, False, seconds))), flush=True)
-    # What lies in the terminal still has to be read by the other side, which then ends this process.
+    # The host still reads data from the terminal's buffer; it then ends this process.
     while True:
         adapter.answer(1.0)
 

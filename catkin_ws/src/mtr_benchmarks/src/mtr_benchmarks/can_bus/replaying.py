@@ -1,4 +1,4 @@
-"""An Autolock on the virtual bus, and its distances computed anew from what was recorded."""
+"""Measures an Autolock on the virtual bus and recomputes its distances from the recording."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from dataclasses import dataclass
@@ -19,15 +19,19 @@ _PARAMETERS = {"passes": 1, "measurements_distance_m": 5.0, "self_check": False,
 
 @dataclass(frozen=True)
 class Replayed:
-    """worst_m: largest difference of a distance known both ways; infinite when a line's outcome differs.
-    distances: that were measured."""
+    """Comparison of measured and recomputed distances.
+
+    Attributes:
+        worst_m: largest difference of a distance that both have; infinite if the outcome of a line differs.
+        distances: number of recomputed distances.
+    """
 
     worst_m: float
     distances: int
 
 
 def replayed_autolock(folder: pathlib.Path) -> Replayed:
-    """Measure with a recording in the folder, and compare."""
+    """Measure with a recording in the folder, replay it, and compare."""
     scenario = SCENARIOS[_SCENARIO]
     kind = scenario.parameters_type
     parameters = kind.from_mapping({**kind.proposed(), **_PARAMETERS})

@@ -1,2 +1,2 @@
-"""Whole tests around random Cars of which the LiDARs' plane shows only a part, swept against their true bodies."""
+"""Complete tests around random Cars that the LiDAR plane shows only in part, swept against their true bodies."""
 # SPDX-License-Identifier: Apache-2.0

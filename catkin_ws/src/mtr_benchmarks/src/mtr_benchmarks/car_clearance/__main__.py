@@ -1,4 +1,4 @@
-"""Runs whole tests around random Cars and sweeps them against the true bodies; figures go to car_clearance.json.
+"""Runs complete tests around random Cars and sweeps them against the true bodies; figures go to car_clearance.json.
 
 Usage: python -m mtr_benchmarks.car_clearance --out out/bench [--cars 200] [--seed 1]
 """
@@ -16,7 +16,7 @@ from .trial import run
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run the tests; the exit status says whether every row is what it must be."""
+    """Run the tests; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--cars", type=int, default=200, help="number of Cars")

@@ -1,4 +1,4 @@
-"""True bodies of Cars whose ends differ: solids between two heights, and what a horizontal plane meets of them."""
+"""True bodies of Cars with different ends: solids between two heights, and their sections with a horizontal plane."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from typing import Iterator, List, NamedTuple, Tuple
 
 Point = Tuple[float, float]
 ARCH_M, WHEEL_WIDTH_M, TYRE_INSET_M, SILL_INSET_M = 0.40, 0.21, 0.025, 0.02
-# The lower part of a bumper, which may stand back, ends at this height, and the body at the second.
+# Top of the bumper's lower part, which may be set back, and top of the body.
 LOWER_TOP_M, BODY_TOP_M = 0.45, 0.80
 CABIN_INSET_M, NOSE_POINTS = 0.2, 6
 MIRROR_HALF_LENGTH_M, MIRROR_HEIGHTS_M = 0.08, (0.90, 1.15)
@@ -15,7 +15,7 @@ FITTING_ROOT_M = 0.1
 
 
 class Solid(NamedTuple):
-    """A convex outline in the Car's frame between two heights, m. wheel_radius_m: of a round wheel; else 0."""
+    """Convex outline in the Car's frame between two heights, m. wheel_radius_m: for a round wheel; else 0."""
 
     corners: Tuple[Point, ...]
     low_m: float
@@ -24,7 +24,7 @@ class Solid(NamedTuple):
 
 
 class Fitting(NamedTuple):
-    """What stands out behind the Car beyond its length: by how much, half of its width, and its heights, m."""
+    """Part that protrudes behind the Car beyond its length: protrusion, half width and heights, m."""
 
     out_m: float
     half_width_m: float
@@ -34,13 +34,13 @@ class Fitting(NamedTuple):
 
 @dataclass(frozen=True)
 class TrueCar:
-    """A Car as it is; its frame's origin is midway between front and rear, fittings not counted.
+    """True Car; the origin of its frame is midway between front and rear, without fittings.
 
     Attributes:
-        clearance_m: lower edge of bumpers and sills; a LiDAR below it sees only the wheels.
-        front_inset_m: how far the bumper's lower part stands back; rear_inset_m the same.
-        mirror_m: how far mirrors stand out of the sides.
-        spare_wheel: one hangs at the rear, and counts as part of the length.
+        clearance_m: lower edge of bumpers and sills; a LiDAR plane below it shows only the wheels.
+        front_inset_m, rear_inset_m: how far the lower part of the bumper is set back.
+        mirror_m: protrusion of the mirrors from the sides.
+        spare_wheel: a spare wheel is mounted at the rear and counts as part of the length.
     """
 
     length_m: float
@@ -58,20 +58,20 @@ class TrueCar:
 
     @property
     def front_axle_m(self) -> float:
-        """x of the front axle."""
+        """x coordinate of the front axle."""
         return 0.5 * self.length_m - self.front_overhang_m
 
     @property
     def rear_axle_m(self) -> float:
-        """x of the rear axle."""
+        """x coordinate of the rear axle."""
         return self.front_axle_m - self.wheelbase_m
 
     def solids(self) -> List[Solid]:
-        """All of its body."""
+        """Return all solids of the body."""
         return [*self._bumpers(), *self._middle(), *self._wheels(), *self._upper(), *self._fittings()]
 
     def section(self, height_m: float) -> List[Tuple[Point, ...]]:
-        """Outlines that a horizontal plane meets."""
+        """Return the outlines of the section at a height."""
         return [_met(solid, height_m) for solid in self.solids() if solid.low_m <= height_m < solid.high_m]
 
     def _bumpers(self) -> Iterator[Solid]:
@@ -124,7 +124,7 @@ def _box(low_x: float, high_x: float, half_width_m: float) -> Tuple[Point, ...]:
 
 
 def _nose(sign: float, arch_m: float, tip_m: float, half_width_m: float) -> Tuple[Point, ...]:
-    """Superellipse from the wheel arch to the tip, and back."""
+    """Return a superellipse from the wheel arch to the tip and back."""
     depth_m = tip_m - arch_m
     left = [(arch_m + depth_m * math.cos(angle) ** 0.5, half_width_m * math.sin(angle) ** 0.5)
             for angle in (0.5 * math.pi * step / NOSE_POINTS for step in range(NOSE_POINTS, -1, -1))]
@@ -132,7 +132,7 @@ def _nose(sign: float, arch_m: float, tip_m: float, half_width_m: float) -> Tupl
 
 
 def _met(solid: Solid, height_m: float) -> Tuple[Point, ...]:
-    """A wheel is met at the chord of that height."""
+    """Return the section of a solid; for a wheel, the rectangle over the chord at that height."""
     if not solid.wheel_radius_m:
         return solid.corners
     radius_m = solid.wheel_radius_m

@@ -1,4 +1,4 @@
-"""Random Cars: every second one has bumpers above the LiDARs' plane; with and without a data sheet."""
+"""Random Cars with and without a data sheet; every second one has bumpers above the LiDAR plane."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, NamedTuple, Tuple
 
@@ -9,11 +9,11 @@ from mtr_simulation.noise import stream
 
 from .bodies import SPARE_WHEEL_M, Fitting, TrueCar
 
-# What the laboratory knows: nothing, length and width, or overhang and wheelbase as well.
+# Data known to the laboratory: nothing, length and width, or also overhang and wheelbase.
 NO_SHEET, SIZE, WHOLE = "no data sheet", "size", "data sheet"
 SHEETS = (NO_SHEET, SIZE, WHOLE)
 LOW, HIGH = ("saloon", "hatchback"), ("pickup", "van", "off-roader", "long saloon")
-# Length, share of the wheelbase, width and height by class; of the Ford Crown Victoria for the long saloon.
+# Length, share of the wheelbase, width and height by class; the long saloon is the Ford Crown Victoria.
 LENGTHS_M: Dict[str, Tuple[float, float]] = {
     "saloon": (4.5, 5.1), "hatchback": (3.6, 4.4), "pickup": (5.1, 5.6), "van": (4.9, 5.5), "off-roader": (4.0, 5.0),
     "long saloon": (5.1, 5.4)}
@@ -21,24 +21,24 @@ WHEELBASE_SHARES = {"saloon": (0.56, 0.62), "hatchback": (0.60, 0.68), "pickup":
                     "off-roader": (0.55, 0.64), "long saloon": (0.54, 0.56)}
 HEIGHTS_M = {"saloon": 1.45, "hatchback": 1.5, "pickup": 1.8, "van": 2.0, "off-roader": 1.8, "long saloon": 1.5}
 FRONT_SHARE_OF_OVERHANGS = (0.38, 0.56)
-# The plane lies at 0.3 m.
+# The LiDAR plane is at 0.3 m.
 LOW_CLEARANCE_M, HIGH_CLEARANCE_M = (0.14, 0.26), (0.32, 0.40)
 FRONT_INSET_SIGMA_M, REAR_INSET_SIGMA_M, MAX_INSET_M = 0.06, 0.04, 0.20
 MIRRORS_M, WHEEL_RADII_M = (0.10, 0.25), (0.29, 0.38)
-# Shares of the Cars with what stands out behind: a tow bar; a carrier, a lowered tailgate or an open lid. What stands
-# out by more than 0.25 m is entered as rear_fitting_m, as the checklist before mapping asks.
+# Shares of the Cars with a tow bar; with a carrier, a lowered tailgate or an open lid; with a spare wheel. Protrusions
+# above 0.25 m are entered as rear_fitting_m, as the checklist before mapping requires.
 HAS_TOW_BAR, HAS_LARGE_FITTING, HAS_SPARE_WHEEL = 0.3, 0.2, 0.5
 ENTERED_FROM_M = 0.25
 
 
 class RandomClearanceCar(NamedTuple):
-    """What a seed draws.
+    """Random Car of a seed.
 
     Attributes:
         kind: class of the Car.
-        sheet: what the laboratory knows of it.
-        pose: in map.
-        rear_fitting_m: what the laboratory has entered.
+        sheet: data known to the laboratory.
+        pose: pose in map.
+        rear_fitting_m: protrusion entered by the laboratory.
     """
 
     kind: str
@@ -49,7 +49,7 @@ class RandomClearanceCar(NamedTuple):
 
 
 def random_car(seed: int, number: int) -> RandomClearanceCar:
-    """The Car of that number; the same on every machine."""
+    """Return the Car with that number; the same on every machine."""
     chance = stream(seed, f"clearance {number}")
     kind = str(chance.choice(HIGH if number % 2 else LOW))
     length_m = chance.uniform(*LENGTHS_M[kind])

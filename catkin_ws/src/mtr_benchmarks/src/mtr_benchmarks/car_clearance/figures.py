@@ -1,4 +1,4 @@
-"""Figures of all tests: contacts first, and what could be measured at all."""
+"""Figures of all tests: contacts with the Car and share of measurable lines."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from .trial import NEAR_M, CarEnd, LineEnd, refusals
 CONTACTS = Requirement("lines on whose ways the robot touched the Car", "(count)", must=0.0)
 CARS = Requirement("Cars", "(count)")
 ASKED = Requirement("Cars about which the locator asked", "(count)")
-# A benchmark in which everything is refused proves nothing.
+# A benchmark in which every line is refused proves nothing.
 ORDINARY = Requirement("saloons and hatchbacks with a data sheet: lines measured at 0.3 m", "(share)", must=0.98,
                        at_least=True)
 MEASURED = Requirement("all located Cars: lines measured at 1.2 m or nearer", "(share)", must=0.95, at_least=True)
@@ -20,12 +20,12 @@ CLEARANCE = Requirement("least distance from a true body", "m")
 
 @dataclass(frozen=True)
 class ClearanceFigures:
-    """Of all Cars; names are those of the file.
+    """Figures of all Cars; the names are those in the file.
 
     Attributes:
         measured_at: shares of the lines by class, data sheet and distance.
-        refused: refusals by code; a line that is measured from farther away may have several.
-        contacts: Car by number, class, data sheet and side.
+        refused: refusals by code; a line that is measured from a larger distance may have several.
+        contacts: number of the Car, class, data sheet and side of each contact.
     """
 
     cars: int
@@ -40,14 +40,14 @@ class ClearanceFigures:
     asked: List[str]
 
     def rows(self) -> List[Row]:
-        """Contacts and shares."""
+        """Return the rows of the table."""
         return [Row(CARS, self.cars), Row(CONTACTS, len(self.contacts), remark=f"of {self.lines} lines"),
                 Row(CLEARANCE, self.least_clearance_m), Row(ORDINARY, self.ordinary_at_nearest),
                 Row(MEASURED, self.measured), Row(ASKED, self.cars_asked)]
 
 
 def figures(ends: Sequence[CarEnd]) -> ClearanceFigures:
-    """Figures of these tests."""
+    """Return the figures of these tests."""
     lines = [(end, line) for end in ends for line in end.lines]
     ordinary = [line for end, line in lines if end.drawn.kind in LOW and end.drawn.sheet == WHOLE
                 and not (end.drawn.rear_fitting_m and line.side.startswith("rear"))]

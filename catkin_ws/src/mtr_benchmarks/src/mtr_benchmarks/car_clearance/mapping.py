@@ -1,4 +1,4 @@
-"""What the Car locator makes of a way round a Car, and how the planner receives it."""
+"""Locates a Car from simulated scans around it and converts the result as the planner receives it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, Tuple
@@ -26,12 +26,12 @@ from .draw import SIZE, WHOLE, RandomClearanceCar
 
 LIDAR_HEIGHT_M, RING_M, VIEW_STEP_M, BEAMS = 0.30, 1.6, 0.12, 720
 RANGE_SIGMA_M, POSE_SIGMA_M = 0.008, 0.002
-# How far the Operator's starting place is off.
+# Error of the starting place that the Operator entered.
 PRIOR_ERROR = Pose2(0.2, -0.15, 0.05)
 
 
 def sheet_of(drawn: RandomClearanceCar) -> DataSheet:
-    """What the laboratory has entered of the Car."""
+    """Return the data sheet that the laboratory has entered for the Car."""
     car = drawn.car
     if drawn.sheet == WHOLE:
         return DataSheet(known_length_m=car.length_m, known_width_m=car.width_m, wheelbase_m=car.wheelbase_m,
@@ -40,7 +40,11 @@ def sheet_of(drawn: RandomClearanceCar) -> DataSheet:
 
 
 def located(drawn: RandomClearanceCar, chance: np.random.Generator) -> CarFit:
-    """The Car as the locator finds it in map; NotLocated when it asks the Operator instead."""
+    """Return the located Car in map.
+
+    Raises:
+        NotLocated: the locator asks the Operator instead.
+    """
     parameters = LocatorParameters(sheet=sheet_of(drawn))
     views = _views(drawn.car)
     segments = np.vstack([_closed(corners) for corners in drawn.car.section(LIDAR_HEIGHT_M)])
@@ -57,7 +61,7 @@ def located(drawn: RandomClearanceCar, chance: np.random.Generator) -> CarFit:
 
 
 def received(fit: CarFit, now_s: float) -> EstimatedCar:
-    """The located Car by the message that the planner receives."""
+    """Return the located Car after a round trip through the message that the planner receives."""
     estimate = Estimate(CarState.LOCATED, fit.rectangle, fit.outline, fit.sigmas, fit.length_sigma, fit.width_sigma,
                         None, 1, NO_PROBLEM, 1, side_sigmas=fit.side_sigmas)
     car = car_from(estimate_message(estimate, None), now_s)
@@ -66,7 +70,7 @@ def received(fit: CarFit, now_s: float) -> EstimatedCar:
 
 
 def _views(car: TrueCar) -> List[FloatArray]:
-    """Places on the way round, in the Car's frame."""
+    """Return the robot's positions on the path around the Car, in the Car's frame."""
     half_x, half_y = 0.5 * car.length_m + RING_M, 0.5 * car.width_m + RING_M
     corners = np.array([(half_x, half_y), (-half_x, half_y), (-half_x, -half_y), (half_x, -half_y)])
     return [a + share * (b - a) for a, b in zip(corners, np.roll(corners, -1, axis=0))
@@ -79,7 +83,7 @@ def _closed(corners: Tuple[Tuple[float, float], ...]) -> FloatArray:
 
 
 def _seen(view: FloatArray, segments: FloatArray, chance: np.random.Generator) -> Tuple[FloatArray, FloatArray]:
-    """Directions (n, 2) of the beams that meet something, and their ranges (n, 1)."""
+    """Return directions (n, 2) of the beams that hit an edge, and their ranges (n, 1)."""
     angles = 2.0 * math.pi * (np.arange(BEAMS) + chance.random()) / BEAMS
     directions = np.column_stack((np.cos(angles), np.sin(angles)))
     start, along = segments[:, :2] - view, segments[:, 2:] - segments[:, :2]

@@ -1,4 +1,4 @@
-"""Distance of the robot's solids from a Car's true body along a way, each at its own heights."""
+"""Distance of the robot's solids from a Car's true body along a path, each within its own heights."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Sequence
@@ -13,7 +13,7 @@ STEP_M = 0.02
 
 
 class RobotBox(NamedTuple):
-    """A box of the robot in base_link, m."""
+    """Box of the robot in base_link, m."""
 
     rear_m: float
     front_m: float
@@ -22,18 +22,19 @@ class RobotBox(NamedTuple):
     high_m: float
 
 
-# By the robot's description: chassis with wheels and LiDARs; mast of 1.65 m, and arm and key at any height on it.
+# Dimensions from the robot's description: chassis with wheels and LiDARs; mast of 1.65 m with arm and key at any
+# height.
 ROBOT_BOXES = (RobotBox(-0.254, 0.254, 0.215, 0.0, 0.45), RobotBox(-0.09, 0.27, 0.03, 0.25, 1.65))
 
 
 class Body:
-    """A Car's solids as points on their edges."""
+    """Solids of a Car, represented by points on their edges."""
 
     def __init__(self, solids: Sequence[Solid]):
         self._solids = [(solid, _sampled(solid)) for solid in solids]
 
     def clearance(self, poses: FloatArray) -> float:
-        """Least distance in m of base_link poses (n, 3) in the Car's frame; 0 for a contact."""
+        """Return the least distance in m of base_link poses (n, 3) in the Car's frame; 0 for a contact."""
         return min((_distance(box, points, poses) for box in ROBOT_BOXES for solid, points in self._solids
                     if solid.low_m < box.high_m and box.low_m < solid.high_m), default=math.inf)
 

@@ -1,4 +1,4 @@
-"""A whole test around one Car: ways round it and approaches on all its sides and corners, as the planner plans them."""
+"""Complete test around one Car: the planner's paths around it and approaches to all its sides and corners."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -27,22 +27,22 @@ from .draw import RandomClearanceCar, random_car
 from .mapping import located, received
 from .sweep import Body
 
-# Of the key from the told Car along an axis; nearer ones first.
+# Distances of the key from the estimated Car along an axis: targets in order, and starting distance.
 NEAR_M, FAR_M = (0.3, 0.5, 0.8, 1.2), 2.5
 KEY_M, SPEED_MPS, SAMPLES = 0.25, 0.5, 2
-# 1 sigma of the robot's own pose, by which the true one is off, and of what its control adds.
+# 1 sigma of the robot's pose error, and of the additional error of its control.
 OWN_SIGMA_M, OWN_SIGMA_RAD, CONTROL_SIGMA_M = 0.006, 0.002, 0.004
 FOOTPRINT = shipped_geometry().footprint()
 
 
 class LineEnd(NamedTuple):
-    """What one line came to.
+    """Result of one line.
 
     Attributes:
-        side: of the Car.
-        nearest_m: distance of the key up to which it was measured; infinite for none.
-        refused: codes of the planner's refusals of nearer ones.
-        clearance_m: least distance from the true body on all of its ways; 0 for a contact.
+        side: side or corner of the Car.
+        nearest_m: smallest distance of the key at which the line was measured; infinite: none.
+        refused: codes of the planner's refusals of smaller distances.
+        clearance_m: least distance from the true body on all paths; 0 for a contact.
     """
 
     side: str
@@ -52,7 +52,7 @@ class LineEnd(NamedTuple):
 
 
 class CarEnd(NamedTuple):
-    """What the test of one Car came to. asked: sentence with which the locator asks instead of a position."""
+    """Result of the test of one Car. asked: question of the locator to the Operator, if it found no position."""
 
     number: int
     drawn: RandomClearanceCar
@@ -61,7 +61,7 @@ class CarEnd(NamedTuple):
 
 
 def run(task: Tuple[int, int]) -> CarEnd:
-    """The test of a Car by seed and number."""
+    """Run the test of a Car, given by seed and number."""
     seed, number = task
     drawn, chance = random_car(seed, number), stream(seed, f"clearance test {number}")
     try:
@@ -72,7 +72,7 @@ def run(task: Tuple[int, int]) -> CarEnd:
 
 
 class Test:
-    """The robot beside one located Car."""
+    """Robot next to one located Car."""
 
     def __init__(self, drawn: RandomClearanceCar, fit: CarFit, chance: np.random.Generator):
         self._told, self._chance = fit.rectangle, chance
@@ -90,11 +90,11 @@ class Test:
         self._pose = Pose2(0.5 * fit.rectangle.length + 1.6, 0.5 * fit.rectangle.width + 1.6, 0.0)
 
     def lines(self) -> List[LineEnd]:
-        """All axes, one after another."""
+        """Measure all axes one after another."""
         return [self._line(side, *axis) for side, axis in self._axes().items()]
 
     def _axes(self) -> Dict[str, Tuple[float, float, float]]:
-        """Foot of the axis and its direction away from the Car."""
+        """Return the foot of each axis and its direction away from the Car."""
         x, y = 0.5 * self._told.length, 0.5 * self._told.width
         along, across = self._chance.uniform(-0.8, 0.8, 2) * (x, y)
         corners = {f"{end} {side}": (sign * x, turn * y, math.atan2(turn, sign))
@@ -119,13 +119,13 @@ class Test:
         return LineEnd(side, math.inf, tuple(refused), min(clearances, default=math.inf))
 
     def _go(self, goal: Pose2, direction: Direction) -> float:
-        """Least distance from the true body on the planned way; the robot is then at the goal."""
+        """Plan a path and return its least distance from the true body; the robot is then at the goal."""
         plan = self._planning.plan(Moving(self._pose @ self._centre), Target(goal @ self._centre, direction))
         self._pose = goal
         return self._body.clearance(self._true_poses(plan))
 
     def _true_poses(self, plan: Plan) -> FloatArray:
-        """Poses of base_link in the true Car's frame, off by what the robot does not know of itself."""
+        """Return poses of base_link in the true Car's frame, with random errors of localization and control."""
         off_m = math.hypot(OWN_SIGMA_M, CONTROL_SIGMA_M)
         x, y, turn = (float(self._chance.normal(0.0, sigma)) for sigma in (off_m, off_m, OWN_SIGMA_RAD))
         error = Pose2(x, y, turn)
@@ -138,7 +138,7 @@ class Test:
 
 
 def refusals(ends: List[CarEnd]) -> Dict[str, int]:
-    """How often the planner refused what."""
+    """Return the number of the planner's refusals by code."""
     counts: Dict[str, int] = {}
     for code in (code for end in ends for line in end.lines for code in line.refused):
         counts[code] = counts.get(code, 0) + 1

@@ -1,2 +1,2 @@
-"""The matrix of states and faults, run on the simulated robot."""
+"""Matrix of states and faults, run on the simulated robot."""
 # SPDX-License-Identifier: Apache-2.0

@@ -20,13 +20,13 @@ from .record import Run, present_commit, right_of
 from .robots import ROBOTS
 
 FAILED = Requirement("cells of the matrix that do something else than it says", "(count)", must=0.0)
-# From the fault, or from the limit up to which it is none.
+# Times count from the fault, or from the duration below which it is tolerated (limit_s).
 STANDSTILL = Requirement("longest time from a fault to standstill, where the robot drove and must stand", "s", must=0.5)
 NOTICE = Requirement("longest time from a fault to the Operator's sentence, where there must be one", "s", must=1.0)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run all cells; the exit status says whether each did what the matrix says."""
+    """Run all cells; return 0 if every cell behaved as the matrix specifies."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="only the cells that are part of `make test`")
@@ -49,25 +49,25 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def run(courses: List[List[Cell]], of_run: Run) -> List[Found]:
-    """What became of all cells, those of each course on robots of one kind."""
+    """Run all cells and return their results; each course is run on robots of one kind."""
     found: List[Found] = []
     for course in courses:
         wanted = len(found) + len(course)
         while len(found) < wanted:
             left = course[len(found) - wanted:]
-            # By its cell: the log of a robot that failed outlives runs of others.
+            # One folder per first cell, so that the log of a failed robot is not overwritten.
             folder = of_run.folder / "faults" / left[0].name.replace(" ", "_")
-            # A process is one node of one ROS graph only.
+            # A process can be only one node of one ROS graph.
             found += in_own_process(one_robot, left, folder, of_run)
     return found
 
 
 def report(found: List[Found]) -> BenchmarkReport:
-    """Figures and table."""
+    """Return figures and table."""
     failed = [each for each in found if each.wrong]
     stop = [each for each in found if each.cell.state in (MAPPING, DRIVING) and each.cell.expected.stands_s is not None]
     tell = [each for each in found if each.cell.expected.told]
-    # No cell proves nothing; where none of those that were chosen has to stand, or to tell, there is no such time.
+    # A run without cells proves nothing. Rows of times exist only if a cell requires a standstill or a message.
     rows = [Row(FAILED, len(failed), bool(found), remark=f"{len(found)} cells"),
             *([_longest(STANDSTILL, stop, lambda must, seen: seen.stood_s)] if stop else []),
             *([_longest(NOTICE, tell, first_told_s)] if tell else [])]
@@ -77,7 +77,7 @@ def report(found: List[Found]) -> BenchmarkReport:
 
 def _longest(requirement: Requirement, cells: List[Found],
              time_s: Callable[[Expected, Outcome], Optional[float]]) -> Row:
-    """From the limits on; of cells that came to no time, which have failed, there is none."""
+    """Return the longest time beyond the limit; the row is incomplete if a cell failed and has no time."""
     times = [(time_s(each.cell.expected, each.outcome) if each.outcome else None, each.cell.expected.limit_s)
              for each in cells]
     known = [found_s - limit_s for found_s, limit_s in times if found_s is not None]

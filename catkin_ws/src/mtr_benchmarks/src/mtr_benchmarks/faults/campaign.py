@@ -1,4 +1,4 @@
-"""Cells of the matrix one after the other on one robot, in a process of its own."""
+"""Runs cells of the matrix one after the other on one robot, in its own process."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import pathlib
@@ -15,7 +15,7 @@ from .robots import ROBOTS
 
 
 class Found(NamedTuple):
-    """What one cell did. wrong: what is not as the matrix says."""
+    """Result of one cell. wrong: differences from the matrix."""
 
     cell: Cell
     outcome: Optional[Outcome]
@@ -23,13 +23,13 @@ class Found(NamedTuple):
 
 
 def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
-    """Cells of one kind of robot, in order, until one is over from which it does not come back, or all are."""
+    """Run cells of one kind of robot in order, until the robot cannot continue or all are done."""
     ran: List[Found] = []
     with contextlib.ExitStack() as opened:
         try:
             robot = opened.enter_context(FaultyRobot(folder, ROBOTS[cells[0].robot], run.seed))
         except StackError as error:
-            # Whatever it was: the next robot begins with the cell after it.
+            # The reason does not matter: the next robot starts with the following cell.
             return [_failed(cells[0], error, run)]
         course = Course(robot)
         for cell in cells:
@@ -37,9 +37,9 @@ def one_robot(cells: List[Cell], folder: pathlib.Path, run: Run) -> List[Found]:
                 outcome = course.run(cell)
             except FaultyRobotError as error:
                 if isinstance(error, PutBackError) and ran:
-                    # The next robot stands at the starting place, and begins with this cell.
+                    # The next robot starts at the starting place with this cell.
                     break
-                # The next robot begins with the cell after it; one that cannot be begun has failed.
+                # The next robot starts with the following cell; a cell that cannot be started has failed.
                 ran.append(_failed(cell, error, run))
                 break
             ran.append(Found(cell, outcome, wrong(cell, outcome)))

@@ -1,4 +1,4 @@
-"""Brings the robot into a state, lets a part have a fault there, and says what was seen."""
+"""Brings the robot into a state, injects a fault, and records what happens."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Dict
 
@@ -16,22 +16,22 @@ from .judge import (
 from .matrix import DRIVING, GOES_ON, HELD, LOST, MAPPING, Cell
 from .robot import MOVES_MPS, FaultyRobot, PutBackError
 
-# After a fault what follows is seen for that long, s of the robot's time.
+# Recorded time after the end of a fault, s of the robot's time.
 SEEN_AFTER_S = 3.0
-# So much of a way is left when a fault begins on it that it does not end during the fault: 2 s at up to 1 m/s.
+# Least remaining path when a fault begins, so that the path does not end during the fault: 2 s at up to 1 m/s.
 ENOUGH_WAY_M = 3.0
-# Who waits has stood for so long, s.
+# A waiting robot has been stopped for this time, s.
 REST_S = 1.5
-# Speed at which the lift is under way, m/s; it reaches 0.15.
+# Speed at which the lift counts as moving, m/s; its maximum is 0.15.
 LIFTS_MPS = 0.12
 READY, WAITING, LIFTING = "ready", "waiting", "lifting"
-# Maps in a row in which the Car was not found, after which an Operator does what the robot asks.
+# Number of consecutive maps without the Car after which an Operator puts the robot back, as it asks.
 ENOUGH_TRIES = 3
 OUT_OF_ORDER = (link.MODE_FAULT, link.MODE_STARTING, link.MODE_UNSPECIFIED)
 
 
 class Course:
-    """One robot from its start on; `to` has to be called with states in the order of the matrix."""
+    """One robot from its start; the states must be requested in the order of the matrix."""
 
     def __init__(self, robot: FaultyRobot):
         self._robot = robot
@@ -41,14 +41,18 @@ class Course:
             LIFTING: self._to_lifting}
 
     def to(self, state: str) -> None:
-        """Bring the robot into a state, held by nothing; FaultyRobotError when it does not get there."""
+        """Bring the robot into a state without a hold.
+
+        Raises:
+            FaultyRobotError: the robot does not reach the state.
+        """
         robot = self._robot
         robot.wait_until(lambda: not robot.status.hold_id, "the end of the hold that the fault before left",
                          robot.release_hold)
         self._ways[state]()
 
     def run(self, cell: Cell) -> Outcome:
-        """One cell, from its state on."""
+        """Run one cell, starting with its state."""
         robot = self._robot
         self.to(cell.state)
         speed_mps, begun_s = robot.speed_mps, robot.begin(cell.part, cell.kind, cell.for_s, cell.amount)
@@ -58,7 +62,7 @@ class Course:
         robot.wait_until(lambda: robot.now_s > end_s + SEEN_AFTER_S, "the time after the fault")
         back_s = end_s + cell.expected.back_s
         robot.wait_until(lambda: robot.now_s > back_s or robot.status.mode not in OUT_OF_ORDER, "its end")
-        # One that is measured by the machine's clock may be over some hundredths of the robot's second sooner.
+        # A fault that is timed by the machine's clock may end some hundredths of a second earlier in the robot's time.
         end_s = min(end_s, robot.ended_s)
         seen = [each for each in robot.seen if each.time_s > begun_s - 1.0]
         return Outcome(speed_mps, standstill_s(robot.speeds, begun_s, end_s), told_since(seen, begun_s),
@@ -126,7 +130,7 @@ class Course:
         robot = self._robot
         if not robot.has_arrived:
             self._to_driving()
-        # A robot that was held takes its waypoint up again and corrects its place.
+        # A robot that was on hold resumes its waypoint and corrects its position.
         since_s = robot.now_s
         robot.wait_until(lambda: robot.now_s > since_s + REST_S and robot.has_arrived and robot.has_stood(REST_S),
                          "the end of the way", robot.release_hold)

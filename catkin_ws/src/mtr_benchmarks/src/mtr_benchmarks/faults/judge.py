@@ -1,4 +1,4 @@
-"""What a robot did during a fault, and whether that is what its cell of the matrix says. No ROS inside."""
+"""Evaluates what a robot did during a fault against its cell of the matrix. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 from dataclasses import dataclass
@@ -12,22 +12,22 @@ from mtr_operator.domain.robot_status import RobotStatus
 from .matrix import ANY_REASON, DRIVING, FAULT, HELD, MAPPING, OR, STATES, UNHEARD, Cell, Expected
 
 STANDS_MPS = 0.02
-# Of the lift: its height is told to a tenth of a millimetre each 40 ms.
+# Standstill threshold of the lift: its height is published every 40 ms with a resolution of 0.1 mm.
 LIFT_STANDS_MPS = 0.01
-# Who drives on stands for less, where it turns or waits for its next way: s.
+# A robot that drives on may be stopped for less than this while it turns or waits for its next path, s.
 MIN_STOP_S = 0.5
-# What is said so shortly before a fault of the link ends is under way when it does, and is heard, s.
+# A Status sent this shortly before a fault of the link ends arrives after its end, s.
 UNDER_WAY_S = 0.05
 
 
 class CarSeen(NamedTuple):
-    """What the application knows of the Car, as far as a line needs it."""
+    """State of the Car as far as the application needs it for a line."""
 
     problem: str
     lock_state: LockState
 
 
-# Where only what the robot says counts.
+# State of the Car in cells that do not evaluate it.
 WELL = CarSeen("", LockState.LOCKED)
 
 
@@ -41,19 +41,18 @@ class Seen(NamedTuple):
 
 @dataclass(frozen=True)
 class Outcome:
-    """What was seen of one cell.
+    """Observations of one cell.
 
     Attributes:
         speed_mps: true speed when the fault began.
-        stood_s: from the fault to standstill that lasts as long as it, s; None: it did not stand.
-        lift_stood_s: the same of the lift.
-        end_mps: speed of the robot's fastest point when the fault ended; None: nobody saw.
-        pressed: a press that was ordered meanwhile was reported as done.
+        stood_s: time from the fault to a standstill that lasts until the end of the fault, s; None: no standstill.
+        lift_stood_s: the same for the lift.
+        end_mps: speed of the robot's fastest point when the fault ended; None: not observed.
+        pressed: a press that was ordered during the fault was reported as done.
         told_s: codes that were new to the Operator, with the time from the fault to the Status, s.
-        modes: states while the fault lasted, in their order, the last one that of its end; `unheard` where no Status
-            came.
-        then: how it went on.
-        record: why a line at hand is invalid; empty: it counts.
+        modes: states during the fault in order, the last one at its end; `unheard` during a gap without Statuses.
+        then: behaviour after the fault.
+        record: reason for which the current line is invalid; empty: the line is valid.
     """
 
     speed_mps: float
@@ -69,7 +68,8 @@ class Outcome:
 
 def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float,
                  stands_mps: float = STANDS_MPS) -> Optional[float]:
-    """Time from a fault to standstill until its end, by (time, speed) of the true robot; None: it moved at the end."""
+    """Return the time from a fault to a standstill until its end, from (time, speed) of the true robot; None: it moved
+    at the end."""
     moving = [time_s for time_s, speed in speeds if begin_s <= time_s <= end_s and abs(speed) > stands_mps]
     seen = [time_s for time_s, _ in speeds if begin_s <= time_s <= end_s]
     if not seen or (moving and moving[-1] == seen[-1]):
@@ -78,23 +78,23 @@ def standstill_s(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: f
 
 
 def end_speed_mps(speeds: Sequence[Tuple[float, float]], begin_s: float, end_s: float) -> Optional[float]:
-    """The last speed that was seen during a fault; None: there was none."""
+    """Return the last observed speed during a fault; None: there was none."""
     return next((abs(mps) for time_s, mps in reversed(speeds) if begin_s <= time_s <= end_s), None)
 
 
 def has_stood(speeds: Sequence[Tuple[float, float]], for_s: float) -> bool:
-    """True when the newest speeds, over so long, are standstill."""
+    """Return True if the newest speeds show a standstill for the given time."""
     newest = list(itertools.takewhile(lambda each: each[0] >= speeds[-1][0] - for_s, reversed(speeds)))
     return bool(newest) and len(newest) < len(speeds) and all(abs(mps) <= STANDS_MPS for _, mps in newest)
 
 
 def codes(status: RobotStatus) -> Set[str]:
-    """Codes of all problems that the Operator reads."""
+    """Return the codes of all problems shown to the Operator."""
     return {problem.code for notice in status.notifications for problem in notice.problems}
 
 
 def told_since(seen: Sequence[Seen], begin_s: float) -> Dict[str, float]:
-    """Codes that were not there before the fault, with the time until the first Status that has them."""
+    """Return the codes that are new since the fault, with the time until the first Status that has them."""
     before: Set[str] = set()
     found: Dict[str, float] = {}
     for each in seen:
@@ -107,7 +107,7 @@ def told_since(seen: Sequence[Seen], begin_s: float) -> Dict[str, float]:
 
 
 def modes_during(seen: Sequence[Seen], begin_s: float, end_s: float) -> List[str]:
-    """States that the Operator reads during a fault, in their order."""
+    """Return the states shown to the Operator during a fault, in order."""
     found: List[str] = []
     before_s = begin_s
     for each in [each for each in seen if begin_s < each.time_s <= end_s]:
@@ -120,11 +120,11 @@ def modes_during(seen: Sequence[Seen], begin_s: float, end_s: float) -> List[str
 
 
 def invalid_because(seen: Sequence[Seen], begin_s: float) -> str:
-    """Why the application would not let a line count that is measured now."""
+    """Return the reason for which the application would invalidate the current line; empty: none."""
     before: Optional[Seen] = None
     for each in seen:
         if before is not None and each.time_s > begin_s:
-            # In the order of the application.
+            # The application checks interventions in this order.
             for name, sentence in INTERVENTIONS.items():
                 if getattr(each.status.interventions, name) != getattr(before.status.interventions, name):
                     return sentence
@@ -137,12 +137,13 @@ def invalid_because(seen: Sequence[Seen], begin_s: float) -> str:
 
 
 def first_told_s(must: Expected, seen: Outcome) -> Optional[float]:
-    """When the Operator read the first of the codes that he must, s from the fault; None: he did not."""
+    """Return the time from the fault to the first of the required codes, s; None: the Operator received none of
+    them."""
     return min((seen.told_s[code] for code in must.told.split(OR) if code in seen.told_s), default=None)
 
 
 def wrong(cell: Cell, seen: Outcome) -> List[str]:
-    """What is not as the matrix says, a sentence each."""
+    """Return the differences from the matrix, one sentence each."""
     return [*_wrong_motion(cell, seen), *_wrong_words(cell, seen), *_wrong_states(cell, seen)]
 
 
@@ -157,9 +158,9 @@ def _wrong_motion(cell: Cell, seen: Outcome) -> Iterator[str]:
 
 
 def _has_stopped(cell: Cell, seen: Outcome) -> bool:
-    """True when a robot that drove and was not to stop did not drive on until the end of the fault."""
+    """Return True if a robot that had to drive on was not moving until the end of the fault."""
     if seen.speed_mps <= STANDS_MPS or (cell.state == MAPPING and STATES[DRIVING] in seen.modes):
-        # It stood before, or has mapped the Car meanwhile.
+        # It was stopped before, or has finished the map of the Car in the meantime.
         return False
     if seen.end_mps is None:
         return True
@@ -187,7 +188,7 @@ def _wrong_words(cell: Cell, seen: Outcome) -> Iterator[str]:
 
 def _wrong_states(cell: Cell, seen: Outcome) -> Iterator[str]:
     must, modes = cell.expected, set(cell.expected.mode.split(OR))
-    # The state before may last for a while; who has mapped the Car goes on.
+    # The previous state may last for a while; a robot that has mapped the Car follows waypoints.
     before = {STATES[cell.state], STATES[DRIVING]} if cell.state == MAPPING else {STATES[cell.state]}
     at_end = modes | before if modes & before else modes
     if not seen.modes or seen.modes[-1] not in at_end or not set(seen.modes) <= modes | before:

@@ -1,8 +1,8 @@
-"""The matrix of states and faults: its files, its cells, and the table for docs/faults.md. No ROS inside.
+"""Matrix of states and faults: its files, its cells, and the table for docs/faults.md. No ROS inside.
 
-A row of a file in cells/ names one or more faults (`part kind`), how long they last (`for_s`), the robot on which they
-are tried (`robot`, else that of the file, else lock-step), what must be seen (`expect`, see Expected) and in which
-states (`in`), with what differs there. `short: true` is part of `make test`.
+A row of a file in cells/ names one or more faults (`part kind`) and their duration (`for_s`). `robot` is the kind of
+robot; its default is the `robot` of the file, else lock-step. `expect` has the expected behaviour, see Expected.
+`in` lists the states with the differences from `expect`. Cells with `short: true` are part of `make test`.
 """
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
@@ -17,7 +17,7 @@ from mtr_fault_injection.parts import PARTS, USUAL_AMOUNTS, Kind, Place
 FOLDER = pathlib.Path(__file__).with_name("cells")
 FILES = ("sensors", "hardware", "nodes", "link", "guards", "computer")
 MAPPING, DRIVING = "mapping", "driving"
-# In the order in which a robot can come into them, with the mode that the Operator reads in each.
+# States in the order in which a robot can reach them, with the mode that the Operator is shown.
 STATES = {"ready": "ready_to_map_car", MAPPING: "mapping_car", DRIVING: "following_waypoint",
           "waiting": "following_waypoint", "lifting": "following_waypoint"}
 OWN_MODE, OR = "own", " or "
@@ -25,10 +25,10 @@ FAULT = "fault"
 ANY_REASON = "any"
 GOES_ON, HELD, LOST = "goes on", "held", "lost"
 UNHEARD = "unheard"
-# Robots that a cell may be run on; robots.py says what they are.
+# Kinds of robots on which a cell can run; robots.py defines them.
 LOCKSTEP, PACED, CAR_BUS, MACHINE_CLOCK = "lockstep", "paced", "car_bus", "machine_clock"
 SMALL_DISK, GUARDED, SATELLITES = "small_disk", "guarded", "satellites"
-# What an amount is of a kind whose amount is no time.
+# Units of amounts that are not a time.
 AMOUNTS = {"lose": " of all", "sector": " deg", "tilt": " deg"}
 BEGIN, END = "<!-- fault matrix: begin -->", "<!-- fault matrix: end -->"
 HEAD = ("| fault | while | wheels stand in | lift stands in | the Operator reads | within | state then | afterwards | "
@@ -38,25 +38,24 @@ HEAD = ("| fault | while | wheels stand in | lift stands in | the Operator reads
 
 @dataclass(frozen=True)
 class Expected:
-    """What a cell must do.
+    """Expected behaviour in a cell.
 
     Attributes:
         stands_s: longest time from the fault to standstill of the true robot, s; None: it drives on.
-        told: code of the problem that the Operator reads, of several one; empty: no code that is new.
-        told_s: longest time until then, s.
-        mode: the robot's state from then on, until the fault ends; `unheard` while no Status comes. In a file `own` is
-            that of the state. Of several, with `or` between them, one.
-        then: `goes on` by itself, `held` until the Operator has it go on, or `lost`: it needs to be put back; of
-            several one.
-        lift_s: longest time from the fault to standstill of the true lift, s; None: it may move on, or does not move.
-        back_s: longest time from the end of the fault until it is no fault of the robot any more, s.
-        record: what makes a line at hand invalid, words of the reason, of several one; `any`: whatever comes first;
-            empty: the line counts; None: there is no line.
-        limit_s: how long the fault can last before it is one, s: so long a silence, or the same content; both times
-            count from there.
-        may_tell: where nothing is told, codes that may be new nevertheless; `any`: whatever the robot stands for.
-        may_stand: where it drives on, it may as well stand and say why.
-        presses: a press is ordered when the fault begins, and reported as done.
+        told: code of the problem reported to the Operator, or alternatives; empty: no new code.
+        told_s: longest time until this report, s.
+        mode: the robot's state until the fault ends, or alternatives separated by `or`; `unheard` while no Status
+            arrives. `own` in a file is the mode of the state.
+        then: `goes on` by itself, `held` until the Operator resumes, or `lost`: the robot must be put back; or
+            alternatives.
+        lift_s: longest time from the fault to standstill of the true lift, s; None: it may move on, or is not moving.
+        back_s: longest time from the end of the fault until the robot no longer reports it, s.
+        record: words of the reason that invalidates the current line, or alternatives; `any`: any reason; empty: the
+            line is valid; None: there is no line.
+        limit_s: tolerated duration of a silence or of constant content, s; both times count from its end.
+        may_tell: if `told` is empty, codes that may be new nevertheless; `any`: every reason for a stop.
+        may_stand: a robot that may drive on may also stop and report why.
+        presses: a press is ordered when the fault begins, and must be reported as done.
     """
 
     stands_s: Optional[float]
@@ -75,7 +74,7 @@ class Expected:
 
 @dataclass(frozen=True)
 class Cell:
-    """One fault in one state. robot: on which robot it is run, see robots.py."""
+    """One fault in one state. robot: kind of robot, see robots.py."""
 
     state: str
     part: str
@@ -88,41 +87,46 @@ class Cell:
 
     @property
     def fault(self) -> str:
-        """The fault alone, for a person."""
+        """Name of the fault alone, for a person."""
         amount = f" by {self.amount:g}{AMOUNTS.get(self.kind, ' s')}" if self.amount else ""
         return f"{self.part} {self.kind}{amount}"
 
     @property
     def name(self) -> str:
-        """For a person."""
+        """Name of the cell, for a person."""
         return f"{self.fault} while {self.state}"
 
 
 @dataclass(frozen=True)
 class Matrix:
-    """All of it."""
+    """All cells."""
 
     cells: Tuple[Cell, ...]
 
     def of(self, state: str, only_short: bool = False) -> List[Cell]:
-        """Cells of a state; those from which the robot does not come back are last."""
+        """Return the cells of a state; those after which the robot is lost are last."""
         cells = [cell for cell in self.cells if cell.state == state and (cell.is_short or not only_short)]
         return sorted(cells, key=lambda cell: cell.expected.then == LOST)
 
     def courses(self, only_short: bool = False, only: str = "") -> List[List[Cell]]:
-        """Cells in the order in which they are run, a list for each kind of robot. only: pattern of their names."""
+        """Return the cells in the order in which they are run, one list per kind of robot. only: pattern of their
+        names."""
         cells = [cell for state in STATES for cell in self.of(state, only_short) if re.search(only, cell.name)]
         robots = dict.fromkeys(cell.robot for cell in cells)
         return [[cell for cell in cells if cell.robot == robot] for robot in robots]
 
 
 def left_out(folder: pathlib.Path = FOLDER) -> Dict[str, str]:
-    """Faults of the catalogue that are in no cell, by part or by part and kind, with the reason."""
+    """Return the faults of the catalogue that no cell has, by part or by part and kind, with the reason."""
     return dict(yaml.safe_load((folder / "left_out.yaml").read_text(encoding="utf-8")))
 
 
 def read_matrix(folder: pathlib.Path = FOLDER) -> Matrix:
-    """The matrix in a folder; KeyError or TypeError where it does not say all that a cell needs."""
+    """Return the matrix in a folder.
+
+    Raises:
+        KeyError, TypeError: a cell is incomplete.
+    """
     cells: List[Cell] = []
     for name in FILES:
         document = yaml.safe_load((folder / f"{name}.yaml").read_text(encoding="utf-8"))
@@ -144,13 +148,13 @@ def _cells(row: Dict[str, Any], robot: str) -> Iterator[Cell]:
 
 
 def _usual_amount(part: str, kind: str) -> float:
-    """What a fault takes that does not say how much; a slow process takes nothing."""
+    """Return the default amount of a fault; a slow process has none."""
     is_process = PARTS[part].place in (Place.NODE, Place.MACHINE)
     return 0.0 if is_process else USUAL_AMOUNTS.get(Kind(kind), 0.0)
 
 
 def table(matrix: Matrix) -> List[str]:
-    """Rows for docs/faults.md."""
+    """Return the rows for docs/faults.md."""
     return [*HEAD, *(_row(cell) for cell in matrix.cells)]
 
 

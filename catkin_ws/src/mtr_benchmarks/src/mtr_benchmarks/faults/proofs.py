@@ -1,4 +1,4 @@
-"""All proofs that attacks and faults change nothing, in two lanes; their tables become one, in faults.json.
+"""Runs all proofs of robustness against attacks and faults in two lanes; faults.json has their common table.
 
 Usage, from the top of the checkout: python -m mtr_benchmarks.faults.proofs --out out/bench [--only matrix soak ...]
 """
@@ -19,7 +19,7 @@ FILE = "faults.json"
 
 @dataclass(frozen=True)
 class Proof:
-    """One program. file: of its figures and table; command: after `python`, with --seed and --out behind."""
+    """One program. file: its figures and table; command: arguments of `python`, without --seed and --out."""
 
     name: str
     file: str
@@ -27,7 +27,7 @@ class Proof:
     takes_seed: bool = True
 
 
-# Two at a time, those that take longest first in each lane.
+# Two programs run at a time; the longest is first in each lane.
 LANES = (
     (Proof("matrix", "faults.json", ("-m", "mtr_benchmarks.faults")),),
     (Proof("soak", "soak.json", ("-m", "mtr_benchmarks.soak", "--hours", "1")),
@@ -41,7 +41,7 @@ LANES = (
 
 @dataclass(frozen=True)
 class Ran:
-    """What one came to. document: its file, None where it left none."""
+    """Result of one program. document: content of its file; None: the program wrote none."""
 
     proof: Proof
     status: int
@@ -50,7 +50,7 @@ class Ran:
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run them; the exit status says whether each row is what it must be."""
+    """Run the programs; return 0 if every row meets its requirement."""
     names = [proof.name for lane in LANES for proof in lane]
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="default %(default)s")
@@ -71,11 +71,11 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def run(proof: Proof, folder: pathlib.Path, seed: int) -> Ran:
-    """One, in a process of its own; what it says goes to a log beside its figures."""
+    """Run one program in its own process; its output goes to a log next to its figures."""
     path, begun_s = folder / proof.file, time.monotonic()
     path.unlink(missing_ok=True)
     seeded = ("--seed", str(seed)) if proof.takes_seed else ()
-    # Whatever ends this program ends them, and they their robots.
+    # The programs end with this one, and end their robots.
     command = ["setpriv", "--pdeathsig", "TERM", sys.executable, *proof.command, *seeded, "--out", str(folder)]
     with path.with_suffix(".log").open("wb") as log:
         status = subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, check=False).returncode
@@ -85,7 +85,7 @@ def run(proof: Proof, folder: pathlib.Path, seed: int) -> Ran:
 
 
 def together(ran: List[Ran]) -> Dict[str, Any]:
-    """Figures by proof, and one table; a proof that left no table is a row that is not met."""
+    """Return the figures by proof and one table; a proof without a table is a row that is not met."""
     rows: List[Dict[str, Any]] = []
     for each in ran:
         table = (each.document or {}).get("table", [])

@@ -1,4 +1,4 @@
-"""A receiver of satellites by the simulated robot's true place, for the simulator has none."""
+"""Publishes satellite fixes from the simulated robot's true position, because the simulator has no receiver."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -9,21 +9,21 @@ from sensor_msgs.msg import NavSatFix, NavSatStatus
 from mtr_core import names
 
 PERIOD_S = 0.2
-# Somewhere; the scale of a degree there, WGS 84.
+# Arbitrary origin; metres per degree of latitude there, WGS 84.
 LATITUDE_DEG, LONGITUDE_DEG, METRES_PER_DEG = 50.0, 14.0, 111_229.0
-# With corrections (RTK), 1 sigma, m.
+# 1 sigma with corrections (RTK), m.
 SIGMA_M = 0.02
 
 
 class Receiver:
-    """Says a fix five times a second of the robot's clock."""
+    """Publishes a fix five times per second of the robot's clock."""
 
     def __init__(self) -> None:
         self._publisher = rospy.Publisher(names.NAVSAT_FIX, NavSatFix, queue_size=10, tcp_nodelay=True)
         self._said_s = -math.inf
 
     def take(self, truth: Odometry) -> None:
-        """The robot is there now."""
+        """Publish a fix at the robot's true position, if one is due."""
         now_s = truth.header.stamp.to_sec()
         if now_s - self._said_s < PERIOD_S:
             return

@@ -1,7 +1,7 @@
-"""What became of each cell, kept as soon as it is over: nothing is lost of a run that is broken off, or made in pieces.
+"""Stores the result of each cell as soon as it is done, so that an interrupted or split run loses nothing.
 
-A line of the file is one cell that was run: name, seed, commit of the checkout (with `+`: changed), time, load of the
-machine, and what was wrong.
+A line of the file is one cell: name, seed, commit of the checkout (`+`: modified), time, load of the machine, and
+differences from the matrix.
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
@@ -16,14 +16,14 @@ HERE = pathlib.Path(__file__).resolve().parent
 
 
 class Run(NamedTuple):
-    """Cells that belong together. folder: where they are kept."""
+    """One run of cells. folder: folder of the stored results."""
 
     folder: pathlib.Path
     seed: int
     commit: str
 
     def keep(self, cell: str, wrong: List[str]) -> None:
-        """What became of a cell."""
+        """Append the result of a cell."""
         now = datetime.now(timezone.utc).isoformat(timespec="seconds")
         line = {"cell": cell, "seed": self.seed, "commit": self.commit, "time": now,
                 "load": round(os.getloadavg()[0], 1), "wrong": wrong}
@@ -33,7 +33,7 @@ class Run(NamedTuple):
 
 
 def right_of(folder: pathlib.Path, commit: str) -> Set[str]:
-    """Cells that did as they must when they were run last on a commit."""
+    """Return the cells whose latest result on a commit has no differences."""
     path = folder / FILE
     lines: List[Dict[str, Any]] = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()
                                    ] if path.exists() else []
@@ -42,7 +42,7 @@ def right_of(folder: pathlib.Path, commit: str) -> Set[str]:
 
 
 def present_commit() -> str:
-    """Of the checkout that this file lies in, with a + where it is changed; empty where it is no checkout."""
+    """Return the commit of this checkout, with a + if it is modified; empty outside a checkout."""
     return (_git("rev-parse", "--short=12", "HEAD") + "+" * bool(_git("status", "--porcelain", "--untracked-files=no")))
 
 

@@ -1,4 +1,4 @@
-"""The simulated robot with all nodes, a scripted Operator who answers each Status, and injected faults."""
+"""Simulated robot with all nodes, a scripted Operator who answers each Status, and injected faults."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import math
@@ -27,53 +27,53 @@ from .judge import WELL, CarSeen, Seen, has_stood
 from .receiver import Receiver
 from .robots import RobotKind, small_disk
 
-# Wall time of a machine with much else to do.
+# Limit in wall time, sufficient for a busy machine.
 LIMIT_S = 400.0
 POLL_S = 0.005
-# Messages of each kind that are enough to go on with.
+# Number of messages of each kind that remain after `forget`.
 KEPT = 100
 LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
 MOVES_MPS = 0.3
 NOT_FOUND = "car_locator.not_found"
-# s of wall time for which simulated time waits for a part that is silent: each of the many silences costs it once.
+# Wall time for which simulated time waits for a silent part, s; short, because each of the many silences costs it once.
 PATIENCE = "/lockstep_patience_s: 0.7\n"
-# Heights of the key between which the lift is sent, m above ground, and where one is nearer than the other.
+# Heights between which the lift moves the key, m above ground, and the height halfway.
 LOW_M, HIGH_M, MIDDLE_M = 0.4, 1.5, 0.95
-# How long a button is held, s.
+# Duration of a press, s.
 PRESS_S = 0.3
-# The firmware's clock in a message, s.
+# Period after which the firmware's clock in a message wraps, s.
 FIRMWARE_WRAP_S = 2 ** 32 * 1e-6
 ARGUMENTS = {"fault_injection": "true", "resume_by_operator": "true", "scenario": "lot"}
 
 
 class FaultyRobotError(Exception):
-    """The robot does not come into the state that a cell needs; the text says what it does instead."""
+    """The robot does not reach the state that a cell needs; the text has its messages."""
 
 
 class PutBackError(FaultyRobotError):
-    """The robot asks to be put at its starting place: a Car locator that began anew on the way does not know it."""
+    """The robot asks to be put at its starting place: a restarted Car locator does not know this place."""
 
 
 class Speed(NamedTuple):
-    """True speed of the robot's fastest point, or of its lift upwards, at a time of the robot's clock, s, m/s."""
+    """True speed of the robot's fastest point, or of its lift upwards, at a time of the robot's clock; s, m/s."""
 
     time_s: float
     mps: float
 
 
 def fastest_of(twist: Any) -> float:
-    """Speed of the robot's fastest point, m/s, by its Twist."""
+    """Return the speed of the robot's fastest point from its Twist, m/s."""
     return fastest_point_mps(twist.linear.x, twist.angular.z, twist.linear.y)
 
 
 class FaultyRobot:
-    """Use as a context manager.
+    """Robot under test; use as a context manager.
 
     Attributes:
-        seen: all Statuses that have come, as the application understands them, with what it knows of the Car.
-        speeds, lifts: of the robot and of its lift as they really are.
-        truth: where it really is, newest.
-        ended_s: when the newest fault was over, by the robot's clock; infinite before.
+        seen: all received Statuses as the application interprets them, with the state of the Car.
+        speeds, lifts: true speeds of the robot and of its lift.
+        truth: newest true pose and twist.
+        ended_s: end of the newest fault by the robot's clock; infinite while it lasts.
     """
 
     def __init__(self, folder: pathlib.Path, kind: RobotKind, seed: int = 1):
@@ -96,7 +96,7 @@ class FaultyRobot:
         if not kind.is_simulated:
             clock = SettableClock(folder.resolve() / "clock")
             arguments["fault_clock_file"] = str(clock.file)
-            # Both libraries are preloaded where there are two.
+            # The clock's library is added to one that is already preloaded.
             both = filter(None, (variables.get("LD_PRELOAD"), clock.variables["LD_PRELOAD"]))
             variables = {**variables, **clock.variables, "LD_PRELOAD": " ".join(both)}
         self._stack = Stack(StackOptions(folder, seed, kind.real_time_factor, not kind.by_relay, arguments=arguments,
@@ -135,12 +135,12 @@ class FaultyRobot:
 
     @property
     def process(self) -> int:
-        """Id of the process below which all of its nodes are."""
+        """Id of the ancestor process of all nodes."""
         return self._stack.pid
 
     @property
     def status(self) -> Any:
-        """The newest Status, as it came."""
+        """Newest Status as received."""
         return self._operator.status
 
     @property
@@ -150,11 +150,11 @@ class FaultyRobot:
 
     @property
     def speed_mps(self) -> float:
-        """Newest true speed along its way, forwards or backwards."""
+        """Newest true speed along the path, forwards or backwards."""
         return abs(float(self.truth.twist.twist.linear.x))
 
     def has_stood(self, for_s: float) -> bool:
-        """True when it has not moved for that long."""
+        """Return True if the robot has not moved for the given time."""
         return has_stood(self.speeds, for_s)
 
     @property
@@ -163,86 +163,86 @@ class FaultyRobot:
         return abs(self.lifts[-1].mps) if self.lifts else 0.0
 
     def order(self, **content: Any) -> None:
-        """What the Operator wants from now on."""
+        """Set the Operator's orders from now on."""
         self._wanted.content = content
         self._operator.order(**content)
 
     def map_car(self) -> None:
-        """Order to map the Car, again if it was."""
+        """Order a map of the Car, again if it was mapped before."""
         self._maps += 1
         self.order(map_car_id=self._maps)
 
     @property
     def knows_car(self) -> bool:
-        """True when the Car has been mapped as ordered last."""
+        """True if the latest order to map the Car is done."""
         return bool(self._maps and self.status.car.mapped and self.status.map_car_id == self._maps
                     and self.status.mode == link.MODE_FOLLOWING_WAYPOINT)
 
     @property
     def has_not_found_car(self) -> bool:
-        """True when it went round and saw too little; it waits for another order, as after a fault while it drove."""
+        """True if the robot drove around the Car and found too little of it; it then waits for another order."""
         is_newest = self.status.map_car_id == self._maps
         return is_newest and any(
             problem.code == NOT_FOUND for note in self.status.notifications for problem in note.problems)
 
     @property
     def has_mapped(self) -> bool:
-        """True as soon as the Operator wanted a map of the Car."""
+        """True if the Operator has ordered a map of the Car."""
         return bool(self._maps)
 
     @property
     def maps_car(self) -> bool:
-        """True while nothing is wanted but a map of the Car."""
+        """True while a map of the Car is the only order."""
         return bool(self._maps and "waypoint" not in self._wanted.content)
 
     def drive(self) -> None:
-        """Order the next leg round the Car."""
+        """Order the next leg around the Car."""
         x, y, heading = LEGS[self._legs % len(LEGS)]
         self._legs += 1
         self.order(map_car_id=self._maps, max_speed_mps=1.0,
                    waypoint=link.Waypoint(id=self._legs, x=x, y=y, heading=heading))
 
     def lift(self) -> None:
-        """Order the key to the height that is farther from where it is, and else what was ordered."""
+        """Order the key to the height that is farther from its current one; keep the other orders."""
         wanted = {name: value for name, value in self._wanted.content.items() if name != "device_height_m"}
         self.order(**wanted, device_height_m=LOW_M if self.status.state.device_height > MIDDLE_M else HIGH_M)
 
     def press(self) -> None:
-        """Order a press beside what was ordered."""
+        """Order a press in addition to the current orders."""
         self._presses += 1
         self.order(**{**self._wanted.content, "press": link.ButtonPress(
             id=self._presses, buttons=[link.KEY_BUTTON_LOCK], strength=1.0, duration_s=PRESS_S)})
 
     @property
     def has_pressed(self) -> bool:
-        """True when the press that was ordered last is reported as done."""
+        """True if the latest press is reported as done."""
         return any(each.id == self._presses and not each.error for each in self.status.presses)
 
     @property
     def is_under_way(self) -> bool:
-        """True while the leg that was ordered last is wanted."""
+        """True while the latest leg is ordered and not completed."""
         return "waypoint" in self._wanted.content and not self.has_arrived
 
     @property
     def way_left_m(self) -> float:
-        """From where it says to be to the end of the leg that was ordered last, as the crow flies."""
+        """Distance as the crow flies from the estimated position to the end of the latest leg."""
         x, y, _ = LEGS[(self._legs - 1) % len(LEGS)]
         return math.hypot(self.status.state.x - x, self.status.state.y - y)
 
     @property
     def has_arrived(self) -> bool:
-        """True when the leg that was ordered last is over."""
+        """True if the latest leg is completed or refused."""
         return bool(self.status.waypoint_id == self._legs and self.status.waypoint_result in (
             link.WAYPOINT_RESULT_REACHED, link.WAYPOINT_RESULT_REFUSED))
 
     def release_hold(self) -> None:
-        """Have the robot go on after a fault, as the Operator does."""
+        """Resume after a fault, as the Operator does."""
         hold_id = self.status.hold_id
         if hold_id and self._wanted.content.get("resume_hold_id") != hold_id:
             self.order(**{**self._wanted.content, "resume_hold_id": hold_id})
 
     def begin(self, part: str, kind: str, duration_s: float, amount: float) -> float:
-        """Let a part have a fault; the robot's clock when it begins."""
+        """Inject a fault; return the robot's clock when it begins."""
         self._begun_s, self.ended_s = math.nan, math.inf
         answer = self._inject(part, kind, duration_s, amount)
         if not answer.accepted:
@@ -251,12 +251,16 @@ class FaultyRobot:
         return self._begun_s
 
     def forget(self) -> None:
-        """All but the newest of what has come."""
+        """Discard all recorded data except the newest."""
         for each in (self.seen, self.speeds, self.lifts):
             del each[:-KEPT]
 
     def wait_until(self, condition: Callable[[], Any], what: str, meanwhile: Callable[[], None] = lambda: None) -> None:
-        """Wait, by wall time; FaultyRobotError when it takes longer."""
+        """Wait for a condition, by wall time.
+
+        Raises:
+            FaultyRobotError: the limit has passed.
+        """
         end_s = time.monotonic() + LIMIT_S
         while not condition():
             if time.monotonic() > end_s:
@@ -266,7 +270,8 @@ class FaultyRobot:
             time.sleep(POLL_S)
 
     def _time_s(self, stamp_s: float) -> float:
-        """The steady clock at a stamp that has just arrived: in simulation its own, else the machine's."""
+        """Return the steady clock at a stamp that has just arrived: the stamp in simulation, else the machine's
+        clock."""
         return stamp_s if self._kind.is_simulated else time.clock_gettime(time.CLOCK_BOOTTIME)
 
     def _take_faults(self, active: ActiveFaults) -> None:

@@ -1,4 +1,4 @@
-"""The robots on which cells are run: what time is for them, and how the Operator reaches them. No ROS inside."""
+"""Kinds of robots on which cells are run: their time base and their link to the Operator. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import pathlib
@@ -10,26 +10,27 @@ from mtr_bringup.graph_watch.environment import closed_environment
 
 from .matrix import CAR_BUS, GUARDED, LOCKSTEP, MACHINE_CLOCK, PACED, SATELLITES, SMALL_DISK
 
-# Of a disk that is filled: room for logs until then.
+# Size of the disk that is filled, with room for logs until then.
 SMALL_DISK_SIZE = "24m"
-# It is full below that, MB, and looked at so often, s of wall time: a fault lasts 2 s.
+# The disk counts as full below this free space, MB; the check period is in s of wall time and short, because a fault
+# lasts 2 s.
 SMALL_DISK_LIMITS = {"/dispatcher/full_disk_mb": 2.0, "/dispatcher/disk_period_s": 0.1}
 
 
 @dataclass(frozen=True)
 class RobotKind:
-    """One of them.
+    """One kind of robot.
 
     Attributes:
-        arguments: of sim.launch. variables: of its environment.
-        parameters: of its nodes, by their whole names.
-        real_time_factor: simulated seconds per second, 0: as fast as the machine can.
-        by_relay: the Operator reaches the robot through the relay that has the link's faults, and time waits for no
-            answer of his; else it waits.
-        is_simulated: stamps are of the simulated clock; else of one of the machine that is set.
-        has_small_disk: the nodes write to a disk of its own, which can be filled.
-        hears_car: the application listens to the Car's bus.
-        has_receiver: of satellites, which the simulator has not.
+        arguments: arguments of sim.launch. variables: environment variables.
+        parameters: node parameters, by their full names.
+        real_time_factor: simulated seconds per second; 0: as fast as possible.
+        by_relay: the Operator reaches the robot through the relay that injects link faults, and simulated time does not
+            wait for his answers; else it does.
+        is_simulated: stamps are of the simulated clock; else of the machine's adjustable clock.
+        has_small_disk: the nodes write to a separate disk, which can be filled.
+        hears_car: the application receives the Car's bus.
+        has_receiver: the robot has a satellite receiver, which the simulator does not provide.
     """
 
     arguments: Dict[str, str] = field(default_factory=dict)
@@ -43,21 +44,21 @@ class RobotKind:
     has_receiver: bool = False
 
 
-# As the nodes of a robot: who has ended is started again.
+# Nodes that have ended are restarted, as on a robot.
 _RESPAWN = {"respawn": "true"}
-# As setup/robot/start does it; each robot has a master of its own.
+# Environment of setup/robot/start; each robot has its own master.
 _CLOSED = {name: value for name, value in closed_environment({}).items() if name != "ROS_MASTER_URI"}
 ROBOTS = {
     LOCKSTEP: RobotKind(),
-    # The link's delays are of the wall clock, and so is the start of a node.
+    # Delays of the link and starts of nodes are in wall time.
     PACED: RobotKind(_RESPAWN, real_time_factor=1.0, by_relay=True),
     CAR_BUS: RobotKind(_RESPAWN, real_time_factor=1.0, by_relay=True, hears_car=True),
     MACHINE_CLOCK: RobotKind({**_RESPAWN, "machine_clock": "true"}, real_time_factor=1.0, by_relay=True,
                              is_simulated=False),
-    # In lock-step the simulator waits for drive control's own word; a guard before the base goes by the wall clock.
+    # In lock-step the simulator waits for drive control's own message; the base guard uses wall time.
     GUARDED: RobotKind({**_RESPAWN, "machine_clock": "true", "graph_watch": "true", "base_guard": "true"}, _CLOSED,
                        real_time_factor=1.0, by_relay=True, is_simulated=False),
-    # Room on a disk is asked for by the wall clock, which simulated time must not run away from.
+    # Free disk space is checked by wall time, so simulated time must not run faster.
     SMALL_DISK: RobotKind(parameters=SMALL_DISK_LIMITS, real_time_factor=1.0, has_small_disk=True),
     SATELLITES: RobotKind(has_receiver=True),
 }
@@ -65,7 +66,11 @@ ROBOTS = {
 
 @contextlib.contextmanager
 def small_disk(folder: pathlib.Path) -> Iterator[None]:
-    """A disk of its own at a folder, which is made; subprocess.CalledProcessError for who may not mount one."""
+    """Mount a small disk at a folder, which is created.
+
+    Raises:
+        subprocess.CalledProcessError: the permission to mount is missing.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={SMALL_DISK_SIZE}", "tmpfs", str(folder)], check=True)
     try:

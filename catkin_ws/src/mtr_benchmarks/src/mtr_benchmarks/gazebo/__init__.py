@@ -1,2 +1,2 @@
-"""The whole test on the wall clock in Gazebo and in MuJoCo, beside each other."""
+"""Complete tests on the wall clock, in Gazebo and in MuJoCo, compared with each other."""
 # SPDX-License-Identifier: Apache-2.0

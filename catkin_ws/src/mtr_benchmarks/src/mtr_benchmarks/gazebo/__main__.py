@@ -1,7 +1,8 @@
 """Runs Autolock and Key press on the wall clock, in Gazebo and in MuJoCo; figures go to gazebo.json.
 
 Usage: python -m mtr_benchmarks.gazebo --out out/bench
-The exit status is 0 when every row is what it must be, 1 when one is not, 2 when a simulator did not start.
+
+The exit status is 0 if every row meets its requirement, 1 if one does not, and 2 if a simulator did not start.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -20,7 +21,7 @@ from .run import GAZEBO, MUJOCO, READERS, RunOptions, run
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status."""
+    """Measure; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--seed", type=int, default=1, help="seed of every random number but Gazebo's own")

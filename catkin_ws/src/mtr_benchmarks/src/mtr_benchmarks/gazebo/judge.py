@@ -1,4 +1,4 @@
-"""Figures of the runs, beside each other, and what they have to be."""
+"""Figures of the runs and their requirements, for a comparison of the simulators."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import statistics
@@ -11,20 +11,20 @@ from ..harness.rows import Requirement, Row
 from .noted import Notes, pose_errors
 from .run import Run
 
-# As of `make demo`, where each distance is true to 5 cm.
+# The same limit as in `make demo`: each distance is within 5 cm of the truth.
 MAX_ERROR_M = 0.05
-# The wall clock: a simulation that falls behind it is another test.
+# Wall time: a simulation that runs slower is a different test.
 MIN_REAL_TIME_FACTOR = 0.95
 
 
 def judged(runs: Dict[str, Run]) -> Tuple[List[Row], Dict[str, Any]]:
-    """Rows of the table, and everything else for the file, by simulator."""
+    """Return the rows of the table, and all other figures for the file by simulator."""
     rows = [row for simulator, run in runs.items() for row in rows_of(simulator, run)]
     return rows, {simulator: figures_of(run) for simulator, run in runs.items()}
 
 
 def rows_of(simulator: str, run: Run) -> List[Row]:
-    """What a person wants to compare."""
+    """Return the rows of one simulator for comparison."""
     notes, positions = run.notes, sorted(error for error, _ in pose_errors(run.notes))
     rows = []
     for scenario, lines in run.lines.items():
@@ -49,7 +49,7 @@ def rows_of(simulator: str, run: Run) -> List[Row]:
 
 
 def figures_of(run: Run) -> Dict[str, Any]:
-    """Everything about one run; lengths in m, angles in rad."""
+    """Return all figures of one run; lengths in m, angles in rad."""
     return {
         "statuses": run.statuses, "touched": list(run.touched), "blockages": run.notes.blockages,
         "blocked": run.notes.blocked, "real_time_factor": run.notes.real_time_factor,
@@ -58,12 +58,12 @@ def figures_of(run: Run) -> Dict[str, Any]:
 
 
 def good(lines: Sequence[Comparison]) -> List[Comparison]:
-    """Distances that are ok and have their true event."""
+    """Return the distances that are ok and have a true event."""
     return [each for each in lines if each.measured.status == "ok" and math.isfinite(each.error_m)]
 
 
 def line_figures(line: Comparison) -> Dict[str, Any]:
-    """One distance."""
+    """Return the figures of one distance."""
     measured = line.measured
     return {"line": measured.line, "event": measured.event, "side": measured.side, "status": measured.status,
             "distance_m": measured.distance_m, "true_distance_m": line.true_distance_m, "error_m": line.error_m,

@@ -1,4 +1,4 @@
-"""What was noted of one run: true and believed poses, the simulated clock, and stops of drive control."""
+"""Observations of one run: true and estimated poses, simulated clock, and stops of drive control."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
@@ -6,19 +6,21 @@ from typing import Dict, List, Optional, Tuple
 
 from mtr_core.se2 import Pose2
 
-# A true pose belongs to a believed one of the same instant; the robot drives at most 2 cm in this time.
+# Longest time between an estimated pose and the nearest true pose; the robot drives at most 2 cm in this time.
 NEAREST_S = 0.021
 
 
 @dataclass
 class Notes:
-    """Attributes:
-        truth: true pose of base_link in the true Car's frame, by the stamp in ns.
-        believed: stamp in ns and pose of base_link in the Car's frame as localization and Car locator have it, once
-            the Car is located.
+    """Observations of one run.
+
+    Attributes:
+        truth: true pose of base_link in the true Car's frame, by its stamp in ns.
+        believed: stamp in ns and estimated pose of base_link in the Car's frame, from localization and the Car locator,
+            once the Car is located.
         clock: monotonic clock and simulated time in s, at the first and at the last message.
-        blockages: stops for an obstacle or for blindness since the robot's start.
-        blocked: sentences of drive control while it stood for an obstacle.
+        blockages: number of stops for an obstacle or blindness since the robot's start.
+        blocked: messages of drive control when it stopped for an obstacle.
     """
 
     truth: Dict[int, Tuple[float, float, float]] = field(default_factory=dict)
@@ -29,7 +31,7 @@ class Notes:
 
     @property
     def real_time_factor(self) -> Optional[float]:
-        """Simulated by wall time; None when there was no clock."""
+        """Simulated time divided by wall time; None without clock messages."""
         if len(self.clock) < 2 or self.clock[-1][0] <= self.clock[0][0]:
             return None
         (wall_s, simulated_s), (wall_end_s, simulated_end_s) = self.clock[0], self.clock[-1]
@@ -37,7 +39,7 @@ class Notes:
 
 
 def pose_errors(notes: Notes) -> List[Tuple[float, float]]:
-    """Distance in m and angle in rad between each believed pose and the true one of its instant."""
+    """Return position error in m and heading error in rad of each estimated pose against the true one at its time."""
     stamps = sorted(notes.truth)
     errors = []
     for stamp_ns, x, y, heading in notes.believed:
@@ -52,14 +54,14 @@ def pose_errors(notes: Notes) -> List[Tuple[float, float]]:
 
 
 def between(first: Pose2, second: Pose2, share: float) -> Pose2:
-    """The pose at a share of the way from one to the other."""
+    """Return the interpolated pose at a share of the path from one pose to the other."""
     turn = math.remainder(second.heading - first.heading, 2.0 * math.pi)
     return Pose2(first.x + share * (second.x - first.x), first.y + share * (second.y - first.y),
                  first.heading + share * turn)
 
 
 def _around(stamps: List[int], stamp_ns: int) -> Tuple[Optional[int], Optional[int]]:
-    """The last stamp not later and the first not earlier."""
+    """Return the last stamp that is not later and the first one that is not earlier."""
     low, high = 0, len(stamps)
     while low < high:
         middle = (low + high) // 2

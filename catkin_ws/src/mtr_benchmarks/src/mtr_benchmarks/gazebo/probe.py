@@ -1,6 +1,6 @@
-"""Notes poses, clock and stops of a robot that is simulated, until its input ends; then one line of JSON.
+"""Records poses, clock and stops of a simulated robot until its input ends; then prints one line of JSON.
 
-Usage: python -m mtr_benchmarks.gazebo.probe. A process of its own, for each robot has a ROS master of its own.
+Usage: python -m mtr_benchmarks.gazebo.probe. It is a separate process, because each robot has its own ROS master.
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
@@ -22,12 +22,12 @@ from ..harness.ros_shutdown import shut_down
 from .noted import Notes
 
 QUEUE = 500
-# Of 50 poses a second this many are enough.
+# Every fifth of the 50 poses per second is sufficient.
 EACH = 5
 
 
 class Probe:
-    """Listens from its making on."""
+    """Records from its construction on."""
 
     def __init__(self) -> None:
         self.notes = Notes()
@@ -65,7 +65,7 @@ class Probe:
             self.notes.believed.append((message.header.stamp.to_nsec(), pose.x, pose.y, pose.heading))
 
     def noted(self) -> Dict[str, Any]:
-        """What was noted so far, in JSON's types."""
+        """Return the observations so far, as JSON types."""
         with self._lock:
             return asdict(self.notes)
 
@@ -77,7 +77,7 @@ class Probe:
 
 
 def main() -> int:
-    """Run until the input ends."""
+    """Record until the input ends; return the exit status."""
     rospy.init_node("gazebo_probe", anonymous=True, disable_signals=True, disable_rostime=True)
     probe = Probe()
     print("ready", flush=True)

@@ -1,4 +1,4 @@
-"""One simulator's run: the robot's nodes on the wall clock, both scenarios with the Operator's application."""
+"""Runs one simulator: the robot's nodes on the wall clock, and both scenarios with the Operator's application."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import json
@@ -25,13 +25,15 @@ PROBE_LIMIT_S = 60.0
 
 @dataclass(frozen=True)
 class RunOptions:
-    """Attributes:
-        folder: of this simulator's results.
+    """Options of a run.
+
+    Attributes:
+        folder: folder of this simulator's results.
         site: name or YAML file of a scenario of mtr_simulation, the same for both simulators.
-        car: the Car's radio and electronics.
-        scenarios: to be run, in their order.
-        parameters: folder with the parameters of the scenarios; None: those of the demo.
-        server: command that starts Gazebo's server; empty: that of gazebo.launch.
+        car: name or YAML file of the Car's radio and electronics.
+        scenarios: scenarios to run, in order.
+        parameters: folder with the parameters of the scenarios; None: the demo's parameters.
+        server: command that starts Gazebo's server; empty: the default of gazebo.launch.
     """
 
     folder: pathlib.Path
@@ -43,14 +45,15 @@ class RunOptions:
     server: str = ""
 
     def demo(self, scenario: str) -> DemoOptions:
-        """The run of a scenario as the demo would do it."""
+        """Return the options with which the demo runs a scenario."""
         own = self.parameters / f"{scenario}.yaml" if self.parameters else None
         return DemoOptions(self.folder, self.seed, car=self.car, scenarios=(scenario,), parameters=own)
 
 
 @dataclass(frozen=True)
 class Run:
-    """What came of it; of each scenario the exit status of the application and its lines beside the truth."""
+    """Result of a run. statuses: exit status of the application by scenario. lines: distances compared with the
+    truth."""
 
     notes: Notes
     statuses: Dict[str, int]
@@ -59,7 +62,11 @@ class Run:
 
 
 def run(simulator: str, options: RunOptions) -> Run:
-    """Run all scenarios on one robot, into a folder that is emptied before; StackError when it does not start."""
+    """Run all scenarios on one robot, into a folder that is emptied before.
+
+    Raises:
+        StackError: the robot does not start.
+    """
     shutil.rmtree(options.folder, ignore_errors=True)
     with Stack(stack_options(simulator, options)) as stack, _probe(stack) as probe:
         statuses = {name: run_scenario(stack, name, options.folder / name, options.demo(name))
@@ -70,7 +77,7 @@ def run(simulator: str, options: RunOptions) -> Run:
 
 
 def stack_options(simulator: str, options: RunOptions) -> StackOptions:
-    """How the robot is started: at the wall clock's pace, and nothing waits for anything."""
+    """Return the start options of the robot: wall time, without lock-step."""
     arguments = {"scenario": options.site, "car": options.car}
     folder = options.folder / "stack"
     if simulator == MUJOCO:
@@ -84,7 +91,7 @@ def stack_options(simulator: str, options: RunOptions) -> StackOptions:
 
 
 def lines_of(options: RunOptions, scenario: str) -> List[Comparison]:
-    """All distances of a scenario beside the truth; none when it left no results."""
+    """Return all distances of a scenario, compared with the truth; empty without results."""
     car = chosen_scenario(options.site).car
     try:
         measured = READERS[scenario](options.folder / scenario / "results.csv")
@@ -96,7 +103,7 @@ def lines_of(options: RunOptions, scenario: str) -> List[Comparison]:
 
 
 def touched_in(log: str) -> Tuple[str, ...]:
-    """What the robot touched, by the simulators' words for it."""
+    """Return the names of touched things from the simulators' log messages."""
     words = (line.partition("The robot touches ")[2].split(" at ")[0] for line in log.splitlines())
     return tuple(sorted({word for word in words if word}))
 

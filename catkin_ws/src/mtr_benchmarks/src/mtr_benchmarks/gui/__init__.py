@@ -1,2 +1,2 @@
-"""How fast the Operator's window answers and paints, and what it takes of the laptop."""
+"""Response and painting times of the Operator's window, and its use of the laptop's processor and memory."""
 # SPDX-License-Identifier: Apache-2.0

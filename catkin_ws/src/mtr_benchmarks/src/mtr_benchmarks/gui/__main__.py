@@ -1,6 +1,6 @@
 """Runs the benchmark of the Operator's window; figures go to gui.json.
 
-Usage: python -m mtr_benchmarks.gui --out out/bench [--short | --hours 8]; it wants a display, xvfb-run gives one.
+Usage: python -m mtr_benchmarks.gui --out out/bench [--short | --hours 8]; it requires a display, e.g. of xvfb-run.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -20,7 +20,7 @@ from ..harness.rows import Requirement, Row
 from .day import DayFigures, use_for_hours
 from .window import Times, WindowFigures, use_window
 
-# Of issue 17's table; the start is that of a machine with nothing else to do.
+# The limit of the start is valid for an otherwise idle machine.
 STOP = Requirement("click on Stop to the Command out of the socket, 99 %", "ms", must=50.0)
 PICTURE = Requirement("Status to the picture that shows it, 95 %", "ms", must=50.0)
 FRAMES = Requirement("pictures a second while measuring, with LiDARs", "(count)", must=30.0, at_least=True)
@@ -29,7 +29,7 @@ REST_CPU = Requirement("processor at rest, of one core", "(share)", must=0.05)
 MEMORY = Requirement("memory", "MiB")
 GROWTH = Requirement("growth of the memory while measuring", "MiB", must=8.0)
 DAY = Requirement("growth of the memory over a day of tests, robot time", "MiB", must=16.0)
-# So that what is left to chance over a day is at most what it may grow by.
+# At this slope, the growth that remains statistically possible over a day stays within its own limit.
 SLOPE = Requirement("slope of the memory over a day of tests, upper end of its 95 % interval", "MiB/h", must=2.0)
 START = Requirement("start to the first window, median", "s", goal=2.0)
 STARTS = 3
@@ -39,7 +39,7 @@ MS_PER_S = 1000.0
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="a quarter of the time")
@@ -64,7 +64,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def measured_start() -> float:
-    """From the start of a process to its painted window, in s."""
+    """Return the time from the start of a process to its painted window, s."""
     begun_s = time.monotonic()
     with subprocess.Popen([sys.executable, "-m", "mtr_benchmarks.gui.start"], stdout=subprocess.PIPE) as process:
         if process.stdout is None or not process.stdout.readline():
@@ -73,7 +73,7 @@ def measured_start() -> float:
 
 
 def report(found: WindowFigures, starts_s: Sequence[float], times: Times, day: DayFigures) -> BenchmarkReport:
-    """Rows of the table."""
+    """Return the rows of the table."""
     slope, low, high = day.slope_mib_per_h
     looks = {f"look_{number}_mib": value for number, value in enumerate(day.memory_mib, 1)}
     rows = [Row(STOP, percentile_ms(found.stop_s, 99.0), details={"clicks": float(len(found.stop_s))}),
@@ -91,7 +91,7 @@ def report(found: WindowFigures, starts_s: Sequence[float], times: Times, day: D
 
 
 def percentile_ms(times_s: Sequence[float], percent: float) -> Optional[float]:
-    """None without any."""
+    """Return a percentile in ms; None without times."""
     return float(np.percentile(times_s, percent)) * MS_PER_S if len(times_s) else None
 
 

@@ -1,9 +1,8 @@
-"""Memory of the window over a day of tests, one after the other, at the speed at which this machine can measure them.
+"""Memory of the window over a day of tests, one after the other, at the highest speed of this machine.
 
 The robot is in this process and answers at once: hours of its time, with ten Statuses a second, pass in minutes. It
-logs a sentence now and then, and rests after each test. Everything of the application that grows with Statuses, lines,
-events and tests does so as it does in a day, and more, for a person measures fewer tests; what grows with wall time
-alone does not.
+logs a message regularly and rests after each test. Memory that grows with Statuses, lines, events and tests grows at
+least as in a day, because a person runs fewer tests. Memory that grows with wall time alone does not grow.
 """
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
@@ -25,15 +24,15 @@ from mtr_operator.station.readiness import Phase
 from .robot import seen
 from .window import SIZE, memory_mib, until
 
-# Virtual seconds per second: more than a busy machine gives, so that the window still gets its turn.
+# Virtual seconds per second: more than a busy machine reaches, so that the window is still processed.
 TIME_FACTOR = 400.0
-# Memory is looked at so often; the first look comes when all that is made once is made. Each comes when a test ended
-# and its files are written, for a picture of the protocol takes 50 MiB as long as it is made.
+# Number of memory samples. The first one follows all one-time allocations. Each one is taken after a test has ended and
+# its files are written, because rendering a picture of the report needs 50 MiB temporarily.
 LOOKS = 24
 LIMIT_S = 1800.0
 SEEN_EVERY = 50
-# A sentence of the log in 10 s, and a minute between two tests: robot time. With the changes of the locks and what the
-# test does that is more than the list of events keeps.
+# One log message in 10 s and a minute between two tests, robot time. With lock changes and the test's own events, this
+# exceeds the capacity of the list of events.
 LOGGED_EVERY = 100
 REST_S = 60.0
 _PARAMETERS = {"angle_between_radials_deg": 30.0, "method": "scan"}
@@ -41,8 +40,14 @@ _S_PER_HOUR = 3600.0
 
 
 class DayFigures(NamedTuple):
-    """hours: of robot time. tests: measured to their end. events: of the list of events, those that it forgot included.
-    memory_mib: at each look, evenly over the hours."""
+    """Figures of a day.
+
+    Attributes:
+        hours: robot time.
+        tests: completed tests.
+        events: number of events, including those removed from the list.
+        memory_mib: memory at each sample, equally spaced over the hours.
+    """
 
     hours: float
     tests: int
@@ -51,10 +56,10 @@ class DayFigures(NamedTuple):
 
     @property
     def slope_mib_per_h(self) -> Tuple[float, float, float]:
-        """Of the memory from the first look to the last, and the ends of its 95 % interval.
+        """Slope of the memory from the first sample to the last, and its 95 % interval.
 
-        The median of the slopes between any two looks, and the interval by their ranks (Sen 1968, Journal of the
-        American Statistical Association 63, 1379): one odd look says nothing.
+        It is the median of the slopes between all pairs of samples; the interval is based on their ranks. A single
+        outlier has no effect. Source: Sen 1968, Journal of the American Statistical Association 63, 1379.
         """
         looks = len(self.memory_mib)
         found = theilslopes(self.memory_mib, [self.hours * (number + 1) / looks for number in range(looks)], 0.95)
@@ -62,12 +67,13 @@ class DayFigures(NamedTuple):
 
     @property
     def growth_mib(self) -> float:
-        """From the first look to the last."""
+        """Growth from the first sample to the last."""
         return self.slope_mib_per_h[0] * self.hours * (1.0 - 1.0 / len(self.memory_mib))
 
 
 class QuickRobot(VirtualRobot):
-    """Sees now and then: what it sees takes longer to make up than all else, and the newest alone is shown. Logs."""
+    """Virtual robot that logs, and sends surroundings only occasionally: they are expensive to compute, and only the
+    newest are shown."""
 
     def status(self) -> RobotStatus:
         """See VirtualRobot."""
@@ -79,7 +85,7 @@ class QuickRobot(VirtualRobot):
 
 
 class QuickOpener(LinkOpener):
-    """One robot, which lives on from session to session."""
+    """Opens links to one robot, which persists over sessions."""
 
     def __init__(self) -> None:
         self._robot = QuickRobot(1)
@@ -87,7 +93,7 @@ class QuickOpener(LinkOpener):
 
     @property
     def time_s(self) -> float:
-        """Of the robot."""
+        """Time of the robot."""
         return self._robot.time_s
 
     def robot(self, choice: RobotChoice) -> Any:
@@ -96,7 +102,7 @@ class QuickOpener(LinkOpener):
 
 
 def use_for_hours(folder: pathlib.Path, hours: float) -> DayFigures:
-    """Measure one test after the other for hours of robot time; the Qt application has to be there."""
+    """Measure one test after the other for hours of robot time; requires an existing Qt application."""
     opener = QuickOpener()
     application = Application(folder / "settings.json", opener)
     try:
@@ -136,6 +142,6 @@ def _use(application: Application, opener: QuickOpener, folder: pathlib.Path, ho
 
 
 def _rest(opener: QuickOpener) -> None:
-    """The robot stands, and its Statuses are answered."""
+    """Let the robot rest while its Statuses are answered."""
     end_s = opener.time_s + REST_S
     until(lambda: opener.time_s >= end_s, LIMIT_S)

@@ -1,4 +1,4 @@
-"""A robot on the machine's clock in a process of its own, which sees as much as the link carries.
+"""Robot on the machine's clock in its own process, with as many returns as the link carries.
 
 Usage: python -m mtr_benchmarks.gui.robot; prints its subscriber and publisher port, and serves until it is killed.
 """
@@ -13,13 +13,13 @@ from mtr_operator.robot_link.server import ConnectionServer
 from mtr_operator.robot_link.substitute import RobotSubstitute
 from mtr_operator.robot_link.virtual.robot import VirtualRobot
 
-# As many as a robot sends, all around, and at most.
+# Largest number of returns and of path points that a robot sends.
 POINTS, PATH_POINTS = 500, 200
 WALL_M, WAVE_M = 8.0, 1.0
 
 
 class SeeingRobot(VirtualRobot):
-    """Sees a wavy wall all around in every second Status."""
+    """Returns a wavy wall all around in every second Status."""
 
     def status(self) -> RobotStatus:
         """See VirtualRobot."""
@@ -28,7 +28,7 @@ class SeeingRobot(VirtualRobot):
 
 
 def seen(status: RobotStatus) -> Surroundings:
-    """A wavy wall, and a way."""
+    """Return a wavy wall and a path."""
     bearings = [2.0 * math.pi * index / POINTS for index in range(POINTS)]
     ranges = [WALL_M + WAVE_M * math.sin(7.0 * bearing + 0.1 * status.id) for bearing in bearings]
     points = tuple((far * math.cos(bearing), far * math.sin(bearing)) for far, bearing in zip(ranges, bearings))
@@ -36,7 +36,7 @@ def seen(status: RobotStatus) -> Surroundings:
 
 
 def main() -> int:
-    """Serve; the exit status."""
+    """Serve; return the exit status."""
     with ConnectionServer() as server:
         print(server.subscriber_port, server.publisher_port, flush=True)
         RobotSubstitute(server, robot=SeeingRobot(1)).run()

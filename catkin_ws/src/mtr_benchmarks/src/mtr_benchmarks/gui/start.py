@@ -1,4 +1,4 @@
-"""Opens the application's first window, says so when it is painted, and ends."""
+"""Opens the application's first window, prints a line when it is painted, and ends."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys
@@ -16,12 +16,12 @@ def _tell() -> None:
 
 
 def main() -> int:
-    """Open and close it; the exit status."""
+    """Open and close the application; return the exit status."""
     app = make_qt()
     with tempfile.TemporaryDirectory() as folder:
         application = Application(pathlib.Path(folder) / "settings.json")
         application.open()
-        # Behind all that showing the window has put into the queue.
+        # The timer fires after all events that showing the window has queued.
         QTimer.singleShot(0, _tell)
         app.exec_()
         application.close()

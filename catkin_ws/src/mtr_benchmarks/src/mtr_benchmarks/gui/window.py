@@ -1,4 +1,4 @@
-"""The whole application in this process, used and watched; the robot is in another one, behind the real link."""
+"""Operates and measures the complete application in this process; the robot is in another one, behind the real link."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import os
@@ -18,7 +18,7 @@ from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, RobotChoice
 
 SIZE = QSize(1360, 860)
-# The mapping of the virtual Car, in wall time; it does not count.
+# Limit for mapping the virtual Car, in wall time; it is not measured.
 READY_LIMIT_S = 180.0
 STOP_PAUSE_S = 0.15
 _PAGE_BYTES = os.sysconf("SC_PAGE_SIZE")
@@ -26,7 +26,7 @@ _MIB = 2.0 ** 20
 
 
 class Times(NamedTuple):
-    """How long each part lasts, and how often Stop is clicked."""
+    """Duration of each part, and number of clicks on Stop."""
 
     rest_s: float = 20.0
     measuring_s: float = 60.0
@@ -34,11 +34,11 @@ class Times(NamedTuple):
 
 
 class Watch:
-    """What happened when, on the monotonic clock.
+    """Times of events, on the monotonic clock.
 
     Attributes:
-        came_s: of each Status, by its id. stops_s: when a stop had left the socket. paints_s: ends of paintings of a
-            picture. picture_s: from a Status to the end of the painting that shows it first.
+        came_s: arrival of each Status, by its id. stops_s: when a stop had left the socket. paints_s: ends of
+            paintings. picture_s: time from a Status to the end of the first painting that shows it.
     """
 
     def __init__(self) -> None:
@@ -50,7 +50,7 @@ class Watch:
         self._shown_id = 0
 
     def painted(self) -> None:
-        """A picture was painted."""
+        """Record a painting of the picture."""
         now_s, newest = time.monotonic(), self.newest_id()
         self.paints_s.append(now_s)
         if newest != self._shown_id and newest in self.came_s:
@@ -59,7 +59,7 @@ class Watch:
 
 
 class WatchedOpener(LinkOpener):
-    """Links of the application, with a note of what passes."""
+    """Opens links that record the times of messages."""
 
     def __init__(self, watch: Watch) -> None:
         self._watch = watch
@@ -69,7 +69,7 @@ class WatchedOpener(LinkOpener):
         watch = self._watch
 
         class Link(ZmqRobotLink):
-            """The real one."""
+            """Link of the application."""
 
             def next_status(self, timeout_s: float) -> Any:
                 """See RobotLink."""
@@ -87,7 +87,7 @@ class WatchedOpener(LinkOpener):
 
 
 class WindowFigures(NamedTuple):
-    """Times in s, processor time in cores, memory in MiB."""
+    """Figures of the window; times in s, processor time in cores, memory in MiB."""
 
     stop_s: List[float]
     picture_s: List[float]
@@ -99,7 +99,7 @@ class WindowFigures(NamedTuple):
 
 
 def use_window(folder: pathlib.Path, ports: List[int], times: Times) -> WindowFigures:
-    """Connect, rest, measure and stop; the Qt application has to be there. folder: for the settings and results."""
+    """Connect, rest, measure and stop; requires an existing Qt application. folder: folder of settings and results."""
     watch = Watch()
     painted = PictureView.paintEvent
 
@@ -153,31 +153,35 @@ def _stop(button: Any, watch: Watch) -> float:
 
 
 def _cores(wall_s: float) -> float:
-    """Processor time of this process in cores, while wall_s pass."""
+    """Return the processor time of this process over wall_s, in cores."""
     begun_s, used_s = time.monotonic(), time.process_time()
     _pass(wall_s)
     return (time.process_time() - used_s) / (time.monotonic() - begun_s)
 
 
 def memory_mib() -> float:
-    """Of this process, what is in the machine's memory."""
+    """Return the resident memory of this process."""
     fields = pathlib.Path("/proc/self/statm").read_text(encoding="ascii").split()
     return int(fields[1]) * _PAGE_BYTES / _MIB
 
 
 def _pass(wall_s: float) -> None:
-    """Let the window live."""
+    """Process the window's events for wall_s."""
     end_s = time.monotonic() + wall_s
     until(lambda: time.monotonic() >= end_s, None)
 
 
 def until(condition: Callable[[], bool], limit_s: Optional[float] = READY_LIMIT_S) -> None:
-    """Let the window live until a condition holds; TimeoutError after limit_s of wall time, None for ever."""
+    """Process the window's events until a condition holds. limit_s: wall time; None: unlimited.
+
+    Raises:
+        TimeoutError: the limit has passed.
+    """
     end_s = None if limit_s is None else time.monotonic() + limit_s
     flags: Any = QEventLoop.ProcessEventsFlag.AllEvents | QEventLoop.ProcessEventsFlag.WaitForMoreEvents
     while not condition():
         if end_s is not None and time.monotonic() > end_s:
             raise TimeoutError("The window did not get that far.")
         QApplication.processEvents(flags)
-        # What a window's own loop deletes in its next turn stays for ever without one.
+        # Without an event loop of the application, deferred deletions must be sent explicitly.
         QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

@@ -1,2 +1,2 @@
-"""What all benchmarks share: rows of a table with limits, their files and lines, and processes that are measured."""
+"""Shared parts of all benchmarks: table rows with limits, output files and lines, and measured processes."""
 # SPDX-License-Identifier: Apache-2.0

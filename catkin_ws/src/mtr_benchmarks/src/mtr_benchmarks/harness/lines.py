@@ -1,4 +1,4 @@
-"""Rows of a benchmark's table for a person, one line each."""
+"""Formats rows of a benchmark's table as lines for a person."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple, Optional
@@ -9,7 +9,7 @@ NAME_WIDTH, VALUE_WIDTH, UNIT_WIDTH = 55, 8, 5
 
 
 class Shown(NamedTuple):
-    """How values of a unit are shown: times a scale, in another unit, with so many decimals."""
+    """Display format of a unit: scale factor, displayed unit and number of decimals."""
 
     scale: float
     unit: str
@@ -21,7 +21,7 @@ UNITS = {"m": Shown(100.0, "cm", 2), "(share)": Shown(100.0, "%", 1), "(ratio)":
 
 
 def line(row: Row) -> str:
-    """Name, value, limits and verdict; lengths in cm."""
+    """Return name, value, limits and verdict; lengths in cm."""
     wanted = row.requirement
     shown = UNITS.get(wanted.unit, Shown(1.0, wanted.unit, 2))
     value = f"{wanted.name:<{NAME_WIDTH}} {_number(row.value, shown):>{VALUE_WIDTH}} {shown.unit:<{UNIT_WIDTH}}"

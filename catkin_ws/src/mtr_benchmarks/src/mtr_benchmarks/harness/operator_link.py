@@ -1,4 +1,4 @@
-"""The Operator's end of the link, scripted: every Status is answered."""
+"""Scripted Operator's end of the link: answers every Status."""
 # SPDX-License-Identifier: Apache-2.0
 import secrets
 import threading
@@ -12,14 +12,14 @@ POLL_MS = 50
 
 
 class OperatorLink:
-    """Answers from a thread of its own, so that a test can let time pass.
+    """Answers from its own thread, so that a test can let time pass.
 
     Attributes:
-        status: the newest Status.
+        status: newest Status.
     """
 
     def __init__(self, status_port: int, command_port: int, on_status: Callable[[], None] = lambda: None):
-        """on_status: called from the thread with each Status."""
+        """on_status: called from the thread for each Status."""
         self.status = link.Status()
         self._command = link.Command(session_id=secrets.randbits(63) | 1, id=1)
         self._lock, self._on_status = threading.Lock(), on_status
@@ -33,17 +33,17 @@ class OperatorLink:
         self._thread.start()
 
     def order(self, **content: Any) -> None:
-        """What the Operator wants from the next Status on."""
+        """Set the content of the Commands that answer the following Statuses."""
         with self._lock:
             self._command = link.Command(session_id=self._command.session_id, id=self._command.id + 1, **content)
 
     def send(self, **content: Any) -> None:
-        """What the Operator wants now, without waiting for the next Status."""
+        """Set the content of the Commands and send one immediately."""
         self.order(**content)
         self._answer(self.status)
 
     def close(self) -> None:
-        """Say no more."""
+        """Stop answering and close the sockets."""
         self._stopped.set()
         self._thread.join()
         self._statuses.close(0)
@@ -59,5 +59,5 @@ class OperatorLink:
         with self._lock:
             self._command.seen_status_id, self._command.seen_robot_time_s = status.id, status.sent_time_s
             self.status = status
-            # A socket serves one thread at a time.
+            # A ZeroMQ socket must not be used by two threads at once.
             self._commands.send(self._command.SerializeToString())

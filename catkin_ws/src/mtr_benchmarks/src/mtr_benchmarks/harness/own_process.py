@@ -1,4 +1,4 @@
-"""A function in a process of its own, and the end of both: whoever is ended closes what it has opened."""
+"""Runs a function in its own process; when either process is terminated, both release their resources."""
 # SPDX-License-Identifier: Apache-2.0
 import ctypes
 import os
@@ -11,23 +11,27 @@ from typing import Any, Callable, Optional, Tuple, TypeVar
 
 R = TypeVar("R")
 
-# prctl(2): the signal that a process gets when the one that started it has ended, however that ended.
+# prctl(2): the signal that a process receives when its parent has ended, for whatever reason.
 _PR_SET_PDEATHSIG = 1
-# As a shell reports who was ended by a signal.
+# Offset of a shell's exit status for a process that was ended by a signal.
 _BY_SIGNAL = 128
 
 
 class OwnProcessError(Exception):
-    """The process ended without a result; what it had to say about that is on its standard error."""
+    """The process ended without a result; its standard error has the reason."""
 
 
 def end_in_order() -> None:
-    """From now on a request to terminate ends this process like sys.exit: robots are ended, disks are unmounted."""
+    """Handle SIGTERM like sys.exit from now on, so that robots are stopped and disks are unmounted."""
     signal.signal(signal.SIGTERM, _end)
 
 
 def in_own_process(function: Callable[..., R], *arguments: Any) -> R:
-    """Result of an importable function, which ends in order when this process does; OwnProcessError without one."""
+    """Return the result of an importable function; terminate its process when this one ends.
+
+    Raises:
+        OwnProcessError: the process ended without a result.
+    """
     context = get_context("spawn")
     receiver, sender = context.Pipe(duplex=False)
     process = context.Process(target=_work, args=(sender, os.getpid(), function, arguments))
@@ -48,20 +52,20 @@ def in_own_process(function: Callable[..., R], *arguments: Any) -> R:
 
 
 def _work(sender: Connection, parent: int, function: Callable[..., Any], arguments: Tuple[Any, ...]) -> None:
-    # Ctrl-C reaches all processes of a terminal: the one that waits for this one passes it on.
+    # Ctrl-C reaches all processes of a terminal; the waiting parent passes it on as SIGTERM.
     signal.signal(signal.SIGINT, _ignore)
     end_in_order()
     ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
-    # It may have ended before that.
+    # The parent may have ended before the call of prctl.
     if os.getppid() == parent:
         sender.send(function(*arguments))
 
 
 def _end(number: int, _frame: Optional[FrameType]) -> None:
-    # Whoever closes what is open must not be broken off by the same request again.
+    # A repeated request must not interrupt the cleanup.
     signal.signal(number, _ignore)
     sys.exit(_BY_SIGNAL + number)
 
 
 def _ignore(_number: int, _frame: Optional[FrameType]) -> None:
-    """Not SIG_IGN, which programs that are started from here would inherit."""
+    """Ignore the signal. SIG_IGN would be inherited by started programs."""

@@ -1,4 +1,4 @@
-"""A process with a ROS name and a ROS master of its own, which measures one node on the machine's clock."""
+"""Runs a probe, a process with its own ROS master, which measures one node on the machine's clock."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
@@ -12,10 +12,10 @@ CLOCK_TICK_S = 1.0 / os.sysconf("SC_CLK_TCK")
 
 
 def run_probe(module: str, arguments: List[str], limit_s: float) -> Dict[str, List[float]]:
-    """Run a module that prints lines `<name> <number>`; the numbers by name.
+    """Run a module that prints lines `<name> <number>`; return the numbers by name.
 
     Raises:
-        subprocess.CalledProcessError: it did not get to its end; it said why on stderr.
+        subprocess.CalledProcessError: the module failed; its stderr has the reason.
     """
     port = free_port()
     environment = dict(os.environ, ROS_MASTER_URI=f"http://127.0.0.1:{port}", ROS_IP="127.0.0.1")
@@ -35,8 +35,7 @@ def run_probe(module: str, arguments: List[str], limit_s: float) -> Dict[str, Li
 
 
 def cpu_s(process: int) -> float:
-    """Processor time that all threads of a process, and of those that it has started, have used so far, user and
-    system."""
+    """Return the user and system time that a process and its descendants have used so far, s."""
     return _own_cpu_s(process) + sum(cpu_s(child) for child in _children(process))
 
 
@@ -47,6 +46,6 @@ def _own_cpu_s(process: int) -> float:
 
 
 def _children(process: int) -> List[int]:
-    """Processes that run; a thread of this one may have started them."""
+    """Return the running child processes of all threads of a process."""
     lists = pathlib.Path(f"/proc/{process}/task").glob("*/children")
     return [int(child) for each in lists for child in each.read_text(encoding="ascii").split()]

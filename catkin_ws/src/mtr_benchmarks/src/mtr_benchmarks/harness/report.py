@@ -1,4 +1,4 @@
-"""What a benchmark leaves: a JSON file with its figures and its table, lines for a person, and an exit status."""
+"""Output of a benchmark: a JSON file with figures and table, printed lines, and an exit status."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math
@@ -12,11 +12,11 @@ from .rows import Row, all_met
 
 @dataclass(frozen=True)
 class BenchmarkReport:
-    """All that one benchmark found.
+    """Results of one benchmark.
 
     Attributes:
-        rows: of the table.
-        figures: everything else in the file, by its top-level key.
+        rows: rows of the table.
+        figures: all other content of the file, by its top-level key.
         remarks: sentences below the table.
     """
 
@@ -25,26 +25,26 @@ class BenchmarkReport:
     remarks: List[str] = field(default_factory=list)
 
     def document(self) -> Dict[str, Any]:
-        """What goes into the file; the table is its last key."""
+        """Return the content of the file; the table is its last key."""
         return {**{key: _finite(value) for key, value in self.figures.items()},
                 "table": [row.as_json() for row in self.rows]}
 
 
 def write(report: BenchmarkReport, path: pathlib.Path) -> None:
-    """Write the file and, if it is not there, its folder."""
+    """Write the file; create its folder if necessary."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(report.document(), indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
 
 def finish(report: BenchmarkReport, path: pathlib.Path) -> int:
-    """Write the file and print the table; the exit status is 0 when every row is what it must be."""
+    """Write the file and print the table; return the exit status, 0 if every row meets its requirement."""
     write(report, path)
     print("\n".join([*map(line, report.rows), *report.remarks]), flush=True)
     return 0 if all_met(report.rows) else 1
 
 
 def _finite(value: Any) -> Any:
-    """The same with null for numbers that JSON does not have."""
+    """Return the value with None in place of non-finite numbers, which JSON does not support."""
     if isinstance(value, float):
         return value if math.isfinite(value) else None
     if isinstance(value, dict):

@@ -1,4 +1,4 @@
-"""End of this process's part in the graph of nodes."""
+"""Shuts down the ROS node of this process."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 
@@ -6,7 +6,7 @@ import rospy
 
 
 def shut_down(reason: str) -> None:
-    """As rospy.signal_shutdown does it."""
-    # The rospy of Debian 11 then asks its threads for what those of Python 3.9 no longer have.
+    """Call rospy.signal_shutdown; ignore its failure on Debian 11."""
+    # The rospy of Debian 11 uses thread attributes that Python 3.9 has removed.
     with contextlib.suppress(AttributeError):
         rospy.signal_shutdown(reason)

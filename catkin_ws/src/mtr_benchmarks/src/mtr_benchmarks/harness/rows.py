@@ -1,4 +1,4 @@
-"""Rows of a benchmark's table: a value, what it must be, what is aimed for, and whether it is that."""
+"""Rows of a benchmark's table: a value, its limit (must), its goal, and whether it meets them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
@@ -7,13 +7,13 @@ from typing import Any, Dict, Mapping, Optional, Sequence
 
 @dataclass(frozen=True)
 class Requirement:
-    """What one figure has to be.
+    """Requirement on one figure.
 
     Attributes:
-        name: of the figure, for a person.
-        unit: of value, goal and must; (count), (ratio), (share) and (x), a multiple, for pure numbers.
-        goal: what is aimed for; None: nothing beyond must.
-        must: the benchmark fails without it; None: the figure is for information.
+        name: name of the figure, for a person.
+        unit: unit of value, goal and must; (count), (ratio), (share) and (x), a multiple, for pure numbers.
+        goal: desired value; None: no goal beyond must.
+        must: limit beyond which the benchmark fails; None: the figure is for information.
         at_least: goal and must are lower bounds; else upper bounds.
     """
 
@@ -24,7 +24,8 @@ class Requirement:
     at_least: bool = False
 
     def allows(self, value: Optional[float], limit: Optional[float]) -> bool:
-        """True when a value is within a limit; a value that is not known is within none, and any is without a limit."""
+        """Return True if a value is within a limit. An unknown value is within no limit; without a limit, every value
+        is."""
         if limit is None:
             return True
         if value is None or not math.isfinite(value):
@@ -37,10 +38,10 @@ class Row:
     """One figure and its requirement.
 
     Attributes:
-        value: what was measured; None: not known.
-        is_complete: everything that belongs to the value was measured; a row that is not complete is not met.
-        details: further numbers that belong to the row in the file.
-        remark: what a person has to know besides.
+        value: measured value; None: unknown.
+        is_complete: all parts of the value were measured; an incomplete row does not meet its requirement.
+        details: additional numbers of the row in the file.
+        remark: additional information for a person.
     """
 
     requirement: Requirement
@@ -51,16 +52,16 @@ class Row:
 
     @property
     def is_met(self) -> bool:
-        """True when it is what it must be."""
+        """True if the value meets its limit."""
         return self._is_within(self.requirement.must)
 
     @property
     def is_goal_met(self) -> bool:
-        """True when it is what it must be and what is aimed for."""
+        """True if the value meets its limit and its goal."""
         return self.is_met and self._is_within(self.requirement.goal)
 
     def as_json(self) -> Dict[str, Any]:
-        """The row in a file; names of the keys are a promise."""
+        """Return the row in its file format. The key names are a stable interface."""
         wanted, value = self.requirement, self.value
         return {"name": wanted.name, "unit": wanted.unit,
                 "value": value if value is None or math.isfinite(value) else None,
@@ -72,5 +73,5 @@ class Row:
 
 
 def all_met(rows: Sequence[Row]) -> bool:
-    """True when every row is what it must be."""
+    """Return True if every row meets its limit."""
     return all(row.is_met for row in rows)

@@ -1,4 +1,4 @@
-"""How fast the robot moves, whichever of its points. No ROS inside."""
+"""Speed of the robot's fastest point. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -8,5 +8,5 @@ RADIUS_M = shipped_geometry().footprint().radius_m()
 
 
 def fastest_point_mps(linear_mps: float, angular_radps: float, lateral_mps: float = 0.0) -> float:
-    """No point of the footprint moves faster: a robot that turns on the spot does not stand."""
+    """Return an upper bound for the speed of every point of the footprint. A robot that turns on the spot is moving."""
     return math.hypot(linear_mps, lateral_mps) + abs(angular_radps) * RADIUS_M

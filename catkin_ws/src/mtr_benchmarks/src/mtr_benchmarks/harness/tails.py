@@ -1,22 +1,22 @@
-"""The 99th percentile of what takes longer with something than without, measured in turns. No robot inside."""
+"""Compares the 99th percentiles of delays with and without a condition, measured alternately. No robot inside."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 from typing import List, NamedTuple, Sequence
 
 SHARE = 0.99
-# Resampled sets of turns, of which the middle 95 % make the interval.
+# Number of bootstrap samples of turns; the middle 95 % of their ratios form the interval.
 RESAMPLED, TAIL = 2000, 0.025
 
 
 class Turn(NamedTuple):
-    """Delays without it (an attack, encryption) and with it, one after the other, s."""
+    """Delays without the condition (an attack, encryption) and with it, measured one after the other, s."""
 
     without_s: List[float]
     with_s: List[float]
 
 
 class Ratio(NamedTuple):
-    """The 99th percentile with it against that without, with its 95 % interval, and both, s."""
+    """Ratio of the 99th percentiles with and without the condition, its 95 % interval, and both percentiles, s."""
 
     value: float
     low: float
@@ -26,7 +26,11 @@ class Ratio(NamedTuple):
 
 
 def percentile(values: Sequence[float], share: float) -> float:
-    """The smallest value below which that share of them lies; ValueError for none."""
+    """Return the smallest value below which the given share of the values lies.
+
+    Raises:
+        ValueError: the sequence is empty.
+    """
     if not values:
         raise ValueError("No value was measured.")
     ordered = sorted(values)
@@ -34,7 +38,7 @@ def percentile(values: Sequence[float], share: float) -> float:
 
 
 def ratio_of(turns: Sequence[Turn]) -> Ratio:
-    """Over all turns; the interval by drawing whole turns again and again, for delays of one turn are alike."""
+    """Return the ratio over all turns. The bootstrap draws whole turns, because delays within a turn are correlated."""
     chance = random.Random(1)
     drawn = [_ratio([chance.choice(turns) for _ in turns]) for _ in range(RESAMPLED)]
     with_s, without_s = _tails(turns)

@@ -1,2 +1,2 @@
-"""Nodes of the robot are killed at random instants of whole tests: is anything lost, doubled or wrong?"""
+"""Kills nodes of the robot at random instants of complete tests, and checks for lost, duplicate and wrong results."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Kills nodes of the robot at random instants of whole tests; figures go to node_kills.json.
+"""Kills nodes of the robot at random instants of complete tests; figures go to node_kills.json.
 
 Usage: python -m mtr_benchmarks.kills --kills 20 --out out/bench
 """
@@ -17,18 +17,18 @@ from .deaths import AFTER_ZERO_S, LIMITS_S, STANDS_S, Kill
 from .kept import MUST
 from .killed import PARAMETERS, Found, killed_test
 
-# Of one test; it goes on after each.
+# Kills in one test, which continues after each.
 KILLS_OF_TEST = 10
 STOPPED = Requirement("longest time from a node's last word, or the limit of its silence, to zero sent to the wheels",
                       "s", must=STANDS_S)
 STOOD = Requirement("the same to standstill of the simulated wheels (0.02 m/s)", "s", goal=STANDS_S,
                     must=STANDS_S + AFTER_ZERO_S)
-# Of the kills that are wanted so many find a robot that drives, at least; more than half did where it was measured.
+# Least share of the kills that must hit a driving robot; measured: more than half.
 MIN_JUDGED_SHARE = 0.25
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run tests of both scenarios until so many nodes were killed; the exit status says whether nothing was lost."""
+    """Run tests of both scenarios until enough nodes were killed; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--kills", type=int, default=100, help="of each scenario, default %(default)s")
@@ -42,25 +42,25 @@ def main(arguments: Optional[List[str]] = None) -> int:
     for scenario in options.scenarios:
         done = 0
         while done < options.kills:
-            # A process is one node of one ROS graph only.
+            # A process can be only one node of one ROS graph.
             tests.append(in_own_process(killed_test, scenario, folder / f"{scenario}_{done}",
                                         options.seed + len(tests), min(KILLS_OF_TEST, options.kills - done)))
             print(f"{scenario}: {line_of(tests[-1])}", flush=True)
             if not tests[-1].kills:
-                # A test that ends before anything was killed proves nothing, and so would the next one.
+                # A test that ends before the first kill proves nothing; neither would the next one.
                 break
             done += len(tests[-1].kills)
     return finish(report(tests, options.kills * len(options.scenarios)), options.out / "node_kills.json")
 
 
 def line_of(test: Found) -> str:
-    """What a person reads of one test."""
+    """Return a line about one test for a person."""
     found = {name: count for name, count in test.found.items() if count}
     return f"{len(test.kills)} kills; {test.starts} starts; {found or 'nothing lost, doubled or wrong'}"
 
 
 def report(tests: List[Found], wanted: int) -> BenchmarkReport:
-    """Figures and table. wanted: kills."""
+    """Return figures and table. wanted: number of kills."""
     kills: List[Kill] = [kill for test in tests for kill in test.kills]
     found: Counter[str] = sum((test.found for test in tests), collections.Counter())
     is_whole, judged = len(kills) >= wanted, [kill for kill in kills if kill.is_judged]
@@ -78,7 +78,7 @@ def report(tests: List[Found], wanted: int) -> BenchmarkReport:
 
 
 def _longest(kills: List[Kill], name: str) -> Optional[float]:
-    """From the limits on; None where one did not come to it, or there is none."""
+    """Return the longest time beyond the limit; None if a time is missing, or without kills."""
     times_s = [(getattr(kill, name), LIMITS_S[kill.node]) for kill in kills]
     if any(time_s is None for time_s, _ in times_s):
         return None

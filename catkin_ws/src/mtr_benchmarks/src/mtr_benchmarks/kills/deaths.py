@@ -1,32 +1,32 @@
-"""What became of a robot one of whose nodes died. No ROS inside."""
+"""Behaviour of a robot after one of its nodes was killed. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple, Optional, Sequence, Tuple
 
 from ..faults.judge import STANDS_MPS, standstill_s
 
-# For how long each may be silent, see docs/robot.md: drive control sends zero in time after the last word of the first
-# three, and the state machine calls the fourth silent after 0.5 s. The simulation has no serial bridge; what stands
-# between board and robot is the node of the peripherals.
+# Tolerated silence of each node, see docs/robot.md. Drive control sends zero in time after the last message of the
+# first three. The state machine reports the fourth as silent after 0.5 s. The simulation has no serial bridge; the
+# peripherals connect board and robot.
 LIMITS_S = {"dispatcher": 0.0, "state_machine": 0.0, "motion_planner": 0.0, "peripherals": 0.5}
 STANDS_S = 0.5
-# The servos and tyres need up to 0.18 s after the zero velocity (measured, docs/faults.md).
+# Servos and tyres need up to 0.18 s after the zero velocity (measured, docs/faults.md).
 AFTER_ZERO_S = 0.2
-# Of stamps as floats; two are 20 ms apart.
+# Rounding of stamps as floats; two stamps are 20 ms apart.
 ROUNDING_S = 1e-6
 
 
 class Kill(NamedTuple):
-    """One death of a node, times in s of the robot's clock, from its last word; speeds of the fastest point.
+    """One kill of a node; times in s of the robot's clock from its last message, speeds of the fastest point.
 
     Attributes:
-        speed_mps: that the wheels were sent then.
-        stopped_s: until they were sent zero for as long as the node was away; None: they were not.
-        stood_s: until they stood, which a base on tyres does somewhat later.
-        back_s: until its next word; None: there was none.
-        is_back: it was started again, and has said a word, unless the test came to its end meanwhile: without an
-            application time stands still, and nobody says anything.
-        observed_s: length of the record after the last message; the simulated time ends with the test.
+        speed_mps: speed sent to the wheels at the last message.
+        stopped_s: time until zero was sent for the rest of the absence; None: it was not.
+        stood_s: time until the wheels stopped, which on tyres is somewhat later.
+        back_s: time until the next message; None: there was none.
+        is_back: the node was restarted and has published. Also True if the test ended before that: without an
+            application, simulated time stops and no node publishes.
+        observed_s: length of the record after the last message; simulated time ends with the test.
     """
 
     node: str
@@ -39,12 +39,12 @@ class Kill(NamedTuple):
 
     @property
     def limit_s(self) -> float:
-        """Longest time until zero is sent."""
+        """Longest time until zero must be sent."""
         return LIMITS_S[self.node] + STANDS_S
 
     @property
     def is_judged(self) -> bool:
-        """True when the robot had to stop: it drove, and the node was away for longer than it may drive on.
+        """True if the robot had to stop: it drove, and the node was missing for longer than the limit.
 
         A record that ends before that time proves nothing.
         """
@@ -53,7 +53,7 @@ class Kill(NamedTuple):
 
     @property
     def shows_standstill(self) -> bool:
-        """False if the record ended with the test before the wheels had to be at rest."""
+        """False if the record ended with the test before the wheels had to be stopped."""
         return self.back_s is not None or self.observed_s > self.limit_s + AFTER_ZERO_S
 
     @property
@@ -66,15 +66,15 @@ Speeds = Sequence[Tuple[float, float]]
 
 
 def silence(words_s: Sequence[float]) -> Tuple[float, float]:
-    """The longest of a node's silences: its last word before, and its first one after."""
+    """Return the longest silence of a node: its last message before and its first one after."""
     return max(zip(words_s, words_s[1:]), key=lambda pair: pair[1] - pair[0])
 
 
 def kill_of(node: str, sent: Speeds, wheels: Speeds, last_s: float, back_s: Optional[float],
             *, is_back: bool = True) -> Kill:
-    """Of a robot whose node said its last word at a time, and the next at another.
+    """Return the evaluation of a kill. last_s, back_s: times of the node's last message and of its next one.
 
-    sent, wheels: speeds that were sent to the wheels, and theirs, each with its time.
+    sent, wheels: speeds sent to the wheels and speeds of the wheels, each with its time.
     """
     before = [speed_mps for time_s, speed_mps in sent if time_s <= last_s]
     end_s = sent[-1][0] if back_s is None else back_s
@@ -84,7 +84,8 @@ def kill_of(node: str, sent: Speeds, wheels: Speeds, last_s: float, back_s: Opti
 
 
 def first_zero_s(sent: Speeds, begin_s: float, end_s: float) -> Optional[float]:
-    """Time from a beginning to the first zero after which nothing else was sent until an end; None: there is none."""
+    """Return the time from begin_s to the first zero after which only zeros were sent until end_s; None: there is
+    none."""
     between = [(time_s, speed_mps) for time_s, speed_mps in sent if begin_s <= time_s <= end_s]
     moving = [index for index, (_, speed_mps) in enumerate(between) if speed_mps]
     first = moving[-1] + 1 if moving else 0

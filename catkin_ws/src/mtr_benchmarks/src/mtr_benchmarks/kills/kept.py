@@ -1,4 +1,4 @@
-"""What a test has kept on disk, and what must not have become of it between two looks. No ROS inside."""
+"""Checks that the stored files of a test lose, duplicate or change nothing between two inspections. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import math
@@ -16,15 +16,15 @@ UNKEPT, UNREADABLE, UNENDED = ("distances that are no point of the journal", "fi
                                "tests that could not be gone on with")
 NOT_BACK, DROVE_ON = "nodes that were not started again", "deaths after which the robot drove on for too long"
 MUST = (LOST, DOUBLED, CHANGED, WRONG, UNKEPT, UNREADABLE, UNENDED, NOT_BACK, DROVE_ON)
-# As of `make bench-truth`: a distance is wrong beyond both.
+# Limits of `make bench-truth`: a distance is wrong if its error exceeds both.
 MAX_ERROR_M, MAX_SIGMAS = 0.05, 3.0
 
 
 class Kept:
-    """One test's files.
+    """Files of one test.
 
     Attributes:
-        found: what must not be, by the names of MUST.
+        found: number of violations, by the names in MUST.
     """
 
     def __init__(self, folder: pathlib.Path, scenario: str, parameters: Dict[str, Any]):
@@ -37,12 +37,12 @@ class Kept:
 
     @property
     def has_findings(self) -> bool:
-        """True when there is something to go on with."""
+        """True if there are results with which a test can continue."""
         journal = journal_path(self.path)
         return self.path.exists() or (journal.exists() and read_journal(journal).holds_findings)
 
     def look(self) -> None:
-        """Compare with the look before."""
+        """Compare with the previous inspection."""
         journal = journal_path(self.path)
         content = read_journal(journal).content if journal.exists() else b""
         self.found[CHANGED] += not content.startswith(self._journal)
@@ -59,7 +59,7 @@ class Kept:
         self._good = {number: result for number, result in results.items() if not result.invalid_count}
 
     def look_at_end(self) -> None:
-        """All lines are there, and each of their distances was measured."""
+        """Check that all lines exist and that each of their distances was measured."""
         self.look()
         progress = self._progress()
         if progress is None:
@@ -81,7 +81,7 @@ class Kept:
 
 
 def wrong_distances(lines: Sequence[Comparison]) -> int:
-    """Distances that are ok and are not true, or have no event at all."""
+    """Return the number of ok distances that are wrong or have no true event."""
     return sum(_is_wrong(each) for each in lines if each.measured.status == "ok")
 
 

@@ -1,4 +1,4 @@
-"""One whole test with the Operator's application on one robot, whose nodes are killed meanwhile."""
+"""Runs one complete test with the Operator's application on one robot and kills its nodes."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import pathlib
@@ -18,11 +18,11 @@ from .deaths import Kill
 from .kept import DROVE_ON, NOT_BACK, UNENDED, WRONG, Kept, wrong_distances
 from .robot import KilledRobot
 
-# Wall time from the start of the application, or from a node that is back, to the next kill.
+# Wall time from the start of the application, or from the return of a node, to the next kill.
 SOONEST_S, LATEST_S = 1.0, 20.0
-# Longer than any test that is not killed, wall time on a busy machine.
+# Limit of wall time, longer than any test without kills on a busy machine.
 LIMIT_S = 900.0
-# An application may end of a kill, and is then started again; so may the last one.
+# A kill may end the application, which is then restarted; this may happen with every kill.
 MAX_STARTS = 12
 POLL_S = 0.05
 PARAMETERS: Dict[str, Dict[str, Any]] = {
@@ -38,10 +38,10 @@ PARAMETERS: Dict[str, Dict[str, Any]] = {
 
 @dataclass
 class Found:
-    """What a test had.
+    """Results of one test.
 
     Attributes:
-        starts: of the application. found: what must not be, by the names of kept.MUST.
+        starts: number of starts of the application. found: violations, by the names in kept.MUST.
     """
 
     scenario: str
@@ -51,7 +51,7 @@ class Found:
 
 
 def killed_test(scenario: str, folder: pathlib.Path, seed: int, wanted: int) -> Found:
-    """Kill so often at most, go on with the test after each, and let it end. In a process of its own."""
+    """Kill at most `wanted` nodes, continue the test after each, and let it finish. Requires its own process."""
     folder.mkdir(parents=True, exist_ok=True)
     parameters = folder / f"{scenario}.yaml"
     parameters.write_text(yaml.safe_dump(PARAMETERS[scenario]), encoding="utf-8")
@@ -70,7 +70,7 @@ class _KilledTest:
         self._folder, self._robot, self._chance = folder, robot, chance
 
     def run(self, wanted: int) -> None:
-        """Until the test has come to its end, by as many starts as it takes."""
+        """Run until the test has finished, with as many starts as necessary."""
         while self.found.starts < MAX_STARTS:
             ended = self._live(wanted)
             self.kept.look()
@@ -79,7 +79,7 @@ class _KilledTest:
         self.kept.found[UNENDED] += 1
 
     def _live(self, wanted: int) -> bool:
-        """Start the application or go on with its test; True when the test came to its end."""
+        """Start the application or continue its test; return True if the test has finished."""
         self.found.starts += 1
         begun_s = time.monotonic()
         with (self._folder / "application.log").open("ab") as said:

@@ -1,4 +1,4 @@
-"""The simulated robot whose nodes are killed, and what its wheels do meanwhile."""
+"""Simulated robot whose nodes are killed, and a record of its wheel speeds."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import os
@@ -22,10 +22,10 @@ from ..harness.ros_shutdown import shut_down
 from ..harness.speed import fastest_point_mps
 from .deaths import LIMITS_S, Kill, kill_of, silence
 
-# Wall time. roslaunch waits 2 s before it starts a node again, which then takes some seconds on a busy machine.
+# Limit of wall time: roslaunch restarts a node after 2 s, and its start takes some seconds on a busy machine.
 BACK_LIMIT_S = 60.0
 POLL_S = 0.02
-# What each says at its ticks.
+# Topic that each node publishes at its ticks.
 WORDS = {"dispatcher": (names.DESIRED_STATE, DesiredState), "state_machine": (names.ROBOT_MODE, RobotMode),
          "motion_planner": (names.MOTION_STATUS, MotionStatus),
          "peripherals": (names.PERIPHERALS_STATE, PeripheralsState)}
@@ -33,7 +33,7 @@ ARGUMENTS = {"respawn": "true", "scenario": "lot", "car": "gentle"}
 
 
 class KilledRobot:
-    """Use as a context manager, once in a process.
+    """Robot under test; use as a context manager, once per process.
 
     Attributes:
         stack: its nodes.
@@ -67,7 +67,8 @@ class KilledRobot:
         self._open.close()
 
     def kill_one(self, chance: random.Random, goes_on: Callable[[], bool]) -> Optional[Kill]:
-        """Kill a node and wait until it is back; None when it is not there. goes_on: the application runs."""
+        """Kill a random node and wait for its return; None if the node is not running. goes_on: the application is
+        running."""
         node = chance.choice(list(LIMITS_S))
         killed, words = self._process_of(node), self._words_s[node]
         if killed is None or not words:
@@ -76,7 +77,7 @@ class KilledRobot:
         os.kill(killed, signal.SIGKILL)
         if not self._waited(lambda: self._process_of(node) not in (None, killed)):
             return kill_of(node, list(self._sent), list(self._wheels), words[-1], None, is_back=False)
-        # What it said before its death has arrived by now.
+        # All messages that the killed node published have arrived.
         said = len(words)
         self._waited(lambda: len(words) > said or not goes_on())
         if len(words) == said:

@@ -36,7 +36,7 @@ def trials() -> List[Trial]:
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run all trials; the exit status is 0 when every requirement is met."""
+    """Run all trials; return 0 if every requirement is met."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="only the trials that are part of `make test`")
@@ -60,7 +60,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def report(found: List[Outcome], wanted: int) -> BenchmarkReport:
-    """Figures and table."""
+    """Return figures and table."""
     is_complete = bool(wanted) and len(found) == wanted
     wide = [each for each in found if not each.trial.is_narrow]
     least_m = min((each.clearance_m for each in found), default=None)

@@ -1,4 +1,4 @@
-"""A site with a wall and a pole in the way of the robot, and how near it comes to them. No ROS inside."""
+"""Site with a wall and a pole on the robot's path, and the robot's distance from them. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -21,7 +21,7 @@ FOOTPRINT = shapely.geometry.Polygon(shipped_geometry().footprint().corners)
 
 
 class Leg(NamedTuple):
-    """Straight way in frame car with an obstacle in its middle; start and end as x, y and heading, m and rad."""
+    """Straight leg in frame car with an obstacle in its middle; start and end as x, y and heading, m and rad."""
 
     start: "Place"
     end: "Place"
@@ -29,7 +29,7 @@ class Leg(NamedTuple):
 
 
 class Place(NamedTuple):
-    """Of base_link in frame car, m and rad."""
+    """Pose of base_link in frame car, m and rad."""
 
     x_m: float
     y_m: float
@@ -48,13 +48,13 @@ LEGS: Dict[str, Leg] = {
 
 
 def clearance_m(leg: Leg, place: Place) -> float:
-    """Distance of the robot's outline from the obstacle of a leg; 0 for a contact."""
+    """Return the distance of the robot's outline from the obstacle of a leg; 0 for a contact."""
     turned = shapely.affinity.rotate(FOOTPRINT, place.heading_rad, origin=(0.0, 0.0), use_radians=True)
     return float(shapely.affinity.translate(turned, place.x_m, place.y_m).distance(leg.obstacle))
 
 
 def write_site(path: pathlib.Path) -> None:
-    """The shipped lot with the obstacles, for the simulator."""
+    """Write the shipped lot with the obstacles as a scenario file for the simulator."""
     lot = named_scenario("lot")
     car = lot.world_from_car
     pole = car.apply(0.0, -ASIDE_M)

@@ -1,4 +1,4 @@
-"""One LiDAR fails while the robot drives toward an obstacle: does it touch it, and what does the Operator read?"""
+"""Runs trials in which one LiDAR fails on the way to an obstacle; records contacts and the Operator's messages."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import time
@@ -10,7 +10,7 @@ from ..faults.robot import POLL_S, FaultyRobot
 from .site import LEGS, Leg, Place, clearance_m
 
 SPEED_MPS = 0.7
-# The fault begins when the robot has driven so far, m; at 0.0 it begins before the robot sets off.
+# Driven distance at which the fault begins, m; at 0.0 it begins before the robot starts.
 BEGINS_M = (0.0, 0.8, 2.0)
 # Time after the beginning of the fault during which the robot tries to drive on, s.
 WATCHED_S = 12.0
@@ -22,7 +22,7 @@ OWN_CODES = "drive_control."
 
 
 class Trial(NamedTuple):
-    """kind: of the fault. amount: of the kind, degrees for a sector. begins_m: of the way, when the fault begins."""
+    """One trial. amount: of the fault, degrees for a sector. begins_m: driven distance at which the fault begins."""
 
     lidar: str
     kind: str
@@ -37,7 +37,7 @@ class Trial(NamedTuple):
 
     @property
     def name(self) -> str:
-        """For a person."""
+        """Name for a person."""
         extent = f" by {self.amount:g} deg" if self.amount else ""
         return f"{self.lidar} {self.kind}{extent}, {self.obstacle} ahead, after {self.begins_m:g} m"
 
@@ -47,8 +47,8 @@ class Outcome(NamedTuple):
 
     Attributes:
         clearance_m: least distance of the outline from the obstacle, 0 for a contact.
-        stood: the robot was at rest at the end.
-        messages: distinct texts of drive control that the Operator read.
+        stood: the robot was stopped at the end.
+        messages: distinct messages of drive control that the Operator received.
     """
 
     trial: Trial
@@ -58,14 +58,14 @@ class Outcome(NamedTuple):
 
     @property
     def names_lidar(self) -> bool:
-        """True when the Operator read which LiDAR it is, and where a part of its view is concerned, in which sector."""
+        """True if the Operator received the name of the LiDAR, and of the sector if only a part of its view failed."""
         lidar = self.trial.lidar.replace("_lidar", " LiDAR")
         named = [text for text in self.messages if f"The {lidar}" in text]
         return any("degrees" in text for text in named) if self.trial.amount else bool(named)
 
 
 class Driver:
-    """Drives the legs of the course; a robot that has mapped the Car."""
+    """Drives the legs of the course with a robot that has mapped the Car."""
 
     def __init__(self, robot: FaultyRobot):
         self._robot = robot
@@ -79,7 +79,7 @@ class Driver:
         robot.wait_until(lambda: robot.knows_car, "a map of the Car", robot.release_hold)
 
     def run(self, trial: Trial) -> Outcome:
-        """One trial from the beginning of its leg; afterwards the robot is free of faults and holds."""
+        """Run one trial from the beginning of its leg; afterwards the robot has no faults and no hold."""
         robot, leg = self._robot, LEGS[trial.obstacle]
         self._go_to_start(leg)
         robot.forget()

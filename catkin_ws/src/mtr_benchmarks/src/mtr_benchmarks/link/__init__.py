@@ -1,2 +1,2 @@
-"""What encryption costs the link."""
+"""Cost of the link's encryption."""
 # SPDX-License-Identifier: Apache-2.0

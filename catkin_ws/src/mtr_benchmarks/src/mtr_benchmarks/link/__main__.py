@@ -1,9 +1,8 @@
-"""What CURVE costs a Command on its way to the dispatcher, on loopback; figures go to link.json.
+"""Measures the delay that CURVE adds to a Command to the dispatcher, on loopback; figures go to link.json.
 
 Usage: python -m mtr_benchmarks.link [--commands N] [--rounds N] [--out FOLDER]
 
-Two links stand beside each other, and Commands go through them by turns, so that what else the machine does falls on
-both.
+Commands go alternately through two links, so that other load of the machine affects both equally.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -30,26 +29,26 @@ from ..harness.tails import Turn, percentile, ratio_of
 from .sender import STAMP
 
 RATIO = Requirement("p99 of a Command's way on loopback, encrypted against plain", "(x)", must=1.5)
-# Of the wait for one message, and of a round; s.
+# Limits of the wait for one message and of a round, s.
 QUIET_S, LIMIT_S = 1.0, 300.0
 NOT_HURRIED = "This process had no priority over what else the machine did: that takes root."
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure both; the exit status says whether encryption costs little enough."""
+    """Measure both links; return 0 if the cost of encryption is within its limit."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--commands", type=int, default=500, help="of each link in a round, default %(default)s")
     parser.add_argument("--rounds", type=int, default=20, help="default %(default)s")
     options = parser.parse_args(arguments)
-    # As the robot's service has it. Before any thread: the system keeps it for each of its own.
+    # Same priority as the robot's service; set before any thread starts, because threads inherit it.
     remarks = [] if take_precedence() else [NOT_HURRIED]
     return finish(report([one_round(options.commands) for _ in range(options.rounds)], remarks),
                   options.out / "link.json")
 
 
 def report(turns: List[Turn], remarks: List[str]) -> BenchmarkReport:
-    """Figures and table."""
+    """Return figures and table."""
     ratio = ratio_of(turns)
     figures = {"load": os.getloadavg()[0],
                "plain": _times([delay for turn in turns for delay in turn.without_s]),
@@ -61,7 +60,8 @@ def report(turns: List[Turn], remarks: List[str]) -> BenchmarkReport:
 
 
 def one_round(count: int) -> Turn:
-    """From send to the dispatcher's hands, of so many Commands through each of two links, s."""
+    """Return the delays from sending to reception by the dispatcher's link server, for `count` Commands on each link,
+    s."""
     robot, laptop = KeyPair(*zmq.curve_keypair()), KeyPair(*zmq.curve_keypair())
     known = laptop.public.decode("ascii")
     keys = [key.decode("ascii") for key in (*laptop, robot.public)]
@@ -72,7 +72,7 @@ def one_round(count: int) -> Turn:
                   for server, delays in zip((plain, encrypted), found)]
         for taker in takers:
             taker.start()
-        # Who sends begins when both connections stand, so that nothing of either is lost.
+        # The sender starts when both connections exist, so that no message is lost.
         subprocess.run([sys.executable, "-m", "mtr_benchmarks.link.sender", *map(str, ports), str(count), *keys],
                        check=True, timeout=LIMIT_S)
         for taker in takers:

@@ -1,2 +1,2 @@
-"""The whole robot on the machine's clock while its nodes are stopped for a while, or the clock is set."""
+"""Stops nodes and sets the clock of the complete robot on the machine's clock."""
 # SPDX-License-Identifier: Apache-2.0

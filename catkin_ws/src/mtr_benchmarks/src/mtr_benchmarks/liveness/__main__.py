@@ -20,7 +20,7 @@ SHORT_STEPS_S = (0.4, -0.4, 3600.0, -3600.0)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="one stop of each node and four steps of the clock")

@@ -1,4 +1,4 @@
-"""What the nodes complain of while the robot is watched."""
+"""Collects alarms of the nodes while the robot is observed."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Tuple
 
@@ -9,7 +9,7 @@ from mtr_msgs.msg import DriveStatus, LocalizedPose, MotionStatus, RobotMode
 
 
 class AlarmWatch:
-    """What the nodes have to complain of: locks, poses that are not valid, inputs that are not there, other modes."""
+    """Alarms of the nodes: engaged locks, invalid poses, missing inputs, and unexpected modes."""
 
     def __init__(self) -> None:
         self._alarms: List[str] = []
@@ -20,7 +20,7 @@ class AlarmWatch:
             rospy.Subscriber(topic, kind, take, queue_size=200)
 
     def take(self) -> Tuple[str, ...]:
-        """What was said since the last call, each once, in order."""
+        """Return the distinct alarms since the last call, in order."""
         said, self._alarms = self._alarms, []
         return tuple(dict.fromkeys(said))
 

@@ -1,4 +1,4 @@
-"""The robot's clock is set in the middle of a drive; who takes whom for silent, and whether the robot drives on."""
+"""Sets the robot's clock during a drive; checks for false alarms of silence and whether the robot drives on."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 from dataclasses import dataclass
@@ -12,16 +12,16 @@ from .judge import longest_pause_s
 from .live_robot import LiveRobot
 
 STEPS_S = (0.05, -0.05, 0.4, -0.4, 5.0, -5.0, 60.0, -60.0, 3600.0, -3600.0)
-# What a step does shows within the longest time-out of a node.
+# An effect of a step shows within the longest time-out of a node.
 SEEN_AFTER_S = 2.5
 MOVES_AGAIN_S = 60.0
-# Sensors speak 50 times a second; a machine on which they are silent for longer has too much else to do, and what nodes
-# then complain of is not the clock's fault: the step is tried again.
+# Sensors publish 50 times a second. If they are silent for longer, the machine is overloaded and alarms are not caused
+# by the clock: the step is repeated.
 MAX_SENSOR_PAUSE_S = 0.1
 TRIES = 5
-# Statuses come ten times a second; a tick is left out where the clock goes over it.
+# Statuses come ten times a second; a tick may be missing when the clock jumps over it.
 MAX_STATUS_PAUSE_S = 0.5
-# A clock that nobody has set makes no alarms either.
+# Alarms would also be absent if the clock had not been set.
 NOT_COUNTED = Requirement("steps of the clock that the robot has not counted as one", "(count)", must=0.0)
 ALARMS = Requirement("alarms of nodes because the robot's clock was set", "(count)", must=0.0)
 PAUSE = Requirement("longest time without a Status while it was set", "s", must=MAX_STATUS_PAUSE_S)
@@ -32,11 +32,11 @@ class ClockStep:
     """One step of the clock.
 
     Attributes:
-        alarms: what nodes said that they had not said before, each once.
+        alarms: distinct new alarms of the nodes.
         status_pause_s: longest time without a Status.
-        speed_mps: of the wheels when it was set.
-        sensor_pause_s: longest time without odometry, which no clock has to do with.
-        counted: how often the robot says that its clock was set meanwhile.
+        speed_mps: speed of the wheels when the clock was set.
+        sensor_pause_s: longest time without odometry, which is independent of the clock.
+        counted: number of clock steps that the robot reports.
     """
 
     step_s: float
@@ -48,7 +48,7 @@ class ClockStep:
 
 
 def clock_step(robot: LiveRobot, clock: SettableClock, watch: AlarmWatch, step_s: float) -> ClockStep:
-    """Set the clock of a robot that drives."""
+    """Set the clock of a driving robot."""
     robot.wait_for_motion(MOVES_AGAIN_S)
     watch.take()
     begin_s, speed_mps, before = time.monotonic(), robot.wheels[-1].linear_mps, _counted(robot)
@@ -65,7 +65,7 @@ def _counted(robot: LiveRobot) -> int:
 
 
 def clock_steps(robot: LiveRobot, clock: SettableClock, steps_s: Sequence[float]) -> List[ClockStep]:
-    """One step after the other, each as soon as the machine has time for the robot."""
+    """Run one step after the other; repeat a step if the machine was overloaded."""
     watch, found = AlarmWatch(), []
     for step_s in steps_s:
         for _ in range(TRIES):
@@ -77,7 +77,7 @@ def clock_steps(robot: LiveRobot, clock: SettableClock, steps_s: Sequence[float]
 
 
 def rows(found: Sequence[ClockStep]) -> List[Row]:
-    """The sum and the worst of all."""
+    """Return the sum or the worst value of all steps."""
     return [Row(ALARMS, sum(len(each.alarms) for each in found), remark=f"{len(found)} steps"),
             Row(PAUSE, max(each.status_pause_s for each in found)),
             Row(NOT_COUNTED, sum(each.counted != 1 for each in found))]

@@ -1,11 +1,11 @@
-"""What the wheels were told and did while something was stopped, against what the limits allow. No ROS inside."""
+"""Compares commands and speeds of the wheels with the limits while a node is stopped. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import bisect
 import math
 from dataclasses import dataclass
 from typing import List, NamedTuple, Sequence
 
-# Commands come 20 ms apart; after a longer pause a base goes by its wheels, not by what it was told before.
+# Commands come 20 ms apart; after a longer pause the reference is the wheel speed, not the previous command.
 PAUSE_S = 0.1
 PERIOD_S = 0.02
 
@@ -20,14 +20,15 @@ class Motion(NamedTuple):
 
 @dataclass(frozen=True)
 class Growth:
-    """What a velocity may gain, m/s2 and rad/s2: of the commands drive control's acceleration, of wheels the base's."""
+    """Allowed change of a velocity, m/s2 and rad/s2: drive control's limits for commands, the base's limits for
+    wheels."""
 
     linear_mps2: float
     angular_radps2: float
 
 
 class Excess(NamedTuple):
-    """What was gained beyond that at the worst instant: m/s, rad/s. Nothing or less: 0."""
+    """Largest excess beyond the allowed change: m/s, rad/s; not negative."""
 
     linear_mps: float
     angular_radps: float
@@ -37,9 +38,9 @@ NO_EXCESS = Excess(0.0, 0.0)
 
 
 def excess_of_commands(commands: Sequence[Motion], wheels: Sequence[Motion], growth: Growth) -> Excess:
-    """The worst surge of commands: above the one before, after a pause above what the wheels did.
+    """Return the worst surge of commands above the previous one, or after a pause above the wheel speed.
 
-    A command may be delayed on its way, so that two arrive at once; each is allowed a period's growth at least.
+    A delay can make two commands arrive at once; each is allowed at least one period's growth.
     """
     times = [each.time_s for each in wheels]
     worst = NO_EXCESS
@@ -54,7 +55,8 @@ def excess_of_commands(commands: Sequence[Motion], wheels: Sequence[Motion], gro
 
 
 def excess_of_wheels(wheels: Sequence[Motion], growth: Growth) -> Excess:
-    """The worst step of what the wheels did between two readings 20 ms of the base's clock apart, either way."""
+    """Return the worst change of the wheel speed, in either direction, between readings 20 ms of the base's clock
+    apart."""
     worst = NO_EXCESS
     for before, now in zip(wheels, wheels[1:]):
         linear = abs(now.linear_mps - before.linear_mps) - growth.linear_mps2 * PERIOD_S
@@ -64,13 +66,13 @@ def excess_of_wheels(wheels: Sequence[Motion], growth: Growth) -> Excess:
 
 
 def longest_pause_s(times_s: Sequence[float], begin_s: float, end_s: float) -> float:
-    """Longest time within an interval for which nothing was said; its ends count."""
+    """Return the longest time without a message within an interval; its ends count as messages."""
     within: List[float] = [begin_s, *(each for each in times_s if begin_s < each < end_s), end_s]
     return max(after - before for before, after in zip(within, within[1:]))
 
 
 def between(motions: Sequence[Motion], begin_s: float, end_s: float) -> List[Motion]:
-    """The part of a record."""
+    """Return the motions within an interval."""
     return [each for each in motions if begin_s <= each.time_s < end_s]
 
 
@@ -81,5 +83,5 @@ def _worse(worst: Excess, before: Motion, now: Motion, growth: Growth, step_s: f
 
 
 def _gain(before: float, now: float) -> float:
-    """By how much a velocity is farther from standstill, or on the other side of it."""
+    """Return the gain away from standstill; after a change of sign, the whole new velocity."""
     return abs(now) - abs(before) if math.copysign(1.0, now) == math.copysign(1.0, before) or not before else abs(now)

@@ -1,4 +1,4 @@
-"""The simulated robot with all nodes in real time, driven by a scripted Operator and watched."""
+"""Simulated robot with all nodes in real time, driven by a scripted Operator and observed."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import os
@@ -20,37 +20,37 @@ from ..harness.operator_link import OperatorLink
 from ..harness.ros_shutdown import shut_down
 from .judge import Motion
 
-# Of a game controller; see mtr_controller_input.
+# Layout of a game controller; see mtr_controller_input.
 AXES, BUTTONS, RELEASE_BUTTONS = 8, 12, (8, 9)
 RELEASE_HELD_S = 1.5
 NS = 1e-9
 POLL_S = 0.02
-# Round the Car, as far from it as a key is measured; the robot goes there and back.
+# Legs around the Car at the distance of a measurement; the robot drives there and back.
 LEGS = ((3.2, -2.2, 0.0), (-3.2, -2.2, 0.0))
 NOT_READY = (link.MODE_UNSPECIFIED, link.MODE_STARTING)
 START_LIMIT_S = 120.0
 MOVES_MPS, STANDS_MPS = 0.3, 0.01
 MACHINE_CLOCK = {"machine_clock": "true"}
-# The simulator's clock, which goes on whatever the nodes do.
+# Simulated clock, which advances whatever the nodes do.
 SIMULATED_CLOCK = {"lockstep": "false"}
 
 
 class LiveError(Exception):
-    """The robot does not do what the measurement needs; the text says what."""
+    """The robot does not do what the measurement needs; the text has the reason."""
 
 
 class LiveRobot:
-    """Use as a context manager.
+    """Robot under observation; use as a context manager.
 
     Attributes:
-        commands: to the wheels, at their arrival.
-        wheels: what the base says they do, at its arrival.
-        status_times_s: arrivals of Statuses.
+        commands: commands to the wheels, with their arrival times.
+        wheels: wheel speeds reported by the base, with their arrival times.
+        status_times_s: arrival times of Statuses.
     """
 
     def __init__(self, folder: pathlib.Path, variables: Optional[Dict[str, str]] = None,
                  clock: Dict[str, str] = MACHINE_CLOCK):
-        """variables: of the nodes' environment. clock: arguments of the launch file that choose it."""
+        """variables: environment variables of the nodes. clock: arguments of the launch file that choose the clock."""
         self.commands: List[Motion] = []
         self.wheels: List[Motion] = []
         self.status_times_s: List[float] = []
@@ -81,31 +81,31 @@ class LiveRobot:
 
     @property
     def status(self) -> Any:
-        """The newest Status."""
+        """Newest Status."""
         return self._operator.status
 
     def start(self) -> None:
-        """Release the emergency stop and have the Car mapped; returns when the robot is about to go round it."""
+        """Release the emergency stop and order a map of the Car; return when the order is given."""
         self.wait_until(lambda: self._joystick.get_num_connections() and self.wheels, "a robot that speaks")
         self.wait_until(lambda: self.status.mode not in NOT_READY, "a robot that is ready")
         self.release()
         self.map_car()
 
     def map_car(self) -> None:
-        """Have the Car mapped, again if it was; the robot is about to go round it."""
+        """Order a map of the Car, again if it was mapped before."""
         self._map_car_id += 1
         self._has_leg = False
         self._operator.order(map_car_id=self._map_car_id)
 
     @property
     def knows_car(self) -> bool:
-        """True when the Car has been mapped as ordered last."""
+        """True if the latest order to map the Car is done."""
         status = self.status
         return (status.map_car_id == self._map_car_id and status.mode == link.MODE_FOLLOWING_WAYPOINT
                 and bool(status.car.mapped))
 
     def stop(self) -> float:
-        """Order a stop; the monotonic time at which it left. The next leg ends it."""
+        """Order a stop, which the next leg ends; return the monotonic time at which the order was sent."""
         ordered_s = time.monotonic()
         self._operator.send(map_car_id=self._map_car_id, stop=True)
         self._has_leg = False
@@ -129,7 +129,7 @@ class LiveRobot:
         self._joy.buttons = [0] * BUTTONS
 
     def keep_driving(self) -> None:
-        """Order the next leg when there is none under way; to be called again and again."""
+        """Order the next leg when none is under way; must be called repeatedly."""
         status = self.status
         if self.knows_car and (
                 not self._has_leg or (status.waypoint_id == self._legs and status.waypoint_result in (
@@ -137,7 +137,7 @@ class LiveRobot:
             self._operator.order(**self._next_leg())
 
     def drive_on(self) -> float:
-        """Order the next leg without waiting for the next Status; the monotonic time at which it left."""
+        """Order the next leg without waiting for a Status; return the monotonic time at which the order was sent."""
         leg = self._next_leg()
         ordered_s = time.monotonic()
         self._operator.send(**leg)
@@ -151,7 +151,11 @@ class LiveRobot:
                 "waypoint": link.Waypoint(id=self._legs, x=x, y=y, heading=heading)}
 
     def wait_for_standstill(self, limit_s: float) -> None:
-        """Return when neither the wheels nor what they are told move; LiveError when they go on to."""
+        """Wait until wheel speeds and wheel commands are zero.
+
+        Raises:
+            LiveError: the robot still moves after limit_s.
+        """
         deadline_s = time.monotonic() + limit_s
         while any(abs(each[-1].linear_mps) > STANDS_MPS for each in (self.wheels, self.commands)):
             if time.monotonic() > deadline_s:
@@ -159,16 +163,20 @@ class LiveRobot:
             time.sleep(POLL_S)
 
     def wait_for_motion(self, limit_s: float) -> None:
-        """Return when the robot drives."""
+        """Wait until the robot drives."""
         self.wait_until(lambda: self.moves, "motion", limit_s)
 
     @property
     def moves(self) -> bool:
-        """True while the wheels do."""
+        """True while the wheels turn."""
         return bool(self.wheels) and abs(self.wheels[-1].linear_mps) > MOVES_MPS
 
     def wait_until(self, condition: Callable[[], Any], what: str, limit_s: float = START_LIMIT_S) -> None:
-        """Wait, and keep the robot driving; LiveError when it takes longer."""
+        """Wait for a condition and keep the robot driving.
+
+        Raises:
+            LiveError: the limit has passed.
+        """
         deadline_s = time.monotonic() + limit_s
         while not condition():
             if time.monotonic() > deadline_s:
@@ -178,21 +186,21 @@ class LiveRobot:
             time.sleep(POLL_S)
 
     def watch(self, duration_s: float) -> None:
-        """Let so much time pass; s."""
+        """Keep the robot driving for a time, s."""
         end_s = time.monotonic() + duration_s
         while time.monotonic() < end_s:
             self.keep_driving()
             time.sleep(POLL_S)
 
     def process_of(self, node: str) -> int:
-        """Id of a node's process."""
+        """Return the id of a node's process."""
         return process_of(self._stack.master_uri, node)
 
     def _take_status(self) -> None:
         self.status_times_s.append(time.monotonic())
 
     def _speak(self, _: Any) -> None:
-        # Without a stamp, as some drivers send it: this process does not follow the robot's clock when it is set.
+        # Some drivers send no stamp either; this process does not follow the robot's clock when it is set.
         self._joystick.publish(self._joy)
 
     def _take_command(self, twist: Any) -> None:

@@ -1,4 +1,4 @@
-"""Has the simulated robot on the machine's clock map the Car and drive round it: does a platform run the whole robot?
+"""Maps the Car and drives around it with the simulated robot on the machine's clock, to test a platform.
 
 Usage: python -m mtr_benchmarks.liveness.short_drive --out out/bench
 """
@@ -20,9 +20,9 @@ from .live_robot import MACHINE_CLOCK, LiveRobot
 
 PLACES = 4
 MAP_LIMIT_S, PLACES_LIMIT_S = 180.0, 180.0
-# From one side of the Car to the other and back, 6.4 m each as the crow flies.
+# Path from one side of the Car to the other and back, 6.4 m each as the crow flies.
 LEAST_WAY_M = 12.0
-# Readings of the wheels come 20 ms apart; over a longer pause nothing is known.
+# Wheel readings come 20 ms apart; longer pauses are left out of the path length.
 MAX_STEP_S = 0.5
 
 MAPPED = Requirement("the Car is mapped after", "s", must=MAP_LIMIT_S)
@@ -33,7 +33,7 @@ ALARMS = Requirement("alarms of the nodes; a machine with other work has some", 
 
 @dataclass(frozen=True)
 class Drive:
-    """What it was; the robot left for the first place when the Car was mapped."""
+    """Result of a drive; the robot leaves for the first place when the Car is mapped."""
 
     mapped_after_s: float
     places_reached: int
@@ -42,7 +42,7 @@ class Drive:
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Drive; the exit status says whether every row is what it must be."""
+    """Drive; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     options = parser.parse_args(arguments)
@@ -52,11 +52,15 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def driven(robot: LiveRobot) -> Drive:
-    """Map the Car, drive to the places and for the time; LiveError when the robot does not get through."""
+    """Map the Car and drive to the places.
+
+    Raises:
+        LiveError: the robot does not get through.
+    """
     robot.start()
     began_s, watch = time.monotonic(), AlarmWatch()
     robot.wait_for_motion(MAP_LIMIT_S)
-    # What was so before it set off, as the stop that it stood by, is no alarm.
+    # States before the start, such as the stop that held the robot, are not alarms.
     watch.take()
     robot.wait_until(lambda: robot.knows_car, "the Car mapped", MAP_LIMIT_S)
     mapped_after_s, first = time.monotonic() - began_s, len(robot.wheels)
@@ -66,20 +70,20 @@ def driven(robot: LiveRobot) -> Drive:
 
 
 def reached(places: Set[int], status: Any) -> Set[int]:
-    """The places with the one that a Status says is reached; one that was refused is none."""
+    """Add the place that a Status reports as reached; a refused place does not count."""
     if status.waypoint_result == link.WAYPOINT_RESULT_REACHED:
         places.add(status.waypoint_id)
     return places
 
 
 def way_m(wheels: Sequence[Motion]) -> float:
-    """Way that the wheels made, forwards and backwards, in m."""
+    """Return the path length of the wheels, forwards and backwards, m."""
     return sum(abs(before.linear_mps) * (now.time_s - before.time_s) for before, now in zip(wheels, wheels[1:])
                if now.time_s - before.time_s < MAX_STEP_S)
 
 
 def rows(found: Drive) -> List[Row]:
-    """What a drive has to be."""
+    """Return the rows of a drive."""
     return [Row(MAPPED, found.mapped_after_s), Row(REACHED, float(found.places_reached)), Row(WAY, found.way_m),
             Row(ALARMS, float(len(found.alarms)))]
 

@@ -1,4 +1,4 @@
-"""Each node is stopped (SIGSTOP) for a while in the middle of a drive; what the wheels are told when it goes on."""
+"""Stops each node (SIGSTOP) for a while during a drive; checks the wheel commands when it continues."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 from dataclasses import dataclass
@@ -15,14 +15,14 @@ from .live_robot import LiveRobot
 NODES = ("drive_control", "base_guard", "localization", "motion_planner", "state_machine", "dispatcher", "peripherals",
          "controller_input", "car_locator")
 DURATIONS_S = (0.3, 0.6, 1.0, 2.0)
-# Drive control's, see mtr_drive_control/parameters.hpp.
+# Acceleration limits of drive control, see mtr_drive_control/parameters.hpp.
 COMMANDS = Growth(1.0, 2.0)
-# What is seen of a surge that begins when the node goes on.
+# Observed time in which a surge after the continuation of the node shows.
 SEEN_AFTER_S = 1.5
 MOVES_AGAIN_S = 60.0
-# Odometry that is that old when a command arrives, of wheels that brake as hard as the base can.
+# Age of the odometry when a command arrives, while the wheels brake as hard as the base can.
 SEEN_LATE_S = 0.06
-# A reading of the wheels has noise, and tyres on the ground let them give way.
+# Tolerance for noise of the wheel readings and compliance of the tyres.
 WHEELS_TOLERANCE_MPS, WHEELS_TOLERANCE_RADPS = 0.03, 0.25
 BASE = shipped_base()
 LINEAR = Requirement("surge of a command after a node was stopped, beyond the limits", "m/s",
@@ -38,9 +38,9 @@ class Stall:
     """One stop of one node.
 
     Attributes:
-        speed_mps: of the wheels when it began.
-        commands, wheels: what was gained beyond the limits, see judge.
-        recovered_s: from going on to driving as fast as before, s; a robot that had to stop takes some.
+        speed_mps: speed of the wheels when it began.
+        commands, wheels: excess beyond the limits, see judge.
+        recovered_s: time from continuation to the previous speed, s; a robot that had to stop needs longer.
     """
 
     node: str
@@ -52,7 +52,7 @@ class Stall:
 
 
 def stall(robot: LiveRobot, node: str, duration_s: float) -> Stall:
-    """Stop a node of a robot that drives, and let it go on."""
+    """Stop a node of a driving robot, and let it continue."""
     robot.wait_for_motion(MOVES_AGAIN_S)
     begin_s = time.monotonic()
     speed_mps = robot.wheels[-1].linear_mps
@@ -72,12 +72,12 @@ def stall(robot: LiveRobot, node: str, duration_s: float) -> Stall:
 
 
 def stalls(robot: LiveRobot, durations_s: Sequence[float], nodes: Iterable[str] = NODES) -> List[Stall]:
-    """Each node for each duration."""
+    """Stop each node for each duration."""
     return [stall(robot, node, duration_s) for node in nodes for duration_s in durations_s]
 
 
 def rows(found: Sequence[Stall]) -> List[Row]:
-    """The worst of all."""
+    """Return the worst values of all stops."""
     worst = max(found, key=lambda each: each.commands.linear_mps)
     return [Row(LINEAR, worst.commands.linear_mps,
                 remark=f"{len(found)} stops, worst {worst.node} {worst.duration_s:g} s"),

@@ -31,12 +31,12 @@ from .one_drive import DriveResult, DriveTask, run_drive
 from .real_time import measure_real_time
 from .report import abduction_report, any_car_report, report
 
-# What is done in a drive of a variant; any other's is judged for all methods.
+# Programs of variants that need their own; all other drives are evaluated with all methods.
 PROGRAMS = {ABDUCT: run_abduction, ANY_CAR: run_any_car}
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run all drives; the exit status says whether every row of the table is met."""
+    """Run all drives; return 0 if every row of the table is met."""
     parser = command_line()
     options = parser.parse_args(arguments)
     if options.kidnappings is not None and options.kidnappings < 1:
@@ -55,13 +55,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
         return finish(abduction_report(results), options.out / "abductions.json")
     if options.any_cars_only:
         return finish(any_car_report(results), options.out / "any_car.json")
-    # Alone on the machine, for it measures time.
+    # Processor time is measured alone on the machine.
     real_time = None if options.only else measure_real_time()
     return finish(report(results, real_time), options.out / "localization.json")
 
 
 def command_line() -> argparse.ArgumentParser:
-    """What the program is asked."""
+    """Return the parser of the command line."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--mrpt", type=pathlib.Path, default=pathlib.Path("out/bench/mrpt/mrpt_icp_slam"),
@@ -84,7 +84,7 @@ def command_line() -> argparse.ArgumentParser:
 
 
 def selected(options: argparse.Namespace) -> List[BenchmarkDrive]:
-    """Drives that the command line asks for."""
+    """Return the drives that the command line selects."""
     robots = options.kidnappings or (QUICK_ABDUCTIONS if options.quick else ABDUCTIONS)
     cars = options.any_cars or (QUICK_ANY_CARS if options.quick else ANY_CARS)
     drives = [] if options.kidnappings_only or options.any_cars_only else all_drives(options.quick)
@@ -94,12 +94,12 @@ def selected(options: argparse.Namespace) -> List[BenchmarkDrive]:
 
 
 def run_one(task: DriveTask) -> DriveResult:
-    """What the drive's variant asks for."""
+    """Run the program of the drive's variant."""
     return PROGRAMS.get(task.drive.variant, run_drive)(task)
 
 
 def run_all(tasks: List[DriveTask], jobs: int) -> List[DriveResult]:
-    """Results in the order of the tasks, which does not depend on who is first."""
+    """Return the results in the order of the tasks."""
     begun = time.monotonic()
     with concurrent.futures.ProcessPoolExecutor(max_workers=jobs) as pool:
         results = []
@@ -110,7 +110,7 @@ def run_all(tasks: List[DriveTask], jobs: int) -> List[DriveResult]:
 
 
 def progress(result: DriveResult, done: int, total: int, elapsed_s: float) -> str:
-    """One line for a person who waits."""
+    """Return a line of progress for a waiting person."""
     failed = "; ".join(f"{method}: {sentence}" for method, sentence in result.failures.items())
     return f"[{elapsed_s:5.0f} s] {done}/{total} {result.drive.name} {failed}".rstrip()
 

@@ -1,4 +1,4 @@
-"""One robot that is carried away while it drives: recording, replay, and what became of it."""
+"""Runs one drive in which the moving robot is carried away: recording, replay and evaluation."""
 # SPDX-License-Identifier: Apache-2.0
 import shutil
 
@@ -13,9 +13,9 @@ from .repeats import run_until_it_proves
 
 
 def run_abduction(task: DriveTask) -> DriveResult:
-    """A drive that touches something or gives no map proves nothing and is repeated with the next seed, and told.
+    """Repeat a drive that touches something or gives no map, with the next seed; the repetition is reported.
 
-    Of the recordings only those of robots that were wrong and valid are kept.
+    Only recordings of robots that reported a wrong pose as valid are kept.
     """
     return run_until_it_proves(task.drive, lambda drive: _drive(drive, task), (DriveError, NoMap))
 

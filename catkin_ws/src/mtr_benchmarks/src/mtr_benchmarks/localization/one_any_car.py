@@ -1,4 +1,4 @@
-"""One Car that a seed draws: recording of the way round it, map, and what the Car locator makes of it."""
+"""Runs one random Car: recording of the path around it, map, and evaluation of the Car locator."""
 # SPDX-License-Identifier: Apache-2.0
 import shutil
 from dataclasses import asdict
@@ -18,8 +18,10 @@ from .repeats import run_until_it_proves
 
 
 def run_any_car(task: DriveTask) -> DriveResult:
-    """A drive that touches something proves nothing and is repeated with the next seed, and told; what the system
-    refuses counts. Of the recordings only those of Cars that were found wrong are kept."""
+    """Repeat a drive that touches something, with the next seed; the repetition is reported.
+
+    A refusal by the system counts as a result. Only recordings of wrongly located Cars are kept.
+    """
     return run_until_it_proves(task.drive, lambda drive: _drive(drive, task), (DriveError,))
 
 

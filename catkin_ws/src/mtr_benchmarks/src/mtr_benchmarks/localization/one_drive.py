@@ -1,4 +1,4 @@
-"""One drive of the benchmark from its recording to its errors; the recording is deleted."""
+"""Runs one drive of the benchmark from its recording to its errors, and deletes the recording."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import shutil
@@ -18,15 +18,15 @@ RECORDING = "recording"
 
 
 class DriveResult(NamedTuple):
-    """What the methods made of one drive.
+    """Results of the methods for one drive.
 
     Attributes:
-        outcomes: by method.
+        outcomes: results by method.
         failures: one sentence for each method that failed, or for the recording.
         segments: pieces of the drive, as in its meta.json.
-        fate: of a robot that was carried away while it drove.
-        repeats: one sentence for each drive that was made before and proved nothing.
-        car: what became of a Car that the seed drew.
+        fate: result for a robot that was carried away while it drove.
+        repeats: one sentence for each earlier drive that proved nothing.
+        car: result for a random Car.
     """
 
     drive: BenchmarkDrive
@@ -39,7 +39,7 @@ class DriveResult(NamedTuple):
 
 
 class DriveTask(NamedTuple):
-    """One drive and where to do it; keep: the recording stays, to be looked at."""
+    """One drive and its folder. keep: do not delete the recording."""
 
     drive: BenchmarkDrive
     folder: pathlib.Path
@@ -48,7 +48,7 @@ class DriveTask(NamedTuple):
 
 
 def run_drive(task: DriveTask) -> DriveResult:
-    """Record the drive, let the methods work on it, compare with the truth."""
+    """Record the drive, run the methods on it, and compare them with the truth."""
     folder = task.folder / task.drive.name
     try:
         meta = record(task.drive.options, folder)

@@ -1,4 +1,5 @@
-"""Plays a recorded drive to the localization node at its own pace and times its answers; prints figures line by line.
+"""Plays a recorded drive to the localization node at its own pace, measures its answers, and prints figures line by
+line.
 
 Usage: python -m mtr_benchmarks.localization.real_time_probe BAG SECONDS
 """
@@ -27,17 +28,17 @@ KINDS = {names.FRONT_SCAN: LaserScan, names.REAR_SCAN: LaserScan, names.IMU_DATA
          names.MAPPING_ORDER: MappingOrder, "/tf_static": TFMessage}
 SCANS = (names.FRONT_SCAN, names.REAR_SCAN)
 NODE_START_LIMIT_S = 20.0
-# After the frozen map is in use: its making has left the processor.
+# Time after the frozen map is in use, until its computation no longer loads the processor.
 SETTLE_S = 2.0
-# In a recording the ends of both LiDARs' sweeps and the wheels' odometry have one stamp; these
-# differences say which is answered.
+# In a recording, the ends of both LiDARs' sweeps and the wheel odometry have the same stamp. These offsets identify the
+# input that is answered.
 APART_NS = {names.FRONT_SCAN: 0, names.REAR_SCAN: -2000, names.WHEEL_ODOMETRY: 2000}
-# The length of a sweep is a number of single precision.
+# Tolerance for stamps, because the duration of a sweep has single precision.
 SAME_STAMP_NS = 500
 
 
 class RecordedMessage(NamedTuple):
-    """One message of the recording and when it was recorded."""
+    """One message of the recording and its recording time."""
 
     stamp: rospy.Time
     topic: str
@@ -45,7 +46,7 @@ class RecordedMessage(NamedTuple):
 
 
 class Latencies:
-    """From publishing a sweep to the first transform with the time of its end."""
+    """Measures the time from publishing a sweep to the first transform with the time of its end."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -53,12 +54,12 @@ class Latencies:
         self.values_s: List[float] = []
 
     def sent(self, end_ns: int) -> None:
-        """A sweep goes out now."""
+        """Note that a sweep is published now."""
         with self._lock:
             self._waiting.append((end_ns, time.monotonic()))
 
     def received(self, stamp_ns: int) -> None:
-        """A transform of map and odom has come."""
+        """Note that a transform from map to odom was received."""
         with self._lock:
             for index, (end_ns, sent_s) in enumerate(self._waiting):
                 if abs(end_ns - stamp_ns) < SAME_STAMP_NS:
@@ -68,13 +69,13 @@ class Latencies:
 
     @property
     def unanswered(self) -> int:
-        """Sweeps that no transform has answered yet."""
+        """Number of sweeps without a transform so far."""
         with self._lock:
             return len(self._waiting)
 
 
 class LocalizationProbe:
-    """The recording's publishers, and the node's answers."""
+    """Publishes the recording and receives the node's answers."""
 
     def __init__(self) -> None:
         self._topics = {topic: rospy.Publisher(topic, kind, queue_size=100, tcp_nodelay=True,
@@ -86,7 +87,7 @@ class LocalizationProbe:
                          rospy.Subscriber(names.LOCALIZED_POSE, LocalizedPose, self._take_pose, tcp_nodelay=True))
 
     def wait_for_node(self) -> None:
-        """Wait until every topic has its subscriber."""
+        """Wait until every topic has a subscriber."""
         deadline = time.monotonic() + NODE_START_LIMIT_S
         while not all(topic.get_num_connections() for topic in self._topics.values()):
             if time.monotonic() > deadline:
@@ -94,7 +95,7 @@ class LocalizationProbe:
             time.sleep(0.1)
 
     def play(self, entries: Iterator[RecordedMessage], node: int, measured_s: float) -> float:
-        """Play until measured_s have been measured; the node's share of one core meanwhile."""
+        """Play until measured_s have been measured; return the node's share of one core during that time."""
         first = next(entries)
         begin_s, offset = time.monotonic(), rospy.Time.now() - first.stamp
         begun_s = used_s = 0.0
@@ -129,14 +130,14 @@ class LocalizationProbe:
 
 
 def recorded(path: str) -> Iterator[RecordedMessage]:
-    """Messages of the recording in its order."""
+    """Yield the messages of the recording in order."""
     with rosbag.Bag(path) as bag:
         for topic, message, stamp in bag.read_messages(topics=list(KINDS)):
             yield RecordedMessage(stamp, topic, message)
 
 
 def main(path: str, measured_s: float) -> int:
-    """Measure; always 0, or an error that says what did not work."""
+    """Measure; return 0. Failures raise an error."""
     rospy.init_node("localization_probe")
     rospy.set_param(names.ROBOT_DESCRIPTION, shipped_urdf())
     node = subprocess.Popen([roslib.packages.find_node("mtr_localization", "localization_node")[0],

@@ -1,4 +1,4 @@
-"""Drives that proved nothing are made again with another seed, and told."""
+"""Repeats drives that proved nothing with another seed, and reports the repetitions."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, List, Tuple, Type
 
@@ -12,7 +12,8 @@ MAX_DRIVES = 5
 
 def run_until_it_proves(drive: BenchmarkDrive, once: Callable[[BenchmarkDrive], DriveResult],
                         proves_nothing: Tuple[Type[Exception], ...]) -> DriveResult:
-    """What became of the drive, or of the first repetition that raised none of proves_nothing; at most MAX_DRIVES."""
+    """Return the result of the drive, or of its first repetition without one of the errors; at most MAX_DRIVES
+    drives."""
     tried = drive
     repeats: List[str] = []
     for _ in range(MAX_DRIVES):

@@ -1,4 +1,4 @@
-"""All results of the benchmark: figures for the file, rows of the table, and sentences about failures."""
+"""Collects all results of the benchmark: figures for the file, rows of the table, and sentences about failures."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import asdict
 from typing import Any, Dict, List, Optional, Sequence
@@ -42,7 +42,7 @@ PER_DRIVE = ("online_rmse_m", "online_p95_m", "online_max_m", "moving_p95_m", "s
 
 
 def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures]) -> BenchmarkReport:
-    """Everything that goes into localization.json; real_time is None if it was not measured."""
+    """Return the content of localization.json. real_time is None if it was not measured."""
     campaigns = [campaign.figures(each.errors) for each in outcomes_in(results, CAMPAIGN)]
     kidnapped = kidnapping.figures([kidnapping.kidnapping(each.outcomes[THIS_SYSTEM].errors, each.segments)
                                     for each in results if each.drive.variant == KIDNAP
@@ -71,44 +71,44 @@ def report(results: Sequence[DriveResult], real_time: Optional[RealTimeFigures])
 
 
 def abduction_report(results: Sequence[DriveResult]) -> BenchmarkReport:
-    """Everything that goes into abductions.json."""
+    """Return the content of abductions.json."""
     figures = {"abducted": abducted_figures(results), "failures": failures(results)}
     return BenchmarkReport(abduction_rows(results), figures, remarks(results))
 
 
 def any_car_report(results: Sequence[DriveResult]) -> BenchmarkReport:
-    """Everything that goes into any_car.json."""
+    """Return the content of any_car.json."""
     figures = {"any_car": any_car_figures(results), "failures": failures(results)}
     return BenchmarkReport(any_car_rows(results), figures, remarks(results))
 
 
 def any_car_rows(results: Sequence[DriveResult]) -> List[Row]:
-    """Rows of the Cars that seeds drew."""
+    """Return the rows of the random Cars."""
     mine = [each for each in results if each.drive.variant == ANY_CAR]
     return any_car.rows([each.car for each in mine if each.car], sum(bool(each.failures) for each in mine),
                         sum(len(each.repeats) for each in mine))
 
 
 def any_car_figures(results: Sequence[DriveResult]) -> Dict[str, Any]:
-    """Each Car with what it was and what became of it."""
+    """Return each random Car with its properties and its result."""
     return {"about": ABOUT_ANY_CAR, "cars": [{"name": each.drive.name, **asdict(each.car)} for each in results
                                              if each.car]}
 
 
 def abduction_rows(results: Sequence[DriveResult]) -> List[Row]:
-    """Rows of the robots that were carried away while they drove."""
+    """Return the rows of the robots that were carried away while they drove."""
     missing = sum(position_rows.failed(failures(results), scene, ABDUCT) for scene in SCENES)
     return abduction.rows(abducted(results), missing)
 
 
 def abducted(results: Sequence[DriveResult], scene: str = "") -> abduction.AbductionFigures:
-    """Figures of the robots that were carried away while they drove, in one scene or in all."""
+    """Return the figures of the robots that were carried away while they drove, in one scene or in all."""
     mine = [each for each in results if each.drive.variant == ABDUCT and scene in ("", each.drive.options.scene)]
     return abduction.figures([each.fate for each in mine if each.fate], sum(len(each.repeats) for each in mine))
 
 
 def abducted_figures(results: Sequence[DriveResult]) -> Dict[str, Any]:
-    """All, by scene, and each robot with what it was and what became of it."""
+    """Return the figures of all drives, by scene, and of each robot."""
     robots = [{"name": each.drive.name, "seed": each.drive.options.seed, "car": each.drive.options.car,
                "lidar_height_m": each.drive.options.lidar_height_m, "person": each.drive.options.person,
                **asdict(each.fate)} for each in results if each.fate]
@@ -118,7 +118,7 @@ def abducted_figures(results: Sequence[DriveResult]) -> Dict[str, Any]:
 
 
 def remarks(results: Sequence[DriveResult]) -> List[str]:
-    """Sentences below the table: failures, robots that were wrong and said that they were right, repeated drives."""
+    """Return the sentences below the table: failures, robots with wrong valid poses, and repeated drives."""
     said = [f"{name}, {method}: {sentence}" for name, sentences in failures(results).items()
             for method, sentence in sentences.items()]
     said += [f"{each.drive.name}: {abduction.sentence(each.fate)}" for each in results
@@ -129,13 +129,13 @@ def remarks(results: Sequence[DriveResult]) -> List[str]:
 
 
 def outcomes_in(results: Sequence[DriveResult], variant: str) -> List[MethodOutcome]:
-    """This system's outcomes in all drives of a variant."""
+    """Return this system's outcomes in all drives of a variant."""
     return [each.outcomes[THIS_SYSTEM] for each in results
             if each.drive.variant == variant and THIS_SYSTEM in each.outcomes]
 
 
 def outcomes_of(results: Sequence[DriveResult]) -> position_rows.Outcomes:
-    """This system's outcomes by scene, variant and seed."""
+    """Return this system's outcomes by scene, variant and seed."""
     found: position_rows.Outcomes = {scene: {} for scene in SCENES}
     for each in results:
         if THIS_SYSTEM in each.outcomes:
@@ -145,18 +145,18 @@ def outcomes_of(results: Sequence[DriveResult]) -> position_rows.Outcomes:
 
 
 def plain_outcomes(results: Sequence[DriveResult], scene: str, method: str) -> List[MethodOutcome]:
-    """One method's outcomes in a scene's plain drives."""
+    """Return one method's outcomes in a scene's plain drives."""
     return [each.outcomes[method] for each in results
             if each.drive.options.scene == scene and each.drive.variant == PLAIN and method in each.outcomes]
 
 
 def failures(results: Sequence[DriveResult]) -> position_rows.Failures:
-    """Sentences of what failed, by drive and method."""
+    """Return the failures as sentences, by drive and method."""
     return {each.drive.name: each.failures for each in results if each.failures}
 
 
 def drive_figures(result: DriveResult) -> Dict[str, Any]:
-    """What one drive was and gave, to find out where an error comes from."""
+    """Return properties and results of one drive, for finding the source of an error."""
     options = result.drive.options
     return {"name": result.drive.name, "car": options.car, "lidar_height_m": options.lidar_height_m,
             "person": options.person, "failures": result.failures,
@@ -164,6 +164,6 @@ def drive_figures(result: DriveResult) -> Dict[str, Any]:
 
 
 def method_figures(outcome: MethodOutcome) -> Dict[str, Any]:
-    """What one method made of one drive."""
+    """Return the figures of one method in one drive."""
     found = asdict(scene_figures([outcome]))
     return {**{name: found[name] for name in PER_DRIVE}, "car": asdict(outcome.car) if outcome.car else {}}

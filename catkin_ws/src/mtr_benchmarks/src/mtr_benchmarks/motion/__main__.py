@@ -15,7 +15,7 @@ from .options import MotionOptions
 
 # Modules with a function `measure` that returns figures with rows.
 PARTS = ("tracking", "posts", "encounters", "wide_encounters", "tip_over", "grounds", "latency")
-# Figures on top of the file, in this order.
+# Figures at the top level of the file, in this order.
 PROMISED = ("time_ratio_median", "time_ratio_p95", "cross_track_p95_m", "heading_p95_deg", "stop_error_p95_m",
             "stop_heading_p95_deg", "over_speed_limit_mps", "post_ways_driven", "encounters", "contacts_while_moving",
             "false_stops", "wide_movers", "wide_contacts_while_moving", "walker_contacts_while_moving",
@@ -25,7 +25,7 @@ PROMISED = ("time_ratio_median", "time_ratio_p95", "cross_track_p95_m", "heading
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Run the parts; the exit status says whether every row is what it must be."""
+    """Run the parts; return 0 if every row meets its requirement."""
     defaults = MotionOptions()
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of motion.json")
@@ -39,13 +39,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parts: Dict[str, Any] = {}
     for name in given.only or PARTS:
         parts[name] = importlib.import_module(f"{__package__}.{name}").measure(options)
-        # What has been measured stays if a later part fails.
+        # Results so far are kept if a later part fails.
         write(report(parts), path)
     return finish(report(parts), path)
 
 
 def report(parts: Dict[str, Any]) -> BenchmarkReport:
-    """The promised figures on top, everything below the part it comes from in `details`."""
+    """Return the promised figures at the top level, and all figures by part in `details`."""
     details = {name: asdict(part) for name, part in parts.items()}
     found = {key: value for part in details.values() for key, value in part.items()}
     promised = {key: found[key] for key in PROMISED if key in found}

@@ -1,4 +1,4 @@
-"""Drives beside the Car and in the rain where nobody is in the way: every stop is a false one."""
+"""Drives next to the Car and in the rain without a person in the way: every stop is a false one."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -19,7 +19,7 @@ MEASURING_MPS = 0.4
 LAP_MPS = 0.8
 LIMIT_S = 40.0
 TURNING_S = 1.0
-# Without a rear LiDAR, but for an axis; robot.launch gives the planner the same.
+# Longest reverse drive without a rear LiDAR, except on an axis; robot.launch gives the planner the same limit.
 MAX_REVERSE_M = 1.0
 HALF_WIDTH_M = 0.215
 SITE = replace(named_scenario("lot"), start_offset_m=0.0, start_offset_rad=0.0)
@@ -27,15 +27,15 @@ SITE = replace(named_scenario("lot"), start_offset_m=0.0, start_offset_rad=0.0)
 
 @dataclass(frozen=True)
 class StraightDrive:
-    """From a pose in frame car straight ahead and back again.
+    """Straight drive from a pose in frame car and back again.
 
     Attributes:
-        name: what it is.
-        start: in frame car.
-        length_m: of the straight way.
-        speed_mps: in both directions.
-        rain: share of beams that end on a drop.
-        rear_lidar: the robot has one.
+        name: kind of the drive.
+        start: pose in frame car.
+        length_m: length of the straight path.
+        speed_mps: speed in both directions.
+        rain: share of beams that end on a raindrop.
+        rear_lidar: the robot has a rear LiDAR.
     """
 
     name: str
@@ -48,7 +48,8 @@ class StraightDrive:
 
 
 def drives(car: CarShape) -> List[StraightDrive]:
-    """All axes of the Car and ways along its sides, dry and in the rain, and a long way in the rain alone."""
+    """Return all axes of the Car and paths along its sides, dry and in the rain, and long drives in rain far from the
+    Car."""
     places = [*_axes(car), *_sides(car)]
     found = [StraightDrive(name, start, length, speed, rain, rear, seed)
              for seed, (name, start, length, speed) in enumerate(places) for rain in (0.0, 0.01)
@@ -58,12 +59,12 @@ def drives(car: CarShape) -> List[StraightDrive]:
 
 
 class DriveEnd(NamedTuple):
-    """How a drive ended.
+    """Result of a drive.
 
     Attributes:
-        stops: what drive control said at each stop.
+        stops: message of drive control at each stop.
         slowed_s: time for which it was slowed.
-        ends: how many of its two ends it got to.
+        ends: number of reached ends of the path, 0 to 2.
     """
 
     stops: List[str]
@@ -72,7 +73,7 @@ class DriveEnd(NamedTuple):
 
 
 def simulate(drive: StraightDrive) -> DriveEnd:
-    """How often drive control stopped it for nothing, and whether it got to both ends."""
+    """Drive; record the false stops of drive control and the reached ends."""
     rig = Rig(replace(SITE, start_in_car=drive.start), drive.seed, drive.rear_lidar, drive.rain,
               ROBOT.key.lift_travel_m)
     slowed_s, was_blocked = 0.0, False
@@ -100,7 +101,7 @@ def _stand(rig: Rig, duration_s: float) -> None:
 
 
 def _wanted(drive: StraightDrive, pose: Pose2, sign: float) -> Tuple[float, Velocity]:
-    """Way along the line, and the velocity that keeps to it."""
+    """Return the position along the line, and the velocity that follows it."""
     off = drive.start.inverse() @ pose
     speed = sign * drive.speed_mps if may_move(off) else 0.0
     turn = -1.5 * wrap_angle(off.heading) - sign * 2.0 * off.y
@@ -108,12 +109,12 @@ def _wanted(drive: StraightDrive, pose: Pose2, sign: float) -> Tuple[float, Velo
 
 
 def may_move(off: Pose2) -> bool:
-    """False when it has lost its line, which would make contacts of the drive's own."""
+    """Return False if the robot has left its line, which would cause contacts by itself."""
     return abs(off.y) < 0.1 and abs(wrap_angle(off.heading)) < 0.2
 
 
 def _axes(car: CarShape) -> List[Way]:
-    """Axes of all sides and corners, facing the Car, up to the nearest distance of the key."""
+    """Return axes of all sides and corners, facing the Car, up to the smallest distance of the key."""
     half_length, half_width = car.length_m / 2.0, car.width_m / 2.0
     feet = [(half_length, y, 0.0) for y in (-0.6, 0.0, 0.6)] + [(-half_length, y, math.pi) for y in (-0.6, 0.0, 0.6)]
     feet += [(x, side * half_width, side * math.pi / 2.0) for side in (1.0, -1.0) for x in (-1.5, -0.5, 0.5, 1.5)]
@@ -127,7 +128,7 @@ def _axes(car: CarShape) -> List[Way]:
 
 
 def _sides(car: CarShape) -> List[Way]:
-    """Ways along each side, the footprint at the nearest distance."""
+    """Return paths along each side, with the footprint at the smallest distance."""
     x, y = car.length_m / 2.0 + MIN_DISTANCE_M + HALF_WIDTH_M, car.width_m / 2.0 + MIN_DISTANCE_M + HALF_WIDTH_M
     return [("along", Pose2(-3.5, y, 0.0), 7.0, LAP_MPS), ("along", Pose2(3.5, -y, math.pi), 7.0, LAP_MPS),
             ("across", Pose2(x, -2.5, math.pi / 2.0), 5.0, LAP_MPS),

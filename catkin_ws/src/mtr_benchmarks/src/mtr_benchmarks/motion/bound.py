@@ -1,24 +1,25 @@
 """Lower bound of the time from one pose to another for a differential drive with limited motion.
 
-No motion is quicker than the largest of these, and each of them leaves out what would make it slower:
+The bound is the largest of three times. Each of them ignores effects that would make the motion slower.
 
-turning     The heading changes by the angle between the poses at least; from rest to rest with limited yaw rate,
-            angular acceleration and angular jerk this takes a known time.
-travelling  base_link stays at least (half the width + margin) away from the Car's hull, as the footprint holds the
-            circle of that radius less the margin. Let L be the length of the shortest such way. The robot moves along
-            its own heading only, so the distance still to go shrinks at most with speed times cosine of the angle
-            between heading and way. At time t after the start the speed is at most that of the jerk-limited S-curve
-            from rest, S(t), and before the end at T at most S(T - t). At the start the heading is off the way by an
-            angle, of which at most P(t) has been turned away, P being the quickest turn from rest; the same holds
-            backwards from the end. Moving sideways meanwhile only turns the way to go further away from the heading.
-            So T is at least the shortest time for which
+turning     The heading changes at least by the angle between the poses. The time for this angle follows from the
+            limits of yaw rate, angular acceleration and angular jerk, from rest to rest.
+travelling  base_link stays at least (half the width + margin) away from the Car's hull, because the footprint contains
+            a circle of that radius without the margin. Let L be the length of the shortest such path. The robot moves
+            only along its heading, so the remaining distance shrinks at most with speed times the cosine of the angle
+            between heading and path.
+            At time t after the start the speed is at most S(t), the jerk-limited S-curve from rest. Before the end at
+            time T it is at most S(T - t). At the start the heading differs from the path by an angle, of which at most
+            P(t) has been turned; P is the quickest turn from rest. The same holds backwards from the end. Lateral
+            displacement only turns the remaining path further away from the heading.
+            So T is at least the shortest time with
 
-                integral over 0..T of  min(S(t), S(T-t)) * cos(rest of the angle at the start, at the end)  >=  L.
+                integral over 0..T of  min(S(t), S(T-t)) * cos(remaining angle at the start, at the end)  >=  L.
 
             The angle counts from the front or the rear, whichever is nearer. Curvature limits at corners, lateral
-            acceleration, and the detour that turning while moving makes, are left out.
-turning     A robot that begins with its front and ends with its rear ahead, or the other way round, also has to turn
-around      around in between; see turning_bound.py.
+            acceleration, and the detour of turning while moving are ignored.
+turning     A robot that starts with its front ahead and ends with its rear ahead, or vice versa, must also turn around
+around      in between; see turning_bound.py.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -43,14 +44,14 @@ ROUND_STEPS = 32
 
 @dataclass(frozen=True)
 class Ends:
-    """Where the motion begins and ends, at rest."""
+    """Poses at the beginning and at the end of the motion, both at rest."""
 
     start: Pose2
     end: Pose2
 
 
 def lower_bound(ends: Ends, hull: Polygon, gap_m: float, limits: MotionLimits, speed: float) -> float:
-    """Time in s; base_link stays gap_m away from the hull."""
+    """Return the bound in s; base_link stays gap_m away from the hull."""
     start, end = ends.start, ends.end
     speed = min(speed, limits.max_linear_mps)
     gap = min(gap_m, *(hull.distance(ShapelyPoint(pose.x, pose.y)) for pose in (start, end))) - 1e-3
@@ -69,7 +70,7 @@ def _direction(a: Point, b: Point) -> float:
 
 
 def shortest_way(start: Point, end: Point, zone: Polygon) -> List[Point]:
-    """Polyline around a convex zone; both ends lie outside."""
+    """Return the shortest polyline around a convex zone; both ends are outside of it."""
     if not LineString([start, end]).crosses(zone):
         return [start, end]
     ring = list(MultiPoint([*zone.exterior.coords, start, end]).convex_hull.exterior.coords)[:-1]
@@ -80,18 +81,18 @@ def shortest_way(start: Point, end: Point, zone: Polygon) -> List[Point]:
 
 
 def _nearest(ring: Sequence[Point], point: Point) -> int:
-    """Index of the corner that is nearest to a point."""
+    """Return the index of the corner that is nearest to a point."""
     return min(range(len(ring)), key=lambda index: math.dist(ring[index], point))
 
 
 def length_of(points: Sequence[Point]) -> float:
-    """Length of a polyline."""
+    """Return the length of a polyline."""
     return sum(math.dist(a, b) for a, b in zip(points, points[1:]))
 
 
 def travelling(way: Sequence[Point], first_heading: float, last_heading: float, limits: MotionLimits, speed: float
                ) -> float:
-    """Shortest T of the integral above."""
+    """Return the shortest T of the integral above."""
     length = length_of(way)
     if length < 1e-6:
         return 0.0
@@ -112,13 +113,13 @@ def travelling(way: Sequence[Point], first_heading: float, last_heading: float, 
 
 
 def _off(heading: float, a: Point, b: Point) -> float:
-    """Angle between the robot's axis and the way."""
+    """Return the angle between the robot's axis and the path."""
     angle = abs(wrap_angle(_direction(a, b) - heading))
     return min(angle, math.pi - angle)
 
 
 def _from_rest(times: FloatArray, limit: float, acceleration: float, ramp_s: float) -> FloatArray:
-    """Quickest speed from rest: acceleration that builds up within the ramp and goes back within it."""
+    """Return the highest speeds from rest: the acceleration builds up within the ramp and is reduced within it."""
     jerk = acceleration / ramp_s
     peak = min(acceleration, math.sqrt(limit * jerk))
     ramp = peak / jerk

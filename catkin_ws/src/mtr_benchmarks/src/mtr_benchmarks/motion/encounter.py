@@ -1,4 +1,4 @@
-"""One person who walks up to the moving robot, drawn by lot and simulated with the physics."""
+"""Random encounter of the moving robot with one person, simulated with the physics."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -15,32 +15,32 @@ from mtr_simulation.site.surroundings import Walk
 from .rig import PERSON, START_S, STOPPED, TICK_S, Rig, Velocity
 
 ROBOT = shipped_robot()
-# What the planner wants, and for how long.
+# Velocities of the planner and their durations.
 Wanted = Tuple[Tuple[float, Velocity], ...]
-# Below this nothing moves; the wheels' encoders see as much at rest.
+# Speed below which the robot counts as stopped; the wheel encoders show as much at rest.
 STANDING_MPS = 0.02
-# The person walks on for so long after the place of the meeting.
+# Time for which the person walks on after the meeting place.
 AFTER_S = 2.5
 BEYOND_M = 8.0
 MAP_HALF_SIDE_M = 15.0
-# The front LiDAR sees 135 degrees to each side. Without a rear LiDAR a person who is behind that, and as near as this
-# to base_link, may step out of the unseen quarter against the robot before it can stand.
+# The front LiDAR sees 135 degrees to each side. Without a rear LiDAR, a person beyond this bearing and within this
+# distance of base_link may step from the unseen sector against the robot before it can stop.
 WATCHED_TO_RAD, UNSEEN_WITHIN_M = math.radians(125.0), 2.0
 RAIN = 0.01
 BEARINGS = {"front": (0.0, 35.0), "side": (55.0, 125.0), "rear": (145.0, 180.0)}
-# The Car is out of sight.
+# Pose at which the Car is out of sight.
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 
 
 class Mover(NamedTuple):
-    """What walks up to the robot.
+    """Person or object that approaches the robot.
 
     Attributes:
-        figure: of mtr_simulation.
+        figure: figure of mtr_simulation.
         low_mps, high_mps: half of the movers have the higher speed, the others one in between; 0: it does not move.
-        clear_m: from base_link, and it does not begin nearer: the footprint and a foot's length, or half its own.
-        rear_lidar: share of the robots that have one.
-        is_localized: the robot knows its place on a map that shows free ground.
+        clear_m: least initial distance from base_link: the footprint and a foot's length, or half the figure.
+        rear_lidar: share of the robots with a rear LiDAR.
+        is_localized: the robot is localized on a map that shows free ground.
     """
 
     figure: str = "person"
@@ -56,18 +56,18 @@ PERSON_MOVER = Mover()
 
 @dataclass(frozen=True)
 class Encounter:
-    """What happens.
+    """One encounter.
 
     Attributes:
-        seed: of the sensors' noise.
+        seed: seed of the sensors' noise.
         motion: forward, backward, arc or spin.
-        approach: front, side or rear, against the direction of motion.
-        rear_lidar: the robot has one.
-        wanted: velocities that the planner wants, and for how long each.
-        walk: of the person.
-        rain: share of beams that end on a drop.
+        approach: front, side or rear, relative to the direction of motion.
+        rear_lidar: the robot has a rear LiDAR.
+        wanted: velocities of the planner and their durations.
+        walk: walk of the person.
+        rain: share of beams that end on a raindrop.
         lift_m: height of the lift.
-        is_localized: the robot knows its place on a map that shows free ground.
+        is_localized: the robot is localized on a map that shows free ground.
     """
 
     seed: int
@@ -82,7 +82,7 @@ class Encounter:
 
 
 def draw(seed: int, mover: Mover = PERSON_MOVER) -> Encounter:
-    """The encounter of this number: the first of its dice in which the person does not begin within the robot."""
+    """Return the encounter with that number: the first random one in which the person does not start too close."""
     random = np.random.default_rng([seed, 4])
     encounter = _drawn(seed, random, mover)
     while math.hypot(*encounter.walk.start) < mover.clear_m:
@@ -109,12 +109,12 @@ def _drawn(seed: int, random: np.random.Generator, mover: Mover) -> Encounter:
 
 
 class EncounterEnd(NamedTuple):
-    """How an encounter ended.
+    """Result of an encounter.
 
     Attributes:
         touched: the person touched the robot.
-        moving: and the robot moved just before that.
-        speed_mps: of the robot's fastest point then.
+        moving: the robot moved just before the contact.
+        speed_mps: speed of the robot's fastest point at that time.
         stopped: drive control stopped the robot.
         watched: the person was in view all the time.
     """
@@ -127,7 +127,7 @@ class EncounterEnd(NamedTuple):
 
 
 def simulate(encounter: Encounter) -> EncounterEnd:
-    """Let it happen."""
+    """Simulate the encounter."""
     scenario = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0,
                         start_offset_rad=0.0, person=encounter.walk)
     rig = Rig(scenario, encounter.seed, encounter.rear_lidar, encounter.rain, encounter.lift_m)
@@ -138,7 +138,7 @@ def simulate(encounter: Encounter) -> EncounterEnd:
         watched = watched and (encounter.rear_lidar or _is_in_view(rig, encounter.walk))
         decision = rig.step(velocity)
         stopped = stopped or decision.zone >= STOPPED
-        # The person pushes the robot from then on.
+        # After the contact the person pushes the robot.
         if rig.sim.contacts() & PERSON:
             touched = True
             break
@@ -146,7 +146,7 @@ def simulate(encounter: Encounter) -> EncounterEnd:
 
 
 def _is_in_view(rig: Rig, walk: Walk) -> bool:
-    """True when the front LiDAR sees where the person is, or the person is far away."""
+    """Return True if the person is in view of the front LiDAR, or far away."""
     walked = walk.speed_mps * max(0.0, rig.time_s - walk.stands_s) / math.dist(walk.start, walk.end)
     place = [start + walked * (end - start) for start, end in zip(walk.start, walk.end)]
     x, y = rig.pose.inverse().apply(*place)
@@ -162,14 +162,15 @@ def _wanted(random: np.random.Generator, motion: str, rear_lidar: bool, duration
         return ((duration_s, (0.0, angular)),)
     if motion == "arc":
         return ((duration_s, (0.6 * linear, angular)),)
-    # Without a rear LiDAR only ground that has just been seen is backed into: the robot's own track.
+    # Without a rear LiDAR the robot only reverses onto ground that it has just seen: its own track.
     track: Wanted = () if rear_lidar else ((4.0, (0.7, 0.0)), (1.0, (0.0, 0.0)))
     return (*track, (duration_s, (-linear, 0.0)))
 
 
 def _walk(random: np.random.Generator, aim: Tuple[float, float], bearing: float, speed: float,
           meeting_s: float) -> Walk:
-    """A person who is at aim when the robot should be; from afar all the time, or after standing nearby."""
+    """Return the walk of a person who reaches `aim` with the robot; the person comes from afar, or starts nearby after
+    a pause."""
     direction = (math.cos(bearing), math.sin(bearing))
     steps_in = bool(random.random() < 0.5)
     distance = min(speed * meeting_s, float(random.uniform(1.2, 2.2))) if steps_in else speed * meeting_s
@@ -184,7 +185,7 @@ def _ticks(wanted: Wanted) -> List[Velocity]:
 
 
 def _expected(wanted: Wanted, meeting_s: float) -> Tuple[Pose2, Velocity]:
-    """Where an undisturbed robot would be then, with 1 m/s2, and which velocity would be wanted."""
+    """Return the pose of an undisturbed robot with 1 m/s2 at the meeting, and the planner's velocity then."""
     pose, linear = Pose2(0.0, 0.0, 0.0), 0.0
     for velocity in _ticks(wanted)[:round(meeting_s / TICK_S)]:
         linear += max(-TICK_S, min(TICK_S, velocity[0] - linear))

@@ -1,4 +1,5 @@
-"""Persons who walk up to the robot, and drives with nobody about: touches while it moves, and false stops."""
+"""Encounters with persons who approach the robot, and drives without persons: contacts while moving, and false
+stops."""
 # SPDX-License-Identifier: Apache-2.0
 import multiprocessing
 from dataclasses import dataclass
@@ -11,7 +12,7 @@ from .beside_car import DriveEnd, StraightDrive
 from .encounter import Encounter, EncounterEnd, draw, simulate
 from .options import MotionOptions
 
-# Watched ones; others are drawn as they come and counted apart.
+# Number of watched encounters; unwatched ones are counted separately.
 WATCHED_ENCOUNTERS, AT_ONCE = 1000, 200
 ENCOUNTERS = Requirement("persons who step into the way", "(count)", must=1000.0, at_least=True)
 CONTACTS = Requirement("of these touched by the moving robot", "(count)", must=0.0)
@@ -21,10 +22,10 @@ Ended = Tuple[Encounter, EncounterEnd]
 
 @dataclass(frozen=True)
 class EncounterFigures:
-    """Of all encounters and drives; names are those of the file.
+    """Figures of all encounters and drives; the names are those in the file.
 
-    A touch counts as while moving when any point of the robot moved by more than 0.02 m/s just before it. Where nobody
-    watches (behind a robot without rear LiDAR) persons are not guarded against; these encounters stand apart.
+    A contact counts as moving if any point of the robot was faster than 0.02 m/s just before it. Persons behind a robot
+    without a rear LiDAR are not guarded against; these encounters are counted separately.
     """
 
     encounters: int
@@ -42,13 +43,13 @@ class EncounterFigures:
     failed_drives: List[str]
 
     def rows(self) -> List[Row]:
-        """Encounters, touches and false stops."""
+        """Return the rows of encounters, contacts and false stops."""
         return [Row(ENCOUNTERS, self.encounters), Row(CONTACTS, self.contacts_while_moving),
                 Row(FALSE_STOPS, self.false_stops, remark=f"in {self.drives_with_nobody_about} drives")]
 
 
 def measure(options: MotionOptions) -> EncounterFigures:
-    """Simulate encounters until enough persons were watched, and all drives with nobody about."""
+    """Simulate encounters until enough persons were watched, and all drives without persons."""
     drives = beside_car.drives(beside_car.SITE.car)
     with multiprocessing.Pool(options.jobs) as pool:
         ended = _simulated(pool, options.seed)
@@ -57,7 +58,7 @@ def measure(options: MotionOptions) -> EncounterFigures:
 
 
 def figures(ended: Sequence[Ended], drives: Sequence[Tuple[StraightDrive, DriveEnd]]) -> EncounterFigures:
-    """Figures of these encounters and drives."""
+    """Return the figures of these encounters and drives."""
     watched = [(encounter, end) for encounter, end in ended if end.watched]
     unwatched = [end for _, end in ended if not end.watched]
     moving = [(encounter, end) for encounter, end in watched if end.moving]
@@ -77,7 +78,7 @@ def figures(ended: Sequence[Ended], drives: Sequence[Tuple[StraightDrive, DriveE
 
 
 def _simulated(pool: Pool, seed: int) -> List[Ended]:
-    """Encounters and their ends until enough of them were watched."""
+    """Simulate encounters until enough of them were watched; return them with their results."""
     ended: List[Ended] = []
     while sum(end.watched for _, end in ended) < WATCHED_ENCOUNTERS:
         encounters = [draw(seed * 1_000_000 + len(ended) + number) for number in range(AT_ONCE)]
@@ -86,7 +87,7 @@ def _simulated(pool: Pool, seed: int) -> List[Ended]:
 
 
 def _by_kind(watched: Sequence[Ended]) -> Dict[str, str]:
-    """Touches while moving of all encounters, by motion and approach."""
+    """Return the number of contacts while moving by motion and approach."""
     kinds: Dict[str, List[bool]] = {}
     for encounter, end in watched:
         kinds.setdefault(f"{encounter.motion}, {encounter.approach}", []).append(end.moving)

@@ -1,4 +1,4 @@
-"""Slopes, slippery ground and a cable: loads of the wheels, ways of stops, contacts with a wall."""
+"""Slopes, slippery ground and a cable: wheel loads, stopping distances, and contacts with a wall."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import multiprocessing
@@ -22,14 +22,15 @@ DRIVING_S, STOPPING_S, PATIENCE_S = 2.5, 2.0, 20.0
 STANDING_MPS = 0.01
 PLANNER, HAND, DEAD = "planner", "hand", "dead"
 LIFTS_M = {"low": 0.0, "raised": ROBOT.key.lift_travel_m}
-# Downhill, in world; the robot looks along x.
+# Direction of downhill in world; the robot faces along x.
 DOWNHILL = {"downhill": 0.0, "uphill": math.pi, "across": 0.5 * math.pi}
 SLOPES_DEG, STEEPER_DEG = (2.0, 3.0), (4.0, 6.0)
 FRICTIONS = (0.3, 0.2, 0.15, 0.1)
-# Down to here the tyres carry the stop that drive control plans before a wall: 0.15 of the weight, with room.
+# Lowest friction at which the tyres transmit the stop that drive control plans before a wall: 0.15 of the weight plus a
+# margin.
 PROMISED_FRICTION = 0.2
 WALL_M, WALL_THICKNESS_M = 3.0, 0.2
-# Walls along the way, so that both LiDARs see something.
+# Walls along the path, so that both LiDARs have returns.
 SIDE_M, SIDE_LENGTH_M = 6.0, 16.0
 CABLE_M, CABLE_SPEEDS_MPS = 0.8, (0.2, 0.4, 0.7)
 
@@ -47,14 +48,14 @@ CABLE_LOAD = Requirement("load of the lightest wheel over a cable of 15 mm (stat
 
 
 class Drive(NamedTuple):
-    """A robot that drives and is stopped.
+    """Drive of a robot that is then stopped.
 
     Attributes:
         key: low or raised.
-        speed_mps: that is wanted, along x.
-        driver: planner, hand, or a drive control that dies instead of a lock.
-        slope_deg, way: of the ground, and where downhill is.
-        obstacle: nothing, wall or cable; there the robot is not stopped.
+        speed_mps: commanded speed along x.
+        driver: planner, hand, or dead: drive control dies instead of receiving a lock.
+        slope_deg, way: slope of the ground, and direction of downhill.
+        obstacle: none, wall or cable; without a commanded stop if there is an obstacle.
     """
 
     key: str
@@ -68,7 +69,7 @@ class Drive(NamedTuple):
 
     @property
     def name(self) -> str:
-        """For the file."""
+        """Name of the drive in the file."""
         ground = f"{self.slope_deg:g} deg {self.way}" if self.slope_deg else f"friction {self.friction:g}"
         way = "fast" if self.speed_mps > 0.0 else "back"
         speed = way if abs(self.speed_mps) == FAST_MPS else f"{self.speed_mps:g} m/s"
@@ -76,16 +77,16 @@ class Drive(NamedTuple):
 
 
 class DriveEnd(NamedTuple):
-    """What happened.
+    """Result of a drive.
 
     Attributes:
-        least_load_n: of any wheel.
-        stop_m: from the stop to standstill.
-        way_m: in all.
-        fastest_mps: true speed.
-        tilt_deg: largest one of base_link.
-        touched: something beside the ground.
-        stops: of drive control.
+        least_load_n: least load of any wheel.
+        stop_m: distance from the stop to standstill.
+        way_m: total displacement.
+        fastest_mps: highest true speed.
+        tilt_deg: largest tilt of base_link.
+        touched: the robot touched something other than the ground.
+        stops: number of stops by drive control.
     """
 
     least_load_n: float
@@ -99,7 +100,7 @@ class DriveEnd(NamedTuple):
 
 @dataclass(frozen=True)
 class GroundFigures:
-    """Names are those of the file; ends: of each drive, by its name."""
+    """Figures of all drives; the names are those in the file. ends: result of each drive, by its name."""
 
     slope_load_n: float
     climb_load_n: float
@@ -115,7 +116,7 @@ class GroundFigures:
     ends: Dict[str, Dict[str, float]]
 
     def rows(self) -> List[Row]:
-        """Promises first, stated figures marked as such."""
+        """Return the rows: limits first, then figures for information."""
         return [Row(SLOPE, self.slope_load_n), Row(CLIMB, self.climb_load_n), Row(WAY, self.slope_way_m),
                 Row(STEEP_WAY, self.steep_way_m), Row(DEAD_STOP, self.dead_stop_load_n), Row(CONTACTS, self.contacts),
                 Row(SLIPPERY_CONTACTS, self.slippery_contacts), Row(SLIPPERY_STOP, self.slippery_stop_m),
@@ -124,13 +125,13 @@ class GroundFigures:
 
 
 def slopes(degrees: Sequence[float], driver: str) -> List[Drive]:
-    """Stops on slopes, forwards and backwards in all directions, with both keys."""
+    """Return stops on slopes, forwards and backwards in all directions, with both key heights."""
     return [Drive(key, sign * FAST_MPS, driver, slope, way) for slope in degrees for way in DOWNHILL for key in LIFTS_M
             for sign in ((1.0, -1.0) if way == "downhill" else (1.0,))]
 
 
 def drives() -> List[Drive]:
-    """All of them."""
+    """Return all drives."""
     return [
         *slopes(SLOPES_DEG, PLANNER), *slopes(STEEPER_DEG, HAND), *slopes((6.0,), PLANNER),
         *(Drive("raised", FAST_MPS, DEAD, slope) for slope in SLOPES_DEG),
@@ -140,14 +141,14 @@ def drives() -> List[Drive]:
 
 
 def measure(options: MotionOptions) -> GroundFigures:
-    """Drive all."""
+    """Simulate all drives."""
     wanted = [each._replace(seed=options.seed) for each in drives()]
     with multiprocessing.Pool(options.jobs) as pool:
         return figures(wanted, pool.map(simulate, wanted, chunksize=1))
 
 
 def figures(wanted: Sequence[Drive], ends: Sequence[DriveEnd]) -> GroundFigures:
-    """Figures of these drives."""
+    """Return the figures of these drives."""
     pairs = list(zip(wanted, ends))
 
     def of(driver: str, degrees: Sequence[float]) -> List[DriveEnd]:
@@ -173,7 +174,7 @@ def _least(ends: Sequence[DriveEnd]) -> float:
 
 
 def simulate(drive: Drive) -> DriveEnd:
-    """Let it happen."""
+    """Simulate a drive."""
     rig = Rig(_site(drive), drive.seed, lift_m=LIFTS_M[drive.key])
     seen = _Seen(rig)
     duration_s = {"": DRIVING_S, "wall": PATIENCE_S, "cable": 2.0 * CABLE_M / drive.speed_mps + 1.0}[drive.obstacle]
@@ -193,7 +194,7 @@ def simulate(drive: Drive) -> DriveEnd:
 
 
 class _Seen:
-    """What is noted of a drive at each tick."""
+    """Observations of a drive at each tick."""
 
     def __init__(self, rig: Rig):
         self._rig, self._start_x = rig, rig.pose.x
@@ -203,16 +204,16 @@ class _Seen:
 
     @property
     def is_still(self) -> bool:
-        """The robot stands."""
+        """True if the robot is stopped."""
         return abs(self._rig.sim.truth().linear_mps) < STANDING_MPS
 
     def stop(self, zone: int) -> None:
-        """Count beginnings of stops."""
+        """Count the beginnings of stops."""
         self.stops += zone >= STOPPED and not self._was_stopped
         self._was_stopped = zone >= STOPPED
 
     def look(self) -> None:
-        """Note the physics."""
+        """Record the state of the physics."""
         truth = self._rig.sim.truth()
         self._load = min(self._load, *self._rig.sim.wheel_loads_n())
         self._fastest = max(self._fastest, abs(truth.linear_mps))
@@ -220,7 +221,7 @@ class _Seen:
         self._touched = self._touched or bool(self._rig.sim.contacts())
 
     def end(self, stop_m: float) -> DriveEnd:
-        """All of it."""
+        """Return the result of the drive."""
         return DriveEnd(self._load, stop_m, self._rig.pose.x - self._start_x, self._fastest, self._tilt,
                         self._touched, self.stops)
 

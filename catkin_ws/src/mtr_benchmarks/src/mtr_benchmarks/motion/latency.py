@@ -1,9 +1,9 @@
-"""From a stop on the topic to zero on the wheels' topic: the real node at 50 Hz with two LiDARs of 720 beams.
+"""Measures the time from a stop to a zero wheel command of the real node, at 50 Hz with two LiDARs of 720 beams.
 
-The node runs as a process of its own on the machine's clock, as on the robot: no lock-step. Times are wall time from
-publishing the engaged lock to receiving the wheels' command in this process, so that both ways through the loopback
-interface are in them; the robot has to crawl, so that its first command after the stop is zero. The share of the
-processor is the node's own processor time (user and system) by the time that passed.
+The node runs in its own process on the machine's clock without lock-step, as on the robot. The latency is the wall time
+from publishing the engaged lock to receiving the wheel command in this process. It includes both directions of the
+loopback interface. The robot crawls, so that its first command after the stop is zero. The processor share is the
+node's own processor time (user and system) divided by the elapsed time.
 """
 # SPDX-License-Identifier: Apache-2.0
 import statistics
@@ -23,7 +23,7 @@ CPU = Requirement("drive control's share of one core", "%", must=5.0)
 
 @dataclass(frozen=True)
 class LatencyFigures:
-    """Names are those of the file."""
+    """Figures of the latency; the names are those in the file."""
 
     stop_latency_p99_ms: float
     stop_latency_median_ms: float
@@ -33,13 +33,13 @@ class LatencyFigures:
     clock: str = CLOCK
 
     def rows(self) -> List[Row]:
-        """Latency and load."""
+        """Return the rows of latency and load."""
         return [Row(LATENCY, self.stop_latency_p99_ms, remark=f"median {self.stop_latency_median_ms:.2f} ms"),
                 Row(CPU, self.drive_control_cpu_percent)]
 
 
 def measure(_options: MotionOptions) -> LatencyFigures:
-    """Measured by a process that may take a ROS name."""
+    """Measure with a probe process, which has its own ROS name."""
     found = run_probe(f"{__package__}.latency_probe", [str(SAMPLES)], LIMIT_S)
     latencies_ms, cpu_percent = found["latency_ms"], found["cpu_percent"][0]
     return LatencyFigures(

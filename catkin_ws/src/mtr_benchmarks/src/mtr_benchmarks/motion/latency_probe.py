@@ -1,4 +1,4 @@
-"""Feeds the drive control node and takes the time from stop to zero; prints its figures line by line.
+"""Feeds the drive control node, measures the time from stop to zero, and prints the figures line by line.
 
 Usage: python -m mtr_benchmarks.motion.latency_probe SAMPLES
 """
@@ -25,17 +25,18 @@ from mtr_msgs.msg import MotionLock, PeripheralsState, RobotMode, VelocityComman
 
 BEAMS = 720
 FIELD_OF_VIEW_RAD = 1.5 * math.pi
-# An emergency stop from here takes one period.
+# An emergency stop from this speed lasts one period.
 CRAWL_MPS = 0.03
 GRAVITY_MPS2 = 9.81
 START_LIMIT_S = 20.0
-# Stops fall anywhere between two of the node's ticks.
+# Random pauses, so that stops fall anywhere between two of the node's ticks.
 BETWEEN_STOPS_S = (0.15, 0.25)
 JOIN_S = 1.0
 
 
 class DriveControlFeed:
-    """All inputs of drive control at their rates, from one thread; remembers when the wheels' command became zero."""
+    """Publishes all inputs of drive control at their rates, from one thread; records when the wheel command becomes
+    zero."""
 
     def __init__(self) -> None:
         self._is_stopped = threading.Event()
@@ -55,11 +56,11 @@ class DriveControlFeed:
         self._thread = threading.Thread(target=self._feed)
 
     def start(self) -> None:
-        """Begin to feed."""
+        """Start publishing."""
         self._thread.start()
 
     def stop_once(self) -> float:
-        """Lock once, wait for zero, release; the latency in s."""
+        """Engage the lock, wait for zero, and release the lock; return the latency in s."""
         if not self._moves.wait(START_LIMIT_S):
             raise RuntimeError("Drive control does not let the robot crawl.")
         self._is_zero.clear()
@@ -74,7 +75,7 @@ class DriveControlFeed:
         return self.latency_s
 
     def close(self) -> None:
-        """End the thread."""
+        """Stop the thread."""
         self._is_over.set()
         self._thread.join()
 
@@ -122,7 +123,7 @@ class DriveControlFeed:
 
 
 def sweep(frame: str) -> LaserScan:
-    """All beams end on a wall about 3 m away, the most work that there is for drive control."""
+    """Return a sweep with a wall about 3 m away in all directions, the highest load for drive control."""
     scan = LaserScan(angle_min=-FIELD_OF_VIEW_RAD / 2.0, angle_max=FIELD_OF_VIEW_RAD / 2.0,
                      angle_increment=FIELD_OF_VIEW_RAD / (BEAMS - 1), range_min=0.1, range_max=30.0,
                      ranges=[3.0 + 0.01 * random.random() for _ in range(BEAMS)])
@@ -131,7 +132,7 @@ def sweep(frame: str) -> LaserScan:
 
 
 def main(samples: int) -> int:
-    """Measure; always 0, or an error that says what did not work."""
+    """Measure; return 0. Failures raise an error."""
     rospy.init_node("latency_probe")
     rospy.set_param(names.ROBOT_DESCRIPTION, shipped_urdf())
     rospy.set_param(f"/{CONTROLLER}", base_parameters_in(shipped_base_file()))

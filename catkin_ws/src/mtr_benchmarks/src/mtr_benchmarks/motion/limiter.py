@@ -1,4 +1,4 @@
-"""Drive control's limits between planner and wheels, for runs in which nothing is in the way and no LiDAR looks."""
+"""Applies drive control's limits between planner and wheels, for runs without obstacles and LiDARs."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Tuple
 
@@ -14,7 +14,7 @@ class Limiter:
     """Drive control's own VelocityLimiter with its default parameters.
 
     Attributes:
-        sent: velocity sent last.
+        sent: last sent velocity.
     """
 
     def __init__(self) -> None:
@@ -22,6 +22,6 @@ class Limiter:
         self.sent: Velocity = (0.0, 0.0)
 
     def follow(self, wanted: Velocity) -> Velocity:
-        """Next velocity on the way to the wanted one."""
+        """Return the next velocity towards the wanted one."""
         self.sent = self._limiter.follow(*wanted)
         return self.sent

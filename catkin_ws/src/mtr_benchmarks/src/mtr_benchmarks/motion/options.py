@@ -1,13 +1,15 @@
-"""What the parts of the motion benchmark are given."""
+"""Options of the parts of the motion benchmark."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import NamedTuple
 
 
 class MotionOptions(NamedTuple):
-    """Attributes:
-        pairs: of waypoints.
-        seed: of everything random.
-        jobs: processes at the same time.
+    """Options of the motion benchmark.
+
+    Attributes:
+        pairs: number of waypoint pairs.
+        seed: seed of all random numbers.
+        jobs: number of simultaneous processes.
     """
 
     pairs: int = 200

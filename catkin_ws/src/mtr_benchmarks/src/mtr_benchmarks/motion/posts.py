@@ -1,4 +1,4 @@
-"""Drives between two posts that slow the robot: the planner, drive control and physics, at several speed limits."""
+"""Drives between two posts that slow the robot: planner, drive control and physics, at several speed limits."""
 # SPDX-License-Identifier: Apache-2.0
 import multiprocessing
 from dataclasses import dataclass
@@ -20,11 +20,11 @@ from .options import MotionOptions
 from .rig import FOOTPRINT, SLOWED, TICK_S, Rig, Velocity
 
 LIMITS_MPS = (0.1, 0.2, 0.3, 0.5, 0.7)
-# A gap that the robot passes slowly; the posts stand on both sides of the way, in the middle of it.
+# Gaps that the robot passes slowly; the posts are on both sides of the path, halfway along it.
 POST_OFFSETS_M = (0.65, 0.75)
 START, WAY_M, PATIENCE_S = Pose2(0.0, 0.0, 0.0), 4.0, 60.0
 PLANNER_TICKS = 2
-# The Car is out of sight.
+# Pose at which the Car is out of sight.
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 OUTLINE = ((2.25, 0.9), (-2.25, 0.9), (-2.25, -0.9), (2.25, -0.9))
 OVER_LIMIT = Requirement("true speed above the limit on the way past two posts", "m/s", must=0.02)
@@ -32,7 +32,7 @@ PASSED = Requirement("ways past two posts: slowed, and driven to the end", "(sha
 
 
 class PostsDrive(NamedTuple):
-    """One way: speed limit, and distance of both posts' centres from its line."""
+    """One drive: speed limit, and distance of both posts' centres from the path."""
 
     limit_mps: float
     offset_m: float
@@ -40,7 +40,7 @@ class PostsDrive(NamedTuple):
 
 
 class PostsEnd(NamedTuple):
-    """How it ended; over_mps: the largest true speed less the limit."""
+    """Result of a drive. over_mps: largest true speed minus the limit."""
 
     over_mps: float
     slowed: bool
@@ -49,26 +49,26 @@ class PostsEnd(NamedTuple):
 
 @dataclass(frozen=True)
 class PostsFigures:
-    """Of all ways past posts; names are those of the file."""
+    """Figures of all drives between posts; the names are those in the file."""
 
     over_speed_limit_mps: float
     post_ways_driven: float
     over_by_limit_mps: Dict[str, float]
 
     def rows(self) -> List[Row]:
-        """Speed above the limit, and ways that prove something."""
+        """Return the rows: speed above the limit, and share of conclusive drives."""
         return [Row(OVER_LIMIT, self.over_speed_limit_mps), Row(PASSED, self.post_ways_driven)]
 
 
 def measure(options: MotionOptions) -> PostsFigures:
-    """Drive all ways."""
+    """Simulate all drives."""
     drives = [PostsDrive(limit, offset, options.seed) for limit in LIMITS_MPS for offset in POST_OFFSETS_M]
     with multiprocessing.Pool(options.jobs) as pool:
         return figures(drives, pool.map(drive, drives, chunksize=1))
 
 
 def figures(drives: Sequence[PostsDrive], ends: Sequence[PostsEnd]) -> PostsFigures:
-    """Figures of these ways."""
+    """Return the figures of these drives."""
     return PostsFigures(max(end.over_mps for end in ends),
                         sum(end.slowed and end.arrived for end in ends) / len(ends),
                         {f"{way.limit_mps:g} m/s, {way.offset_m:g} m": round(end.over_mps, 3)
@@ -76,7 +76,7 @@ def figures(drives: Sequence[PostsDrive], ends: Sequence[PostsEnd]) -> PostsFigu
 
 
 def drive(way: PostsDrive) -> PostsEnd:
-    """Past the posts and on to the goal."""
+    """Drive between the posts to the goal."""
     posts = tuple(Pole(0.5 * WAY_M, side * way.offset_m) for side in (1.0, -1.0))
     rig = Rig(Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse() @ START, start_offset_m=0.0,
                        start_offset_rad=0.0, poles=posts), way.seed)

@@ -1,4 +1,4 @@
-"""The simulated robot with drive control's core alone: a wanted velocity in, physics and sensors behind it."""
+"""Simulated robot with drive control's core alone: a wanted velocity as input, with physics and sensors."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Optional, Tuple
 
@@ -19,12 +19,12 @@ from ..harness.speed import fastest_point_mps
 
 ROBOT = shipped_robot()
 Velocity = Tuple[float, float]
-# States of the zone in DriveStatus.
+# Values of the zone in DriveStatus.
 SLOWED, STOPPED = 1, 2
 FOOTPRINT = shipped_geometry().footprint()
 FRONT_M = FOOTPRINT.front_m
 TICK_S = 0.02
-# The robot stands for so long until nothing sways, and then looks around, before its first tick.
+# Before its first tick the robot is stopped until nothing sways, and then scans its surroundings.
 SETTLING_S, LOOKING_S = 1.5, 0.2
 START_S = SETTLING_S + LOOKING_S
 PERSON = FIGURE_BODIES
@@ -35,13 +35,13 @@ class Rig:
 
     Attributes:
         sim: physics and sensors.
-        decision: drive control's newest one, None before the first.
-        site_map: of a localized robot, from mtr_drive_control_core; None: it is not localized.
+        decision: drive control's newest decision; None before the first.
+        site_map: map of a localized robot, from mtr_drive_control_core; None: it is not localized.
     """
 
     def __init__(self, scenario: Scenario, seed: int, rear_lidar: bool = True, rain: float = 0.0,
                  lift_m: float = 0.0):
-        """rain: share of the beams that end on a drop; lift_m: height of the lift."""
+        """rain: share of the beams that end on a raindrop; lift_m: height of the lift."""
         lidar = LidarParameters(errors=ScanErrors(echo_share=rain))
         self.sim = Sim(seed, scenario, SimParameters(rear_lidar=rear_lidar, lidar=lidar))
         self.decision: Optional[Any] = None
@@ -61,17 +61,18 @@ class Rig:
 
     @property
     def time_s(self) -> float:
-        """Simulated time since the start, settling included."""
+        """Simulated time since the start, including settling."""
         return (self.sim.time_ns - SIMULATION_START_NS) * 1e-9
 
     @property
     def corner_speed_mps(self) -> float:
-        """No point of the robot moves faster."""
+        """Upper bound for the speed of every point of the robot."""
         truth = self.sim.truth()
         return fastest_point_mps(truth.linear_mps, truth.angular_radps, truth.lateral_mps)
 
     def step(self, velocity: Velocity, locked: bool = False, by_hand: bool = False) -> Any:
-        """One tick with this velocity of the planner or a person, or with a motion lock; drive control's decision."""
+        """Run one tick with a velocity of the planner or a person, or with a motion lock; return drive control's
+        decision."""
         sensors = self._sensors
         self._front = sensors.front_scan or self._front
         self._rear = sensors.rear_scan or self._rear
@@ -84,11 +85,11 @@ class Rig:
         return self.decision
 
     def leave_alone(self) -> None:
-        """One tick in which drive control is dead: nothing is sent to the base."""
+        """Run one tick without drive control: no command is sent to the base."""
         self._sensors = self.sim.step()
 
     def _settled(self, lift_m: float) -> Sensors:
-        """Raise the lift and wait until nothing sways; the last readings."""
+        """Raise the lift and wait until nothing sways; return the last readings."""
         self.sim.set_lift(lift_m)
         self.sim.scans_wanted = False
         for _ in range(round(SETTLING_S / TICK_S)):

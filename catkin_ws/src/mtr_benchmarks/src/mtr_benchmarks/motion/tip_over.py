@@ -1,4 +1,4 @@
-"""Fastest starts, stops and turns with the lift fully up: the load that is left on the lightest wheel."""
+"""Fastest starts, stops and turns with the lift fully up: remaining load of the lightest wheel."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Tuple
@@ -16,13 +16,13 @@ from .rig import TICK_S, Rig, Velocity
 ROBOT = shipped_robot()
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 FAST, TURN = 2.0, 4.0
-# Yaw rate that is wanted at FAST: radii of 8, 4, 2, 1, 0.5 and 0.25 m.
+# Yaw rates at the speed FAST: radii of 8, 4, 2, 1, 0.5 and 0.25 m.
 CURVES = {"very wide": 0.25, "wide": 0.5, "gentle": 1.0, "medium": 2.0, "tight": 4.0, "very tight": 8.0}
 DRIVING_S, STOPPING_S = 3.0, 1.0
-# A wheel that carries nothing is in the air.
+# A wheel without load is in the air.
 MARGIN = Requirement("load of the lightest wheel, lift fully up", "N", must=1.0, at_least=True)
 
-# What the planner wants before, and what then: another velocity, or a lock (None), which is the emergency stop.
+# Wanted velocity before, and then either another velocity or a lock (None), which is the emergency stop.
 MANOEUVRES: Dict[str, Tuple[Velocity, Optional[Velocity]]] = {
     "emergency stop forwards": ((FAST, 0.0), None),
     "emergency stop backwards": ((-FAST, 0.0), None),
@@ -39,7 +39,8 @@ MANOEUVRES: Dict[str, Tuple[Velocity, Optional[Velocity]]] = {
 
 @dataclass(frozen=True)
 class TipOverFigures:
-    """Names are those of the file; tip_margin_n: minimum force of the ground on any wheel, seen every 20 ms."""
+    """Figures of all manoeuvres; the names are those in the file. tip_margin_n: least ground force on any wheel,
+    sampled every 20 ms."""
 
     tip_margin_n: float
     least_load_n: Dict[str, float]
@@ -47,12 +48,12 @@ class TipOverFigures:
     limits: Dict[str, float]
 
     def rows(self) -> List[Row]:
-        """The margin."""
+        """Return the row of the margin."""
         return [Row(MARGIN, self.tip_margin_n)]
 
 
 def measure(_options: MotionOptions) -> TipOverFigures:
-    """Loads in all manoeuvres, and at rest."""
+    """Measure the loads in all manoeuvres and at rest."""
     loads = {name: min_load_n(before, then) for name, (before, then) in MANOEUVRES.items()}
     standing = Rig(_site(), 1, lift_m=ROBOT.key.lift_travel_m)
     return TipOverFigures(
@@ -62,7 +63,7 @@ def measure(_options: MotionOptions) -> TipOverFigures:
 
 
 def min_load_n(before: Velocity, then: Optional[Velocity]) -> float:
-    """Minimum load of any wheel from the start of the first motion on."""
+    """Return the least load of any wheel from the start of the first motion on."""
     rig = Rig(_site(), 1, lift_m=ROBOT.key.lift_travel_m)
     loads = _drive(rig, before, DRIVING_S)
     loads += _drive(rig, before, STOPPING_S, locked=True) if then is None else _drive(rig, then, DRIVING_S)
@@ -70,7 +71,7 @@ def min_load_n(before: Velocity, then: Optional[Velocity]) -> float:
 
 
 def _drive(rig: Rig, velocity: Velocity, duration_s: float, locked: bool = False) -> List[float]:
-    """Minimum load of any wheel at each tick."""
+    """Return the least load of any wheel at each tick."""
     loads = []
     for _ in range(round(duration_s / TICK_S)):
         rig.step(velocity, locked)

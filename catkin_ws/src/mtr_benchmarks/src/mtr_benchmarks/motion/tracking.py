@@ -1,8 +1,9 @@
-"""How fast and how exactly the robot follows its plans: random waypoint pairs around Cars of three sizes, and axes.
+"""Speed and accuracy with which the robot follows its plans: random waypoint pairs around Cars of three sizes, and
+axes.
 
 Each pair is one motion from standstill at the first waypoint to REACHED at the second, in the simulation's physics with
-perfect localization and drive control's limits; its time is compared with a lower bound (bound.py). Then the robot goes
-to an axis of the Car, approaches on it to the minimum distance and retreats backwards.
+perfect localization and drive control's limits. Its duration is compared with a lower bound (bound.py). Then the robot
+drives to an axis of the Car, approaches on it to the minimum distance, and retreats backwards.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -31,10 +32,11 @@ SHAPES = (CarShape(length_m=3.6, width_m=1.6, wheelbase_m=2.4), CarShape(),
           CarShape(length_m=5.2, width_m=2.0, height_m=1.7, wheelbase_m=3.1, wheel_radius_m=0.36))
 PAIR_SPEEDS_MPS = (0.5, 0.7, 1.0)
 AXIS_SPEEDS_MPS = (0.3, 0.5, 0.8)
-# Of the footprint from the Car: waypoints lie in a belt around it, axes go from far to the minimum distance.
+# Distances of the footprint from the Car: waypoints are in a belt around it, axes lead from far to the minimum
+# distance.
 MIN_DISTANCE_M, MAX_DISTANCE_M = 0.3, 3.5
 AXIS_START_M, AXIS_END_M = 2.5, 0.3
-# Pairs closer together are corrections rather than ways.
+# Pairs that are closer together are corrections rather than drives.
 MIN_APART_M = 1.0
 PARAMETERS = MotionParameters()
 OUTLINE = RobotOutline(shipped_geometry().footprint(), PARAMETERS.slip)
@@ -50,9 +52,9 @@ CONTACTS = Requirement("pairs on whose ways the robot touched the Car", "(count)
 
 @dataclass(frozen=True)
 class PairOutcome:
-    """What one pair came to; ratio of time to its lower bound, stops as (m, deg), axis samples as (m, deg).
+    """Result of one pair: ratio of the duration to its lower bound, stops as (m, deg), axis samples as (m, deg).
 
-    A way that was not driven to its end has an infinite ratio.
+    The ratio of an uncompleted drive is infinite.
     """
 
     ratio: float
@@ -65,7 +67,7 @@ class PairOutcome:
 
 @dataclass(frozen=True)
 class TrackingFigures:
-    """Of all pairs; names are those of the file."""
+    """Figures of all pairs; the names are those in the file."""
 
     pairs: int
     time_ratio_median: float
@@ -84,7 +86,7 @@ class TrackingFigures:
     not_reached: List[str]
 
     def rows(self) -> List[Row]:
-        """Times, errors on the axis and at stops, and what must not happen on any way."""
+        """Return the rows of durations, of errors on the axis and at stops, and of failures."""
         return [Row(TIME_MEDIAN, self.time_ratio_median), Row(TIME_P95, self.time_ratio_p95),
                 Row(CROSS_TRACK, self.cross_track_p95_m), Row(HEADING, self.heading_p95_deg),
                 Row(STOP, self.stop_error_p95_m), Row(STOP_HEADING, self.stop_heading_p95_deg),
@@ -100,7 +102,7 @@ def measure(options: MotionOptions) -> TrackingFigures:
 
 
 def figures(outcomes: Sequence[PairOutcome]) -> TrackingFigures:
-    """Figures of these pairs."""
+    """Return the figures of these pairs."""
     ratios = np.array([outcome.ratio for outcome in outcomes])
     stops = np.array([stop for outcome in outcomes for stop in outcome.stops])
     axis = np.abs(np.array([sample for outcome in outcomes for sample in outcome.axis]))
@@ -138,17 +140,17 @@ def _pair(task: Tuple[int, int]) -> PairOutcome:
 
 
 def ratio_of(leg: DrivenLeg, bound_s: float) -> float:
-    """Of its time to the lower bound; who does not drive is not the fastest."""
+    """Return the duration divided by the lower bound; infinite for a failed drive."""
     return math.inf if _failed(leg) else leg.time_s / bound_s
 
 
 def min_gap() -> float:
-    """base_link never gets closer to the Car by plan: half the width, and the margin that a rounded corner leaves."""
+    """Return the least planned distance of base_link from the Car: half the width plus the keep-out margin."""
     return OUTLINE.half_width_m + PARAMETERS.margins.keep_out_m
 
 
 def waypoint_pair(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
-    """Two waypoints that are not too close together."""
+    """Return two waypoints that are not too close together."""
     while True:
         start, end = waypoint(dice, shape), waypoint(dice, shape)
         if start.distance_to(end) >= MIN_APART_M:
@@ -156,7 +158,7 @@ def waypoint_pair(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
 
 
 def waypoint(dice: random.Random, shape: CarShape) -> Pose2:
-    """Random place in the belt: every second one faces the Car, as on an axis; the others face anywhere."""
+    """Return a random place in the belt; half of them face the Car, as on an axis, the others have a random heading."""
     keep_out = KeepOut(outline_of(shape), OUTLINE, PARAMETERS.margins)
     while True:
         x, y = dice.uniform(-1.0, 1.0) * (0.5 * shape.length_m + 4.0), dice.uniform(-1.0, 1.0) * (
@@ -171,7 +173,7 @@ def waypoint(dice: random.Random, shape: CarShape) -> Pose2:
 
 
 def axis_of(dice: random.Random, shape: CarShape) -> Tuple[Pose2, Pose2]:
-    """Far and near end of a random axis of a side."""
+    """Return far and near end of a random axis of a side."""
     half_length, half_width = 0.5 * shape.length_m, 0.5 * shape.width_m
     side = dice.choice(("front", "rear", "left", "right"))
     across = dice.uniform(-0.9, 0.9) * (half_width if side in ("front", "rear") else half_length)
@@ -188,7 +190,7 @@ def _stop(leg: DrivenLeg) -> Tuple[float, float]:
 
 
 def _beside(axis: Pose2, legs: List[DrivenLeg]) -> Iterator[Tuple[float, float]]:
-    """Cross-track and heading error at each tick."""
+    """Yield cross-track and heading error at each tick."""
     for leg in legs:
         for pose in leg.poses:
             seen = axis.inverse() @ pose

@@ -22,15 +22,15 @@ from .limiter import Limiter, Velocity
 
 TICK_S, PLANNER_TICKS = 0.02, 2
 MAX_DURATION_S = 90.0
-# The robot comes to rest after the planner has settled.
+# Ticks in which the robot comes to rest after the planner has settled.
 REST_TICKS = 25
-# The clearance is taken at each of so many ticks.
+# The clearance is computed every this number of ticks.
 CLEARANCE_TICKS = 5
 
 
 @dataclass(frozen=True)
 class DrivenLeg:
-    """What a motion to one goal came to; poses are the true ones in the Car's frame at each tick."""
+    """Result of a motion to one goal; poses are the true ones in the Car's frame at each tick."""
 
     result: Result
     message: str
@@ -41,7 +41,7 @@ class DrivenLeg:
 
 
 class Trial:
-    """A Car, a robot that stands at a pose in its frame, and what happens on the way to goals.
+    """Drives a robot from a pose in the Car's frame to goals.
 
     Attributes:
         contacts: bodies that the robot has touched.
@@ -61,7 +61,7 @@ class Trial:
         self.contacts: Set[str] = set()
 
     def go(self, goal: Pose2, direction: Direction, speed: float) -> DrivenLeg:
-        """Drive to a goal in the Car's frame; ends when the planner has settled and the robot has come to rest."""
+        """Drive to a goal in the Car's frame; return when the planner has settled and the robot is at rest."""
         self._goals += 1
         order_goal = Goal(Waypoint(self._goals, "benchmark", names.CAR, goal, direction))
         output, poses, time_s = self._drive(order_goal, speed)
@@ -75,7 +75,7 @@ class Trial:
         return DrivenLeg(output.result, output.message.text, time_s, miss, tuple(poses), clearance_m)
 
     def _drive(self, goal: Goal, speed: float) -> Tuple[PlannerOutput, List[Pose2], float]:
-        """Until the planner has settled: its last output, the poses on the way, and the time."""
+        """Run until the planner has settled; return its last output, the poses on the path, and the duration."""
         begun, poses = self._ticks, []
         output: Optional[PlannerOutput] = None
         while (self._ticks - begun) * TICK_S < MAX_DURATION_S:
@@ -87,7 +87,7 @@ class Trial:
         return output, poses, (self._ticks - begun) * TICK_S
 
     def _tick(self, goal: Goal, speed: float) -> Optional[PlannerOutput]:
-        """One step of 20 ms; drive control acts on the planner's output of an earlier tick."""
+        """Run one step of 20 ms; drive control uses the planner's output of an earlier tick."""
         now_s = 1.0 + self._ticks * TICK_S
         velocity = self._limiter.follow(self._wanted)
         output = None
@@ -105,6 +105,6 @@ class Trial:
 
 
 def outline_of(shape: CarShape) -> Tuple[Tuple[float, float], ...]:
-    """What the Car locator reports of such a Car: its rectangle."""
+    """Return the Car locator's outline of such a Car: its rectangle."""
     x, y = 0.5 * shape.length_m, 0.5 * shape.width_m
     return (x, y), (-x, y), (-x, -y), (x, -y)

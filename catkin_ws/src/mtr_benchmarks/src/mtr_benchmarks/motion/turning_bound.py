@@ -1,11 +1,11 @@
-"""The quickest way to get along a line for a robot that is turned by any angle at its ends.
+"""Lower bound of the time along a line for a robot that is turned by any angle at its ends.
 
-The state is the angle between heading and line, and the speed, negative backwards; the progress is the integral of
-speed times cosine of the angle. Dynamic programming over a grid whose steps are the largest changes that the limits
-allow in STEP_S (rounded up, so that the grid is rather quicker than the robot) gives the largest progress in a time.
-Angle and speed start and end as they must, and near both ends stay within the jerk-limited turn and S-curve from rest.
-Where the robot gets to across the line is left out: it may only make the way longer. A line that bends, around the Car,
-may bend whenever it suits the robot, in LEVELS equal parts.
+The state is the angle between heading and line, and the speed, negative backwards. The progress is the integral of
+speed times cosine of the angle. Dynamic programming over a grid gives the largest progress in a time. The grid's steps
+are the largest changes that the limits allow in STEP_S, rounded up, so that the grid is quicker than the robot. Angle
+and speed have their required values at both ends. Near both ends they stay within the jerk-limited turn and S-curve
+from rest. The position across the line is ignored, because it can only make the path longer. A line that bends around
+the Car may bend whenever it suits the robot, in LEVELS equal parts.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -22,7 +22,7 @@ LEVELS = 6
 
 
 class TurningBound:
-    """Grid for one set of limits and one speed limit; states are bends behind the robot, angle, speed."""
+    """Grid for one set of limits and one speed limit; states are bends behind the robot, angle and speed."""
 
     def __init__(self, limits: MotionLimits, speed: float):
         self._limits = limits
@@ -33,7 +33,7 @@ class TurningBound:
         self._gain = 0.5 * STEP_S * np.outer(np.cos(self._angles), self._speeds)
 
     def time(self, length: float, first_angle: float, last_angle: float, bend: float = 0.0) -> float:
-        """Minimum time in s for a length, between headings that are off the line by the angles.
+        """Return the minimum time in s for a length, between headings that are off the line by the angles.
 
         bend: angle by which the line turns to the left between its ends.
         """
@@ -42,7 +42,7 @@ class TurningBound:
         start, end = self._begun(first_angle, levels), self._begun(last_angle, levels)
         gone_before = 0.0
         for step in range(1, round(0.5 * MAX_DURATION_S / STEP_S)):
-            # The end is worked through backwards: there the line turns the other way.
+            # The end is processed backwards, so its line turns the other way.
             start = _bent(self._after(start, first_angle, step, bend), -cells)
             end = _bent(self._after(end, last_angle, step, bend), cells)
             gone = float((start + end[::-1]).max())
@@ -53,7 +53,7 @@ class TurningBound:
         return MAX_DURATION_S
 
     def _begun(self, angle: float, levels: int) -> FloatArray:
-        """Progress at a state where the robot stands at an end: 0 there, impossible elsewhere."""
+        """Return the progress of the initial states: 0 if the robot is stopped at an end, else impossible."""
         best = np.full((levels + 1, *self._gain.shape), -np.inf)
         best[0, self._near(angle, 0.0), len(self._speeds) // 2] = 0.0
         return best
@@ -76,20 +76,20 @@ class TurningBound:
 
 
 def _bent(best: FloatArray, cells: int) -> FloatArray:
-    """The line may turn at once, by some parts of its bend: the robot's angle to it changes by so many cells each."""
+    """Let the line bend at once by any number of its parts; each part changes the robot's angle by `cells`."""
     for level in range(1, len(best)):
         best[level] = np.maximum(best[level], np.roll(best[level - 1], cells, axis=0))
     return best
 
 
 def speed_from_rest(passed: float, limits: MotionLimits) -> float:
-    """Highest speed at a time after standstill, without its own limit."""
+    """Return the highest speed at a time after standstill, without a speed limit."""
     ramp = limits.ramp_s
     return 0.5 * limits.jerk_mps3 * min(passed, ramp) ** 2 + limits.acceleration_mps2 * max(passed - ramp, 0.0)
 
 
 def turned_from_rest(passed: float, limits: MotionLimits) -> float:
-    """Largest angle turned at a time after standstill."""
+    """Return the largest turned angle at a time after standstill."""
     ramp, jerk = limits.angular_ramp_s, limits.angular_jerk_radps3
     first = jerk * min(passed, ramp) ** 3 / 6.0
     later = max(passed - ramp, 0.0)

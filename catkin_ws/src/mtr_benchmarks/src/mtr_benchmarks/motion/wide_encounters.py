@@ -8,11 +8,11 @@ from ..harness.rows import Requirement, Row
 from .encounter import Encounter, EncounterEnd, Mover, draw, simulate
 from .options import MotionOptions
 
-# Walking speed of ISO 13855, and of a running child.
+# Walking speed of ISO 13855, and speed of a running child.
 WALKING_MPS, RUNNING_MPS = 1.6, 3.0
-# Nothing wide begins nearer to base_link: the footprint and half of a wheelchair.
+# Least initial distance of wide movers from base_link: the footprint and half of a wheelchair.
 WIDE_CLEAR_M = 1.3
-# Each with two LiDARs. Without a map a robot knows wide movers by their motion only.
+# All robots have two LiDARs. Without a map, a robot recognizes wide movers only by their motion.
 GROUPS: Dict[str, Sequence[Mover]] = {
     "wide": [Mover(figure, 0.5, 1.5, WIDE_CLEAR_M, rear_lidar=1.0, is_localized=True)
              for figure in ("wheelchair", "pram", "pair")],
@@ -20,7 +20,7 @@ GROUPS: Dict[str, Sequence[Mover]] = {
     "child": [Mover("child", RUNNING_MPS, RUNNING_MPS, rear_lidar=1.0)],
     "lying": [Mover("lying", 0.0, 0.0, rear_lidar=1.0)],
 }
-# Encounters of each group; the wide ones are shared by their three figures.
+# Number of encounters in each group; the three wide figures share their group's number.
 COUNTS = {"wide": 300, "walker": 100, "child": 50, "lying": 20}
 SEED_STEP, GROUP_STEP = 10_000_000, 1_000_000
 WIDE = Requirement("wide movers who come into the way", "(count)", must=300.0, at_least=True)
@@ -33,15 +33,15 @@ Ended = Tuple[Encounter, EncounterEnd]
 
 @dataclass(frozen=True)
 class WideEncounterFigures:
-    """Of all groups; names are those of the file.
+    """Figures of all groups; the names are those in the file.
 
-    A contact counts as while moving when any point of the robot moved by more than 0.02 m/s just before it.
+    A contact counts as moving if any point of the robot was faster than 0.02 m/s just before it.
 
     Attributes:
-        wide_movers: encounters with them.
-        encounters_by_group: all encounters.
-        contacts_at_mps: speed of the fastest point at each of these contacts.
-        contact_seeds: seeds of these contacts.
+        wide_movers: number of encounters with wide movers.
+        encounters_by_group: number of all encounters.
+        contacts_at_mps: speed of the fastest point at each moving contact.
+        contact_seeds: seeds of these encounters.
     """
 
     wide_movers: int
@@ -54,7 +54,7 @@ class WideEncounterFigures:
     contact_seeds: Dict[str, List[int]]
 
     def rows(self) -> List[Row]:
-        """Promised ones first; child and lying person are stated only."""
+        """Return the rows: limits first; child and lying person are for information."""
         counted = ((WALKER_CONTACTS, "walker", self.walker_contacts_while_moving),
                    (CHILD_CONTACTS, "child", self.child_contacts_while_moving),
                    (LYING_CONTACTS, "lying", self.lying_contacts_while_moving))
@@ -72,14 +72,14 @@ def measure(options: MotionOptions) -> WideEncounterFigures:
 
 
 def drawn_of(name: str, seed: int) -> List[Encounter]:
-    """Encounters of a group; its movers take turns."""
+    """Return the encounters of a group; its movers alternate."""
     movers = GROUPS[name]
     first = seed * SEED_STEP + list(GROUPS).index(name) * GROUP_STEP
     return [draw(first + number, movers[number % len(movers)]) for number in range(COUNTS[name])]
 
 
 def figures(ended: Dict[str, Sequence[Ended]]) -> WideEncounterFigures:
-    """Figures of these encounters."""
+    """Return the figures of these encounters."""
     touched = {name: [(encounter, end) for encounter, end in group if end.moving] for name, group in ended.items()}
     return WideEncounterFigures(
         wide_movers=len(ended["wide"]), wide_contacts_while_moving=len(touched["wide"]),

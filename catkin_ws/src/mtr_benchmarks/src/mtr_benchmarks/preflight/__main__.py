@@ -14,7 +14,7 @@ from .assemblies import ASSEMBLIES, RIGHT
 from .drive import BARE_SITES, SITES, Drive, drives, record
 from .verdicts import Verdict, counts, verdict_on
 
-# A verdict that is wrong sends a person to the wrong screw, or a wrong robot on its way.
+# A wrong verdict leads a person to the wrong part, or lets a wrong robot start.
 WRONG = Requirement("wrong verdicts, all sites", "(share)", must=0.01)
 PASSED = Requirement("wrong robots that pass, all sites", "(share)", must=0.01)
 ALARMS = Requirement("right robots that are called wrong, all sites", "(share)", must=0.0)
@@ -24,7 +24,7 @@ Judged = Dict[Drive, Dict[str, Verdict]]
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--seed", type=int, default=1, help="of places, persons and sensors")
@@ -35,13 +35,13 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def judge(drive: Drive) -> Dict[str, Verdict]:
-    """What the preflight says of one drive, for each assembly."""
+    """Return the preflight's verdict on one drive, for each assembly."""
     recording = record(drive)
     return {name: verdict_on(recording, assembly) for name, assembly in ASSEMBLIES.items()}
 
 
 def report(judged: Judged) -> BenchmarkReport:
-    """Figures and rows."""
+    """Return figures and rows."""
     rich = [verdict for drive in judged if drive.site not in BARE_SITES for verdict in judged[drive].values()]
     bare = [verdict for drive in judged if drive.site in BARE_SITES for verdict in judged[drive].values()]
     right = [verdicts[RIGHT] for verdicts in judged.values()]
@@ -57,24 +57,24 @@ def report(judged: Judged) -> BenchmarkReport:
 
 
 def share(values: List[bool]) -> Optional[float]:
-    """How many of them are true; None without any."""
+    """Return the share of true values; None without values."""
     return sum(values) / len(values) if values else None
 
 
 def by_assembly(judged: Judged, is_bare: bool) -> Dict[str, Dict[str, int]]:
-    """Counts for each assembly, on bare sites or on the others."""
+    """Return the counts for each assembly, on bare sites or on the others."""
     chosen = [drive for drive in judged if (drive.site in BARE_SITES) == is_bare]
     return {name: counts([judged[drive][name] for drive in chosen]) for name in ASSEMBLIES}
 
 
 def by_site(judged: Judged) -> Dict[str, Dict[str, int]]:
-    """Counts for each site, over all assemblies."""
+    """Return the counts for each site, over all assemblies."""
     return {site: counts([verdict for drive in judged if drive.site == site for verdict in judged[drive].values()])
             for site in SITES}
 
 
 def wrong_ones(judged: Judged) -> List[Dict[str, object]]:
-    """Every wrong verdict, for those who want to know why."""
+    """Return every wrong verdict, for an analysis of its cause."""
     return [{"site": drive.site, "seed": drive.seed, "assembly": name, "said": list(verdict.said)}
             for drive, verdicts in judged.items() for name, verdict in verdicts.items()
             if not verdict.is_right and not verdict.is_undecided]

@@ -1,4 +1,4 @@
-"""Ways to put a robot together wrongly, as what its sensors then say; and the words of the right verdict on each."""
+"""Wrong assemblies of a robot as changes of its sensor data, with the wording of the right verdict on each."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from typing import Callable, Dict, List, NamedTuple, Tuple
@@ -12,20 +12,20 @@ Change = Callable[[Recording], Recording]
 
 
 class Assembly(NamedTuple):
-    """What is wrong, and a part of each sentence that has to be said; no other sentence may be bad."""
+    """One assembly. causes: a part of each required sentence; no other sentence may report a fault."""
 
     change: Change
     causes: Tuple[str, ...]
 
 
 def wheels(linear: float, angular: float) -> Change:
-    """Odometry whose velocities are multiplied."""
+    """Return a change that scales the odometry's velocities."""
     return lambda recording: replace(recording, wheels=[
         WheelSample(each.time_s, linear * each.linear_mps, angular * each.angular_radps) for each in recording.wheels])
 
 
 def imu(matrix: FloatArray, gyro_scale: float = 1.0) -> Change:
-    """IMU that is turned: imu_as_mounted_from_imu."""
+    """Return a change that rotates the IMU: imu_as_mounted_from_imu."""
     def turned(each: ImuSample) -> ImuSample:
         rates, force = matrix @ np.array(each.rate_radps) * gyro_scale, matrix @ np.array(each.force_mps2)
         return ImuSample(each.time_s, tuple(rates.tolist()), tuple(force.tolist()))
@@ -33,23 +33,23 @@ def imu(matrix: FloatArray, gyro_scale: float = 1.0) -> Change:
 
 
 def turned_scans(scans: List[ScanSample], matrix: FloatArray) -> List[ScanSample]:
-    """Points of a LiDAR that is mounted otherwise: lidar_as_mounted_from_lidar."""
+    """Return the points of a LiDAR with another mounting: lidar_as_mounted_from_lidar."""
     return [ScanSample(each.time_s, each.points_m @ matrix.T) for each in scans]
 
 
 def about_z(angle_deg: float) -> FloatArray:
-    """Rotation of the plane."""
+    """Return a rotation of the plane."""
     cos, sin = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
     return np.array([[cos, -sin], [sin, cos]])
 
 
 def front(matrix: FloatArray) -> Change:
-    """The front LiDAR mounted otherwise."""
+    """Return a change of the front LiDAR's mounting."""
     return lambda recording: replace(recording, front=turned_scans(recording.front, matrix))
 
 
 def rear(matrix: FloatArray) -> Change:
-    """The rear LiDAR mounted otherwise."""
+    """Return a change of the rear LiDAR's mounting."""
     return lambda recording: replace(recording, rear=turned_scans(recording.rear, matrix))
 
 

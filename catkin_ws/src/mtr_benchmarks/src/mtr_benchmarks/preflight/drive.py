@@ -1,4 +1,4 @@
-"""A person drives the simulated robot for some seconds: forward, back and a turn."""
+"""Simulates a person who drives the robot for some seconds: forward, backward and a turn."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
@@ -16,23 +16,23 @@ from mtr_simulation.sim import TICK_S, Sim, SimParameters
 from mtr_simulation.site.scenario import named_scenario
 
 SITES = ("lot", "far", "cones", "open", "lot_person", "suv")
-# Nothing but the Car, and at most four cones, within 20 m: next to nothing to see for one of the LiDARs, or for both.
+# Sites with only the Car and at most four cones within 20 m: almost no returns for one of the LiDARs, or for both.
 BARE_SITES = ("far", "cones", "open")
-# From the Car's centre; nearer the way back could end at the Car.
+# Distance from the Car's centre; from a smaller one the reverse drive could end at the Car.
 MIN_RADIUS_M, MAX_RADIUS_M = 4.5, 6.5
 STANDING_S = 1.0
-# Of motion: half a second of each is lost in setting off and stopping.
+# Duration of each motion; half a second of each is lost in starting and stopping.
 FORWARD_S, BACK_S, TURN_S = 2.0, 1.5, 1.5
 MOTION_S = FORWARD_S + BACK_S + TURN_S
 MIN_SPEED_MPS, MAX_SPEED_MPS = 0.35, 0.7
 MIN_TURN_RADPS, MAX_TURN_RADPS = 0.6, 1.2
-# From a gentle person to drive control's limits.
+# Acceleration from a gentle person to drive control's limit.
 MIN_GAIN_MPS2, MAX_GAIN_MPS2 = 0.4, 1.0
 TURN_GAIN_RADPS2 = 2.0
 
 
 class Leg(NamedTuple):
-    """What the person wants for a time: m/s and rad/s."""
+    """Velocity that the person commands for a time: m/s and rad/s."""
 
     duration_s: float
     linear_mps: float
@@ -45,9 +45,9 @@ class Drive:
 
     Attributes:
         site: name of the scenario.
-        seed: of the place, the person and the sensors.
-        worst_lidar: LiDARs as bad as their data sheets and rain allow.
-        legs: what the person does.
+        seed: seed of the place, the person and the sensors.
+        worst_lidar: the LiDARs are as bad as their data sheets and rain allow.
+        legs: commands of the person.
     """
 
     site: str
@@ -57,13 +57,13 @@ class Drive:
 
 
 def drives(seed: int, count: int) -> List[Drive]:
-    """So many drives, sites and LiDARs in turn."""
+    """Return `count` drives; sites and LiDARs alternate."""
     return [drive_of(SITES[index % len(SITES)], 1000 * seed + index, index // len(SITES) % 2 == 1)
             for index in range(count)]
 
 
 def drive_of(site: str, seed: int, worst_lidar: bool) -> Drive:
-    """The drive of a seed; every other turn is to the right."""
+    """Return the drive of a seed; the side of the turn is random."""
     noise = np.random.default_rng(seed)
     speed, back = noise.uniform(MIN_SPEED_MPS, MAX_SPEED_MPS, 2)
     turn = noise.uniform(MIN_TURN_RADPS, MAX_TURN_RADPS) * noise.choice([-1.0, 1.0])
@@ -73,7 +73,7 @@ def drive_of(site: str, seed: int, worst_lidar: bool) -> Drive:
 
 
 def record(drive: Drive) -> Recording:
-    """What the sensors of a right robot say."""
+    """Record the sensors of a right robot."""
     sim = simulation(drive)
     noise = np.random.default_rng([drive.seed, 1])
     gain = float(noise.uniform(MIN_GAIN_MPS2, MAX_GAIN_MPS2))
@@ -88,7 +88,7 @@ def record(drive: Drive) -> Recording:
 
 
 def simulation(drive: Drive) -> Sim:
-    """The site with the robot at a random place around the Car."""
+    """Return the site with the robot at a random place around the Car."""
     noise = np.random.default_rng([drive.seed, 2])
     worst = LidarParameters(noise_m=figures.WORST_RANGE_NOISE_M.value,
                             errors=ScanErrors(range_bias_m=0.03, mixed_pixel_share=0.3, dropout_share=0.05,
@@ -112,11 +112,11 @@ def take(recording: Recording, sensors: Sensors) -> None:
 
 
 def sweep_of(scan: Scan) -> Sweep:
-    """The simulated scan as the preflight takes it."""
+    """Convert the simulated scan to the preflight's type."""
     return Sweep(scan.stamp_ns * 1e-9, scan.angle_min_rad, scan.angle_increment_rad, scan.time_increment_s,
                  scan.range_min_m, scan.range_max_m, scan.ranges_m)
 
 
 def clipped(value: float, limit: float) -> float:
-    """Within plus and minus the limit."""
+    """Return the value clipped to plus and minus the limit."""
     return max(-limit, min(limit, value))

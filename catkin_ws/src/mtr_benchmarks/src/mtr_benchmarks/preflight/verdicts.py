@@ -1,4 +1,4 @@
-"""Whether the preflight says what is wrong, and nothing else."""
+"""Compares the preflight's findings with the fault of an assembly."""
 # SPDX-License-Identifier: Apache-2.0
 from collections import Counter
 from dataclasses import dataclass
@@ -15,8 +15,13 @@ from .drive import MOTION_S
 
 @dataclass(frozen=True)
 class Verdict:
-    """Of one drive with one assembly: is it the right one, or one that asks for more and says nothing wrong; what was
-    said."""
+    """Verdict on one drive with one assembly.
+
+    Attributes:
+        is_right: it reports exactly the fault.
+        is_undecided: it requests more motion and reports nothing wrong.
+        said: texts of the bad findings.
+    """
 
     is_right: bool
     is_undecided: bool
@@ -24,7 +29,7 @@ class Verdict:
 
 
 def verdict_on(recording: Recording, assembly: Assembly) -> Verdict:
-    """What the preflight says MOTION_S after the robot set off."""
+    """Return the preflight's verdict MOTION_S after the robot has started to move."""
     changed = assembly.change(recording)
     start_s: Optional[float] = recording.motion_start_s()
     findings = MotionJudge(shipped_geometry().lidars()).findings(changed.until((start_s or 0.0) + MOTION_S))
@@ -33,18 +38,19 @@ def verdict_on(recording: Recording, assembly: Assembly) -> Verdict:
 
 
 def says(findings: Sequence[Finding], causes: Sequence[str]) -> bool:
-    """Each bad finding tells one of the causes, and each cause is told."""
+    """Return True if each bad finding names one of the causes, and each cause is named."""
     return untold(findings, causes) == []
 
 
 def asks_for_more(findings: Sequence[Finding], causes: Sequence[str]) -> bool:
-    """One finding asks for more, and each other bad one tells one of the causes: a wrong one is wrong all the same."""
+    """Return True if one finding requests more motion and every other bad one names a cause; a wrong finding stays
+    wrong."""
     others = [finding for finding in findings if finding.check != NEEDS_MORE]
     return len(others) < len(findings) and untold(others, causes) is not None
 
 
 def untold(findings: Sequence[Finding], causes: Sequence[str]) -> Optional[List[str]]:
-    """Causes that no bad finding tells; None when one tells something else, or what another one has told."""
+    """Return the causes that no bad finding names; None if a finding names something else, or a cause twice."""
     left = list(causes)
     for finding in findings:
         if finding.is_bad:
@@ -56,6 +62,6 @@ def untold(findings: Sequence[Finding], causes: Sequence[str]) -> Optional[List[
 
 
 def counts(verdicts: List[Verdict]) -> Dict[str, int]:
-    """How many are right, undecided, wrong."""
+    """Return the numbers of right, undecided and wrong verdicts."""
     kinds = Counter("right" if each.is_right else "undecided" if each.is_undecided else "wrong" for each in verdicts)
     return {kind: kinds[kind] for kind in ("right", "undecided", "wrong")}

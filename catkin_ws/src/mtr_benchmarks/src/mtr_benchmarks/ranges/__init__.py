@@ -1,2 +1,3 @@
-"""How true the ranges of both scenarios are on Cars that fade, lapse and poll, against what must hold."""
+"""Accuracy of the ranges of both scenarios on Cars with fading, random misses and polling, against their
+requirements."""
 # SPDX-License-Identifier: Apache-2.0

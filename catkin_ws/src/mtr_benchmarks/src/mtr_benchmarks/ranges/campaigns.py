@@ -1,4 +1,4 @@
-"""All tasks of the benchmark, each a campaign with a seed of its own, and what they found."""
+"""All tasks of the benchmark, each a campaign with its own seed, and their results."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 import multiprocessing
@@ -16,18 +16,19 @@ from .verdicts import LimitDraw, at_the_limit
 
 WIDTHS_M = (0.1, 0.4, 1.0, 2.2, 4.0, 6.6)
 FADINGS = {"steady": (0.0, 0.0), "fading": (FADING_SHARE, LAPSE)}
-# The search for the scan's whole time takes three times as many presses, and Neyer's design as long as ten of ours: one
-# campaign in so many does them.
+# One in this number of campaigns includes the slow methods. The search for the scan's whole time needs three times as
+# many presses, and Neyer's design takes as long as ten of our campaigns.
 LONG_EVERY = 14
 NEYER_RADIALS = 4
-# Poll 300 ms and cycle 200 ms is what the requirement names.
+# The requirement names a poll of 300 ms and a cycle of 200 ms.
 POLLINGS = {"poll_300_cycle_200": Polling(), "poll_100_cycle_20": Polling(0.1, 0.02),
             "poll_700_cycle_200": Polling(0.7, 0.2, 1, 0.1, 0.02),
             "poll_450_cycle_100": Polling(0.45, 0.1, 2, 0.05, 0.02)}
 
 
 class Amount(NamedTuple):
-    """How much is measured: lines of each kind, and processes; limit_lines: of each kind of whole tests."""
+    """Size of the benchmark: lines of each kind, and number of processes. limit_lines: lines of each kind of whole
+    tests."""
 
     radials: int
     axes: int
@@ -37,23 +38,23 @@ class Amount(NamedTuple):
 
 
 class Task(NamedTuple):
-    """One campaign: key of its kind, draw, and whether the referees and the long search take part."""
+    """One campaign: key of its kind, draw, and whether the referees and the long search are included."""
 
     key: Tuple[str, ...]
     draw: Any
     is_long: bool = False
 
 
-# Of whole tests at the limit: lines of a test, and a Car whose end is 1 m wide.
+# Numbers of lines of whole tests at the limit, and width of the transition of their Cars.
 CAMPAIGN_LINES = (4, 8, 16)
 LIMIT_WIDTH_M = 1.0
-# Methods whose lines are no LineFound, and one whose radials have more than one boundary.
+# Methods whose lines are not LineFound, and one whose radials have several boundaries.
 AT_LIMIT, OVER_GROUND = "at_limit", "over_ground"
 Found = Dict[Tuple[str, ...], List[List[Any]]]
 
 
 def measure(amount: Amount) -> Found:
-    """Method and kind of Car -> its campaigns, in order."""
+    """Return the campaigns, in order, by method and kind of Car."""
     found: Found = {}
     with multiprocessing.Pool(amount.jobs) as pool:
         for results in pool.imap(run_task, tasks(amount), chunksize=1):
@@ -63,7 +64,7 @@ def measure(amount: Amount) -> Found:
 
 
 def tasks(amount: Amount) -> List[Task]:
-    """All campaigns; seeds are told apart by their kind."""
+    """Return all campaigns; their seeds differ by kind."""
     made = []
     for (place, (kind, (share, lapse))), (row, width_m) in itertools.product(enumerate(FADINGS.items()),
                                                                              enumerate(WIDTHS_M)):
@@ -83,7 +84,7 @@ def tasks(amount: Amount) -> List[Task]:
 
 
 def _limit_tasks(amount: Amount) -> List[Task]:
-    """Whole tests of Cars at their limits."""
+    """Return the tasks of whole tests of Cars at their limits."""
     made = []
     for row, lines in enumerate(CAMPAIGN_LINES):
         for place, (kind, (share, lapse)) in enumerate(FADINGS.items()):
@@ -99,13 +100,13 @@ def _limit_tasks(amount: Amount) -> List[Task]:
 
 
 def _null_tasks(amount: Amount) -> List[Task]:
-    """Key press over reflecting ground."""
+    """Return the tasks of Key press over reflecting ground."""
     return [Task((f"{mhz:.0f}_mhz",), NullDraw(mhz, seed_of(amount.seed, 90, row, number)))
             for row, mhz in enumerate(FREQUENCIES_MHZ) for number in range(-(-amount.radials // NULL_RADIALS))]
 
 
 def seed_of(*parts: int) -> int:
-    """One seed of several small numbers."""
+    """Combine several small numbers into one seed."""
     seed = 0
     for part in parts:
         seed = 1000 * seed + part
@@ -113,7 +114,7 @@ def seed_of(*parts: int) -> int:
 
 
 def run_task(task: Task) -> Dict[Tuple[str, ...], List[Any]]:
-    """All methods on one campaign."""
+    """Run all methods on one campaign."""
     if isinstance(task.draw, LimitDraw):
         return {(AT_LIMIT, *task.key): at_the_limit(task.draw)}
     if isinstance(task.draw, AxesLimitDraw):

@@ -1,13 +1,13 @@
-"""Cars of this benchmark: one radial of a transition with fading and lapses, one axis that is polled.
+"""Cars of this benchmark: one radial of a transition with fading and random misses, one axis that is polled.
 
-Written without the estimators' code, so that an error in one is not in the other. On a radial the probability p(d)
-that a press works is logistic in the distance. Fading is a normal field along the radial, a sum of waves whose
-correlation is sinc(2 pi r / wavelength); a press works when
-
+The code is independent of the estimators, so that an error in one is not in the other. On a radial, the probability
+p(d) that a press works is logistic in the distance. Fading is a normal field along the radial, a sum of waves whose
+correlation is sinc(2 pi r / wavelength). A press works when
     Phi(sqrt(share) * field(d) + sqrt(1 - share) * noise) < p(d),
+which leaves p(d) unchanged on the average over places.
 
-which leaves p(d) as it is on the average over places. The truth of a radial is its own probability of a reaction at
-every place, with its own fading, as in truth.csv of the simulation: of the falling curve that is nearest to it.
+The truth of a radial is the distance at which the non-increasing curve closest to its own probability of a reaction
+falls below a level. This probability includes the radial's fading, as in truth.csv of the simulation.
 """
 # SPDX-License-Identifier: Apache-2.0
 import functools
@@ -21,7 +21,7 @@ from mtr_core.arrays import FloatArray
 from mtr_simulation.truth.monotone import falls_below
 
 WIDTH_PER_SCALE = 2.0 * math.log(9.0)
-# Where the truth of a radial is looked for, and how finely: beyond so many widths no press works.
+# Step and extent of the search for the truth of a radial: beyond this number of widths no press works.
 _STEP_M, _WIDTHS_BEYOND = 0.03, 2.5
 _SURE = 1e-12
 HALF_WAVELENGTH_M = 0.35
@@ -29,22 +29,23 @@ _WAVES = 48
 
 
 class Radio(NamedTuple):
-    """Of a key and a Car: width of the transition from 90 to 10 %, share of fading fixed in space, share of lapses."""
+    """Radio of a key and a Car: width of the transition from 90 to 10 %, share of fading fixed in space, share of
+    random misses ("lapse")."""
 
     width_m: float
     share: float
     lapse: float
 
 
-# 6 dB of fading beside 2.2 dB of noise in time, and one press in fifty that fails anywhere.
+# 6 dB of fading and 2.2 dB of noise in time; one press in fifty fails at any distance.
 FADING_SHARE, LAPSE = 0.88, 0.02
 
 
 class Radial:
-    """One radial; its place and fading come from `place`, the noise of each press from `noise`.
+    """One radial; `place` determines its position and fading, `noise` the noise of each press.
 
     Attributes:
-        mean_d50_m: where half of the presses work, on the average over radials that fade otherwise.
+        mean_d50_m: distance at which half of the presses work, on the average over other fadings.
     """
 
     def __init__(self, radio: Radio, place: np.random.Generator, noise: np.random.Generator):
@@ -56,20 +57,20 @@ class Radial:
 
     @functools.cached_property
     def d50_m(self) -> float:
-        """Where half of the presses work, lapses apart."""
+        """Distance at which half of the presses work, without random misses."""
         return self._distance_at(0.5)
 
     @functools.cached_property
     def d95_m(self) -> float:
-        """Where 95 % of them work; NaN where that is nowhere."""
+        """Distance at which 95 % of the presses work; NaN if there is none."""
         return self._distance_at(0.95)
 
     def works(self, distance_m: float) -> float:
-        """Probability that a press works there, lapses apart."""
+        """Return the probability that a press works at a distance, without random misses."""
         return float(self._works(np.array([distance_m]))[0])
 
     def press(self, distance_m: float) -> bool:
-        """True when it works."""
+        """Return True if a press works."""
         radio = self._radio
         moment = float(self._noise.standard_normal())
         latent = math.sqrt(radio.share) * float(self._field(np.array([distance_m]))[0]) + math.sqrt(
@@ -97,7 +98,7 @@ class Radial:
 
 
 class Polling(NamedTuple):
-    """Of a Car's passive entry and its bus."""
+    """Polling of a Car's passive entry, and its bus."""
 
     poll_s: float = 0.3
     cycle_s: float = 0.2
@@ -107,11 +108,12 @@ class Polling(NamedTuple):
 
 
 def noticed_at(polling: Polling, speed_mps: float, noise: np.random.Generator) -> float:
-    """How far beyond the static boundary the application sees the key at the event, in m; 2 mm of it is the pose's."""
+    """Return how far beyond the static boundary the application sees the key at the event, m; includes 2 mm of pose
+    noise."""
     time_s, agreeing = -0.5 / speed_mps - polling.poll_s * noise.random(), 0
     while agreeing < polling.debounce:
         time_s += polling.poll_s
         agreeing = agreeing + 1 if speed_mps * time_s > polling.threshold_noise_m * noise.standard_normal() else 0
-    # The bus tells it up to a cycle later, and the application takes the middle of the cycle.
+    # The bus reports it up to a cycle later, and the application assumes the middle of the cycle.
     told_s = time_s + polling.delay_s + polling.cycle_s * (noise.random() - 0.5)
     return float(speed_mps * told_s + 0.002 * noise.standard_normal())

@@ -1,8 +1,9 @@
-"""Key press on Cars over whose ground waves cancel: presses work again beyond a hole, or by a share on an island.
+"""Key press on Cars with destructive interference over ground: presses work again beyond a hole, or partly on an
+island.
 
-Two rays over the ground (mtr_simulation's radio), fading along the radial and noise in time, written without the
-estimators' code. What is judged is what is recorded: the interval, on a line with more than one boundary from the
-nearest to the farthest; open ends reach as far as the test.
+The model has two rays over the ground (mtr_simulation's radio), fading along the radial and noise in time; it is
+independent of the estimators' code. The benchmark checks the recorded interval. On a line with several boundaries it
+reaches from the nearest to the farthest one; open ends extend to the limits of the test.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -30,9 +31,9 @@ RADIALS = 8
 FREQUENCIES_MHZ = (868.0, 433.92)
 MINIMUM_M, MAXIMUM_M = 3.0, 18.5
 _RECEIVER_M, _PERMITTIVITY, _LAPSE, _WAVES = 1.15, 5.0, 0.02, 48
-# Of the key's height, the link's margin at 1 m, its spread among radials, fading and noise in time.
+# Ranges of key height, link margin at 1 m, its spread among radials, fading, and noise in time.
 _HEIGHTS_M, _MARGINS_DB, _SPREAD_DB, _FADINGS_DB, _NOISES_DB = (0.8, 1.4), (14.0, 46.0), 1.5, (3.0, 8.0), (2.0, 3.0)
-# Where the truth of a radial has to lie.
+# Limits for the truth of a radial.
 _ENDS_M = (4.0, 16.0)
 _DISTANCES_M = np.arange(0.5, 30.0, 0.03)
 
@@ -45,9 +46,10 @@ class NullDraw(NamedTuple):
 
 
 class NullRadial:
-    """A radial over reflecting ground.
+    """Radial over reflecting ground.
 
-    Attributes: d50_m: of the falling curve that is nearest to its own probability; NaN where that is nowhere.
+    Attributes:
+        d50_m: distance at which the non-increasing curve closest to its probability falls below 50 %; NaN if nowhere.
     """
 
     def __init__(self, draw: NullDraw, radio: FloatArray, seed: List[int]):
@@ -61,7 +63,7 @@ class NullRadial:
         self.d50_m = falls_below(_DISTANCES_M, self._works(_DISTANCES_M), 0.5)
 
     def press(self, distance_m: float) -> bool:
-        """True when it works."""
+        """Return True if a press works."""
         return bool(self._chance.random() < (1.0 - _LAPSE) * float(self._works(np.array([distance_m]))[0]))
 
     def _works(self, distances_m: FloatArray) -> FloatArray:
@@ -75,7 +77,7 @@ class NullRadial:
 
 
 def radials_of(draw: NullDraw) -> List[NullRadial]:
-    """Of one Car whose radials all end within the test."""
+    """Return the radials of one Car; all of them end within the test."""
     chance = np.random.default_rng([draw.place, round(draw.mhz)])
     while True:
         radio = chance.uniform(*np.array([_HEIGHTS_M, _MARGINS_DB, _FADINGS_DB, _NOISES_DB]).T)
@@ -85,7 +87,7 @@ def radials_of(draw: NullDraw) -> List[NullRadial]:
 
 
 def over_ground(draw: NullDraw) -> List[LineFound]:
-    """One test as the application measures it; an open end of an interval lies at 0, or far beyond the test."""
+    """Run one test as the application does; an open end of an interval is set to 0, or far beyond the test."""
     radials = radials_of(draw)
     plan = replace(KeyPressParameters(
         minimum_distance_m=MINIMUM_M, maximum_distance_m=MAXIMUM_M + 0.5, interval_m=0.3,

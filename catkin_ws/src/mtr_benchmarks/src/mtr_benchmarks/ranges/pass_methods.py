@@ -1,4 +1,4 @@
-"""Methods for Autolock on one campaign of axes: one pass as the thesis has it, and passes at two speeds."""
+"""Methods for Autolock on one campaign of axes: one pass as in the thesis, and passes at two speeds."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, NamedTuple, Tuple
 
@@ -13,12 +13,12 @@ from .result import LineFound, point
 AXES = 40
 SPEEDS_MPS = (0.1, 0.4)
 SINGLE_MPS = 0.3
-# Driven at the speed of a pass: about the boundary.
+# Distance around the boundary that is driven at the speed of a pass.
 STRETCH_M = 1.0
 
 
 class AxesDraw(NamedTuple):
-    """A campaign of axes: boundaries come from `place`, phases and noise from `noise`."""
+    """Campaign of axes: `place` determines the boundaries, `noise` the phases and noise."""
 
     polling: Polling
     place: int
@@ -26,12 +26,12 @@ class AxesDraw(NamedTuple):
     speeds_mps: Tuple[float, ...] = SPEEDS_MPS
 
     def boundaries_m(self) -> List[float]:
-        """The truth."""
+        """Return the true boundaries."""
         return [float(value) for value in np.random.default_rng([self.place, 2]).uniform(1.0, 2.2, AXES)]
 
 
 def single(draw: AxesDraw) -> List[LineFound]:
-    """One pass; its sigma is that of pose and bus cycle, as the application records it."""
+    """Run one pass per axis; its sigma includes pose and bus cycle, as in the application."""
     noise = np.random.default_rng([draw.noise, 3])
     sigma_m = pass_sigma(SINGLE_MPS, 0.0, draw.polling.cycle_s) + 0.002
     return [LineFound(boundary_m, point(boundary_m - noticed_at(draw.polling, SINGLE_MPS, noise), sigma_m), 1,
@@ -39,7 +39,7 @@ def single(draw: AxesDraw) -> List[LineFound]:
 
 
 def passes(draw: AxesDraw) -> List[LineFound]:
-    """Passes at all speeds."""
+    """Run passes at all speeds."""
     noise = np.random.default_rng([draw.noise, 4])
     campaign = BoundaryCampaign(draw.polling.cycle_s)
     for axis, boundary_m in enumerate(draw.boundaries_m()):

@@ -1,4 +1,4 @@
-"""Whole tests of Autolock on Cars whose unlock boundaries lie exactly at their limits; see verdicts."""
+"""Whole tests of Autolock on Cars whose unlock boundaries are exactly at their limits; see verdicts."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -22,13 +22,13 @@ from .verdicts import Judged, at_truth, judged, measure_further
 SPEEDS_MPS = (0.4, 0.13)
 PARAMETERS = AutolockParameters(passes=2, measuring_speeds_mps=SPEEDS_MPS)
 MAX_PASSES = 16
-# The lock boundary lies so much farther out.
+# Distance of the lock boundary beyond the unlock boundary.
 _HYSTERESIS_M = 0.6
 _SIGMA_M = 0.002
 
 
 class AxesLimitDraw(NamedTuple):
-    """One test: polling of the Car, number of its axes, seed, and rounds of further passes that its time allows."""
+    """One test: polling of the Car, number of its axes, seed, and rounds of additional passes that its time allows."""
 
     polling: Polling
     lines: int
@@ -37,7 +37,7 @@ class AxesLimitDraw(NamedTuple):
 
 
 def axes_at_the_limit(draw: AxesLimitDraw) -> List[Judged]:
-    """All axes of one test, each with its true unlock boundary as limit."""
+    """Run all axes of one test, each with its true unlock boundary as limit."""
     noise = np.random.default_rng([draw.place, 2])
     lines = radials_around(2.0 * math.pi / draw.lines)
     truths_m = np.random.default_rng([draw.place, 1]).uniform(1.0, 2.2, len(lines)).tolist()
@@ -70,7 +70,7 @@ def axes_at_the_limit(draw: AxesLimitDraw) -> List[Judged]:
 
 def _with_pass(polling: Polling, result: AutolockResult, truth_m: float, speed_mps: float,
                noise: np.random.Generator) -> AutolockResult:
-    """The axis with one pass more."""
+    """Return the axis with one additional pass."""
     events_m = {UNLOCK: truth_m - noticed_at(polling, speed_mps, noise),
                 LOCK: truth_m + _HYSTERESIS_M + noticed_at(polling, speed_mps, noise)}
     added: Dict[str, Any] = {}

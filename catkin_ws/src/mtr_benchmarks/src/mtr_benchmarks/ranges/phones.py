@@ -1,4 +1,4 @@
-"""Phones that measure anew every 0.2 to 10 s, behind feeds that repeat the newest figure ten times a second."""
+"""Phones that measure every 0.2 to 10 s, with feeds that repeat the newest figure ten times per second."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -10,20 +10,21 @@ from mtr_operator.domain.scenarios.digital_key.parameters import DigitalKeyParam
 from mtr_operator.domain.scenarios.digital_key.reading import Answer, read
 
 PERIODS_S = (0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 8.0, 10.0)
-# The default of the scenario, and the longest one.
+# Default of the scenario, and its longest time.
 WINDOWS_S = (5.0, 55.0)
-# Of neighbouring measurements: none, and a filter over some of them.
+# Correlation of neighbouring measurements: none, or caused by a filter over some of them.
 CORRELATIONS = (0.0, 0.3)
-# A signal of the bus and plain lines carry neither age nor clock; other lines have the age of their figure.
+# A signal of the bus and plain lines have neither age nor clock; other lines have the age of their figure.
 FEEDS = ("bus", "aged")
 ERROR_M = 0.15
 REPEATED_S, STEP_DIGITS = 0.1, 2
-# The phone has measured for so long before the robot stands.
+# Time for which the phone measures before the robot stops.
 _BEFORE_S = 12.0
 
 
 class Phone(NamedTuple):
-    """period_s: from one measurement to the next. correlation: of their errors. has_age: the feed reports the age."""
+    """One kind of phone. period_s: time between measurements. correlation: of their errors. has_age: the feed reports
+    the age."""
 
     period_s: float
     correlation: float = 0.0
@@ -31,7 +32,8 @@ class Phone(NamedTuple):
 
 
 class Coverage(NamedTuple):
-    """places: all of them. valid: places with a distance. holds: places whose 95 % interval holds the true distance."""
+    """Number of places, of valid places with a distance, and of places whose 95 % interval contains the true
+    distance."""
 
     places: int
     valid: int
@@ -39,7 +41,7 @@ class Coverage(NamedTuple):
 
     @property
     def share(self) -> Optional[float]:
-        """Of the valid places; None if there is none."""
+        """Share of the valid places; None if there is none."""
         return self.holds / self.valid if self.valid else None
 
 
@@ -59,8 +61,8 @@ def figures(phone: Phone, true_m: float, window_s: float, chance: random.Random)
 
 
 def coverage(phone: Phone, window_s: float, places: int, seed: int) -> Coverage:
-    """Read so many places with the application's code; their distances differ."""
-    # Old figures are judged by their changes alone here.
+    """Read `places` random places with the application's code."""
+    # The age limit is at most the window, so that old figures are detected only by their changes.
     parameters = DigitalKeyParameters(reading_time_s=window_s, maximum_age_s=min(window_s, 30.0))
     chance, valid, holds = random.Random(f"{seed} {phone} {window_s}"), 0, 0
     for _ in range(places):
@@ -73,7 +75,7 @@ def coverage(phone: Phone, window_s: float, places: int, seed: int) -> Coverage:
 
 
 def measure_phones(places: int, seed: int) -> Dict[str, Coverage]:
-    """All kinds of phones and feeds by their names."""
+    """Return the coverage of all kinds of phones and feeds by their names."""
     kinds: List[Phone] = [Phone(period_s, correlation, feed == "aged")
                           for feed in FEEDS for correlation in CORRELATIONS for period_s in PERIODS_S]
     return {f"{'aged' if phone.has_age else 'bus'}/r {phone.correlation:g}/{phone.period_s:g} s/read {window_s:g} s":

@@ -37,7 +37,11 @@ class Point(NamedTuple):
 
 
 def points(details: Dict[str, Any], method: str) -> List[Point]:
-    """Return the points of a method, one for each width; raises KeyError if the benchmark lacks one."""
+    """Return the points of a method, one for each width.
+
+    Raises:
+        KeyError: the benchmark lacks a width.
+    """
     kinds = details[method]
     return [Point(each["bias_m"], math.sqrt(max(each["rms_m"] ** 2 - each["bias_m"] ** 2, 0.0)), each["coverage_95"],
                   each["robot_time_s_median"], each["lines"])
@@ -73,7 +77,7 @@ def note(details: Dict[str, Any]) -> str:
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Draw the picture; returns the exit status."""
+    """Draw the picture; return the exit status."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("figures", type=pathlib.Path, help="range.json of the benchmark")
     parser.add_argument("picture", type=pathlib.Path, help="PNG or SVG file to write")

@@ -15,30 +15,30 @@ from .result import LineFound, point
 
 RADIALS = 24
 MINIMUM_M, MAXIMUM_M = 3.0, 20.0
-# The scan as the application ships it (examples/key_press.yaml); what it records is the pose's sigma.
+# Scan as shipped with the application (examples/key_press.yaml); it records the sigma of the pose.
 SCAN_STEP_M, SCAN_ATTEMPTS, SCAN_SIGMA_M = 0.25, 2, 0.002
 TIMES = RobotTimes()
 PLAN = SearchPlan(MINIMUM_M, MAXIMUM_M, interval_m=0.3, half_wavelength_m=HALF_WAVELENGTH_M, times=TIMES)
-# For the same robot time as the scan's: no interval ends it, and places finer than half a wavelength are allowed.
+# Plan for the same robot time as the scan: no interval ends it, and steps below half a wavelength are allowed.
 LONG_PLAN = SearchPlan(MINIMUM_M, MAXIMUM_M, 0.0, 200, HALF_WAVELENGTH_M, TIMES)
 
 
 class Draw(NamedTuple):
-    """A campaign of radials: their places and fading come from `place`, noise from `noise`."""
+    """Campaign of radials: `place` determines their positions and fading, `noise` the noise."""
 
     radio: Radio
     place: int
     noise: int
 
     def radials(self, method: int) -> List[Radial]:
-        """The same radials for each method, with noise of its own."""
+        """Return the same radials for each method, with different noise."""
         place = np.random.default_rng([self.place, 1])
         return [Radial(self.radio, place, np.random.default_rng([self.noise, method, number]))
                 for number in range(RADIALS)]
 
 
 def scan(draw: Draw) -> List[LineFound]:
-    """First press that works, from far to near."""
+    """Scan from far to near until the first press works."""
     return [_scanned(radial) for radial in draw.radials(1)]
 
 
@@ -58,7 +58,8 @@ def _scanned(radial: Radial) -> LineFound:
 
 
 def adaptive(draw: Draw, times_s: Optional[List[float]] = None) -> List[LineFound]:
-    """The application's search; times_s: of each radial to be used up instead of an interval."""
+    """Run the application's search. times_s: robot time of each radial, which replaces the interval as end of the
+    search."""
     plan = PLAN if times_s is None else LONG_PLAN
     grid = PLAN.hypotheses()
     campaign = Campaign(grid)
@@ -76,7 +77,7 @@ def adaptive(draw: Draw, times_s: Optional[List[float]] = None) -> List[LineFoun
 
 
 def _searched(radial: Radial, search: RadialSearch, limit_s: float) -> Tuple[float, float]:
-    """Robot time and way."""
+    """Return robot time and path length."""
     time_s = way_total_m = 0.0
     while time_s < limit_s and not search.is_finished():
         place_m = search.next_place_m()

@@ -1,4 +1,4 @@
-"""Others on the same draws: Neyer's D-optimal design (senpy-sensei, when it is installed) and an up-and-down."""
+"""Reference methods on the same draws: Neyer's D-optimal design (senpy-sensei, if installed) and an up-and-down."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Dict, List
@@ -19,7 +19,7 @@ _STEP_M = 0.5
 
 
 def up_and_down(draw: Draw) -> List[LineFound]:
-    """Bisection until the first reversal near, then steps of 0.5 m; the mean of the places (Dixon and Mood, 1948)."""
+    """Bisect until the step is 0.5 m, then keep it; the result is the mean of the places (Dixon and Mood, 1948)."""
     return [_walked(radial) for radial in draw.radials(5)]
 
 
@@ -39,12 +39,12 @@ def _walked(radial: Radial) -> LineFound:
 
 
 def neyer(draw: Draw, radials: int) -> List[LineFound]:
-    """The first radials of a draw; without an interval of its own. Nothing when senpy is not installed."""
+    """Run the design on the first radials of a draw; it has no interval. Without senpy the result is empty."""
     return [] if Neyer is None else [_designed(radial) for radial in draw.radials(6)[:radials]]
 
 
 def _designed(radial: Radial) -> LineFound:
-    # Bounds of its own make senpy ask on the terminal when a place lies beyond them, and end there.
+    # With limits of its own, senpy prompts on the terminal if a place exceeds them, and ends.
     design: Any = Neyer(latent="logistic", inverted=True, t1_min=MINIMUM_M, t1_max=MAXIMUM_M, t2_guess=0.5,
                         num_restarts=1)
     time_s, way_total_m, before_m = 0.0, 0.0, MAXIMUM_M
@@ -57,7 +57,7 @@ def _designed(radial: Radial) -> LineFound:
         before_m = place_m
         places[worked].append(place_m)
         design.post_test_outcome(int(worked), place_m)
-    # Without successes beyond failures a maximum likelihood has no width, and the design no estimate.
+    # Without successes beyond failures, the maximum likelihood has no width, and the design no estimate.
     overlap = max(places[True], default=-math.inf) > min(places[False], default=math.inf)
     d50_m = float(design.get_estimators()[0]) if overlap else before_m
     d50_m = float(np.clip(d50_m, MINIMUM_M, MAXIMUM_M))

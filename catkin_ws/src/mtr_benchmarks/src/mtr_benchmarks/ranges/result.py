@@ -1,4 +1,4 @@
-"""What a method made of one line, beside the truth."""
+"""Result of a method on one line, with the truth."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Dict, List, NamedTuple, Optional
@@ -9,7 +9,7 @@ from mtr_operator.domain.estimation.interval import UNKNOWN, Interval
 
 
 class LineFound(NamedTuple):
-    """One line: interval of what was asked for, of the 95 % distance where there is one, and the effort."""
+    """One line: intervals of the measured distance and, if there is one, of the 95 % distance, and the effort."""
 
     truth_m: float
     found: Interval
@@ -21,14 +21,14 @@ class LineFound(NamedTuple):
 
 
 def point(value_m: float, sigma_m: float) -> Interval:
-    """Of a method that says a value and a sigma."""
+    """Return the interval of a method that reports a value and a sigma."""
     return Interval(value_m, value_m - 1.96 * sigma_m, value_m + 1.96 * sigma_m, sigma_m)
 
 
 def figures(lines: List[LineFound]) -> Dict[str, Optional[float]]:
-    """Of one method on one kind of Car; names are a promise.
+    """Return the figures of one method on one kind of Car; the names are a stable interface.
 
-    A line without an interval holds nothing, unless the method has no intervals at all.
+    A line without an interval counts as not covered, unless the method has no intervals at all.
     """
     errors = np.array([line.found.value_m - line.truth_m for line in lines])
     far = [line for line in lines if math.isfinite(line.truth_95_m)]
@@ -46,30 +46,30 @@ def figures(lines: List[LineFound]) -> Dict[str, Optional[float]]:
 
 
 def is_known(interval: Interval) -> bool:
-    """True when value and both ends are numbers."""
+    """Return True if value and both ends are finite."""
     return math.isfinite(interval.value_m) and math.isfinite(interval.half_width_m)
 
 
 def without_interval(lines: List[LineFound]) -> int:
-    """Of lines of a method that has intervals, also of the 95 % distance where there is one."""
+    """Return the number of lines without an interval, also of the 95 % distance if there is one."""
     return sum(not is_known(line.found) or (math.isfinite(line.truth_95_m) and not is_known(line.found_95))
                for line in lines)
 
 
 def share(values: List[bool]) -> Optional[float]:
-    """Part that is true; None of none."""
+    """Return the share of true values; None without values."""
     return float(np.mean(values)) if values else None
 
 
-# How far the limit lies beyond the Car's distance: a Car just outside the limit, a little, and far.
+# Distance of the limit beyond the Car's distance: a Car just outside the limit, slightly, and far.
 BEYOND_M = (0.0, 0.1, 1.0)
 
 
 def false_passes(lines: List[LineFound]) -> Dict[str, float]:
-    """Share of a verdict Pass on Cars that are to fail, by limit; of lines with an interval, for no other has one.
+    """Return the share of verdicts Pass on Cars that must fail, by limit; only lines with an interval have a verdict.
 
-    Pass is when the whole 95 % interval lies on the good side of the limit (guard band, JCGM 106), as
-    mtr_operator.domain.verdict has it.
+    The verdict is Pass if the whole 95 % interval is on the good side of the limit (guard band, JCGM 106), as in
+    mtr_operator.domain.verdict.
     """
     shares = {}
     lines = [line for line in lines if is_known(line.found)]

@@ -13,7 +13,7 @@ from .repeated import pairs_agree
 from .result import LineFound, false_passes, figures, share, without_interval
 from .verdicts import FAIL_BY_HOLE, Judged
 
-# A share that shall be 95 % has two rows: too few intervals hold, or they are wider than they need to be.
+# A share that should be 95 % has two rows: too few intervals contain the truth, or they are wider than necessary.
 LEAST = Requirement("least", "(share)", 0.94, 0.92, at_least=True)
 MOST = Requirement("most", "(share)", 0.96, 0.98)
 LEAST_AGAIN = Requirement("least", "(share)", 0.94, 0.93, at_least=True)
@@ -21,7 +21,7 @@ BIAS = Requirement("bias of d50, width up to 2.2 m, worst", "m", 0.02, 0.05)
 RATIO = Requirement("rms of d50 by the scan's, equal time, worst", "(ratio)", 1.0 / 3.0, 0.5)
 PRESSES = Requirement("presses for +-0.3 m, width 1 m", "(count)", 10.0, 16.0)
 STATIC = Requirement("static boundary, poll 300 ms, cycle 200 ms, rms", "m", 0.015, 0.03)
-# Who gives no interval where it is difficult has easy ones left.
+# A method that gives no interval in difficult cases would only be evaluated on easy ones.
 WITHOUT = Requirement("lines without an interval", "(count)", must=0.0)
 JUDGED = ("adaptive", "adaptive_scan_time", "passes")
 LEAST_WHOLE = Requirement("least", "(share)", 0.94, 0.93, at_least=True)
@@ -31,7 +31,7 @@ FALSE_PASS = Requirement("false pass, worst of Cars and limits", "(share)", 0.02
 
 
 def report(found: Found, phones: Optional[Dict[str, Coverage]] = None) -> BenchmarkReport:
-    """Of all campaigns, and of the phones if they were measured."""
+    """Return the report on all campaigns, and on the phones if they were measured."""
     pooled = {key: [line for campaign in campaigns for line in campaign] for key, campaigns in found.items()}
     details: Dict[str, Any] = {}
     for (method, *kind), lines in pooled.items():
@@ -44,7 +44,8 @@ def report(found: Found, phones: Optional[Dict[str, Coverage]] = None) -> Benchm
 
 
 def limit_figures(lines: List[Judged]) -> Dict[str, Optional[float]]:
-    """Of whole tests at the limit; names are a promise. A line without an interval holds nothing."""
+    """Return the figures of whole tests at the limit; the names are a stable interface. A line without an interval
+    counts as not covered."""
     return {"lines": float(len(lines)), "pass": share([line.verdict == "pass" for line in lines]),
             "fail": share([line.verdict == "fail" for line in lines]),
             "fail_by_hole": share([line.verdict == FAIL_BY_HOLE for line in lines]),
@@ -56,7 +57,7 @@ def limit_figures(lines: List[Judged]) -> Dict[str, Optional[float]]:
 
 
 def whole_tests(details: Dict[str, Any]) -> List[Row]:
-    """Rows of whole tests at the limit, and over reflecting ground; none of what was not measured."""
+    """Return the rows of whole tests at the limit and over reflecting ground, as far as they were measured."""
     made: List[Row] = []
     limits = details.get(AT_LIMIT, {})
     if limits:
@@ -73,7 +74,7 @@ def whole_tests(details: Dict[str, Any]) -> List[Row]:
 
 
 def _by_scenario(limits: Dict[str, Any], name: str) -> Dict[str, float]:
-    """A share of the lines of all kinds of Cars and tests together: those of one kind are too few for a row."""
+    """Return a share over all kinds of Cars and tests together, because one kind has too few lines for a row."""
     lines: Dict[str, float] = {}
     counted: Dict[str, float] = {}
     for kind, each in limits.items():
@@ -84,13 +85,14 @@ def _by_scenario(limits: Dict[str, Any], name: str) -> Dict[str, float]:
 
 
 def phone_rows(phones: Dict[str, Coverage]) -> List[Row]:
-    """Coverage of the phone's distance over the kinds that have valid places; a kind without one makes no claim."""
+    """Return the coverage of the phone's distance over the kinds that have valid places; a kind without one makes no
+    claim."""
     shares = {name: each.share for name, each in phones.items() if each.share is not None}
     return _shares("coverage of a phone's distance", dict(shares)) if shares else []
 
 
 def rows(found: Found, pooled: Dict[Tuple[str, ...], List[LineFound]], details: Dict[str, Any]) -> List[Row]:
-    """Of the table."""
+    """Return the rows of the methods."""
     kinds = [f"{fading}/{width_m:g}" for fading in FADINGS for width_m in WIDTHS_M]
     adaptive, passes = details["adaptive"], details["passes"]
     again = {name: share(pairs_agree(found[(method, f"again_{name}")]))
@@ -110,7 +112,7 @@ def rows(found: Found, pooled: Dict[Tuple[str, ...], List[LineFound]], details: 
 
 
 def _shares(name: str, values: Dict[str, Optional[float]], least: Requirement = LEAST) -> List[Row]:
-    """Two rows: of the kind with the smallest share, and of that with the largest; none when one is not known."""
+    """Return two rows: kinds with the smallest and the largest share; without a value if a share is unknown."""
     known = {kind: value for kind, value in values.items() if value is not None}
     rows_made = []
     for wanted, choose in ((least, min), (MOST, max)):
@@ -121,13 +123,13 @@ def _shares(name: str, values: Dict[str, Optional[float]], least: Requirement = 
 
 
 def _without(pooled: Dict[Tuple[str, ...], List[LineFound]]) -> Row:
-    """Of the application's methods."""
+    """Return the row of the application's methods."""
     counts = {"/".join(key): float(without_interval(lines)) for key, lines in pooled.items() if key[0] in JUDGED}
     return Row(WITHOUT, sum(counts.values()), details={kind: count for kind, count in counts.items() if count})
 
 
 def _false_pass(pooled: Dict[Tuple[str, ...], List[LineFound]]) -> Row:
-    """Of all Cars of one method together: a limit asks for a share of the tests of many Cars."""
+    """Return the worst share over all Cars of one method, because a limit applies to the tests of many Cars."""
     shares = {method: false_passes([line for key, lines in pooled.items() if key[0] == method for line in lines])
               for method in ("adaptive", "passes")}
     named = {f"{method}, {limit}": value for method, each in shares.items() for limit, value in each.items()}

@@ -1,8 +1,9 @@
 """Whole tests of Cars exactly at their limits: search, further attempts, last estimate and verdict of every line.
 
-What the application's runner does is done here with its own parts, without robot: the search chooses the places, the
-looks at a line decide when it is measured further, and all lines together give the last estimate. A Car at its limit
-passes and fails wrongly in at most 2.5 % of the lines each, and the recorded intervals hold the truth.
+The module combines the parts of the application's runner without a robot. The search selects the places, interim
+evaluations ("looks") of a line decide when it is measured further, and all lines together give the last estimate. A Car
+at its limit must wrongly pass and wrongly fail in at most 2.5 % of the lines each, and the recorded intervals must
+contain the truth.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -38,7 +39,7 @@ from .cars import HALF_WAVELENGTH_M, Radial, Radio
 FURTHER_PRESSES = 8
 FAIL_BY_HOLE = "fail_by_hole"
 _LIGHT_MPS = 299_792_458.0
-# Presses from 3 to 20 m, where the radials' ends lie at 8 to 14 m.
+# Presses from 3 to 20 m; the radials end at 8 to 14 m.
 PARAMETERS = KeyPressParameters(
     minimum_distance_m=3.0, maximum_distance_m=20.5, straightening_distance_m=0.5, interval_m=0.3,
     key_frequency_hz=_LIGHT_MPS / (2.0 * HALF_WAVELENGTH_M))
@@ -46,8 +47,8 @@ _SIGMA_M = 0.002
 
 
 class Search(NamedTuple):
-    """A scenario that searches: its parameters with so much between lines, a line's result before any attempt, and how
-    much smaller its distances are than those of Radial."""
+    """Scenario with a search. parameters: include the spacing of lines. empty: a line's result before any attempt.
+    scale: ratio of its distances to the distances of Radial."""
 
     scenario: AnyScenario
     parameters: Any
@@ -57,7 +58,7 @@ class Search(NamedTuple):
 
 
 class LimitDraw(NamedTuple):
-    """One test: which search, radio of the Car, number of its lines, seed, and rounds of further attempts that its time
+    """One test: search, radio of the Car, number of its lines, seed, and rounds of further attempts that its time
     allows."""
 
     search: str
@@ -72,10 +73,10 @@ class Judged(NamedTuple):
 
     Attributes:
         verdict: pass, fail or inconclusive; FAIL_BY_HOLE for a fail at holes where a press truly works with less than
-            50 %. Such a fail is right although the boundary keeps the limit.
-        looks: number of looks at the line.
+            50 %. Such a fail is right although the boundary meets the limit.
+        looks: number of interim evaluations of the line.
         holds: whether the recorded 95 % interval contains the truth; None without an interval.
-        judged_holds: the same for the interval of the last look.
+        judged_holds: the same for the interval of the last interim evaluation.
         half_m: half width of the 95 % interval in m.
         presses: number of all presses.
     """
@@ -89,7 +90,7 @@ class Judged(NamedTuple):
 
 
 def at_the_limit(draw: LimitDraw) -> List[Judged]:
-    """All lines of one test, each with its true distance as limit, "at least" and "at most" by turns."""
+    """Run all lines of one test, each with its true distance as limit; "at least" and "at most" alternate."""
     search, place = SEARCHES[draw.search], np.random.default_rng([draw.place, 1])
     lines = radials_around(2.0 * math.pi / draw.lines)
     radials = [_Scaled(Radial(draw.radio, place, np.random.default_rng([draw.place, 2, line.number])), search.scale)
@@ -117,7 +118,7 @@ def verdict_of(word: str, result: SearchedResult, radial: Any) -> str:
 
 
 class _Scaled:
-    """A radial whose distances are smaller."""
+    """Radial with scaled distances."""
 
     def __init__(self, radial: Radial, scale: float):
         self._radial = radial
@@ -125,17 +126,17 @@ class _Scaled:
         self.d50_m = scale * radial.d50_m
 
     def works(self, distance_m: float) -> float:
-        """Probability that a press works there."""
+        """Return the probability that a press works at a distance."""
         return self._radial.works(distance_m / self._scale)
 
     def press(self, distance_m: float) -> bool:
-        """True when it works."""
+        """Return True if a press works."""
         return self._radial.press(distance_m / self._scale)
 
 
 def measure_further(progress: Progress, looking: Looking, judgement: Callable[[], Any], rounds: int,
                     further: Callable[[Any], Any]) -> None:
-    """As the application's runner: each undecided line has its turn, until they are decided or the time is over."""
+    """Measure undecided lines in turn, as the application's runner does, until all are decided or the time is over."""
     looking.look_first(judgement().decided())
     waiting = progress.measured()
     for _ in range(rounds * len(waiting)):
@@ -153,7 +154,7 @@ def measure_further(progress: Progress, looking: Looking, judgement: Callable[[]
 
 
 def judged(result: LineResult, truth_m: float, verdict: str, attempts: int, index: int = 0) -> Judged:
-    """What became of a line; index: of its distances."""
+    """Return the outcome of a line. index: selects one of its distances."""
     distance = result.distances[index]
     ends = (distance.low_m, distance.high_m)
     return Judged(verdict, len(result.looks), _holds(ends, truth_m), _holds(distance.look_m or ends, truth_m),
@@ -167,7 +168,7 @@ def _holds(ends: Any, truth_m: float) -> Any:
 
 
 def at_truth(word: str, truths: Sequence[Tuple[float, float]]) -> Limits:
-    """Limits exactly at the distances of lines, each with its angle; "at least" and "at most" by turns."""
+    """Return limits exactly at the distances of lines, each with its angle; "at least" and "at most" alternate."""
     return Limits(tuple(
         Requirement(f"line {number}", word, truth_m if number % 2 else None, None if number % 2 else truth_m,
                     angles_deg=(angle_deg, angle_deg)) for number, (angle_deg, truth_m) in enumerate(truths, 1)))
@@ -205,7 +206,7 @@ def _empty_axis(number: int, _: float) -> HandleRequestResult:
     return HandleRequestResult(number, "left", 1.0, LineStatus.INVALID, 0, 0, 0, place_sigma_m=_SIGMA_M)
 
 
-# A handle's zone ends at 1.6 to 2.8 m; its fading is finer by the same scale, and the parameters state so.
+# A handle's zone ends at 1.6 to 2.8 m; the half wavelength of its fading is scaled likewise, as the parameters state.
 _HANDLE_SCALE = 0.2
 _HANDLE = HandleRequestParameters(border_requests=0, half_wavelength_m=_HANDLE_SCALE * HALF_WAVELENGTH_M)
 SEARCHES = {"key_press": Search(KEY_PRESS, PARAMETERS, _empty_radial, PRESS),

@@ -1,2 +1,2 @@
-"""Localization on recordings of real robots, where there are any: the project has none of them."""
+"""Localization on recordings of real robots; the project does not include any."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Localizes on recordings of real robots, with one half of the sweeps on the map of the other; figures go to real.json.
+"""Localizes on recordings of real robots: half of the sweeps on the map of the other half; figures go to real.json.
 
 Usage: python -m mtr_benchmarks.real FOLDER [--mrpt PROGRAM] --out out/bench
 """
@@ -19,7 +19,7 @@ GOAL_OF_MRPT = 0.8
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="with bags; each is taken for what its topics say")
     parser.add_argument("--mrpt", type=pathlib.Path, help="program to be compared with, see make bench-localization")
@@ -35,7 +35,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def report(outcomes: List[Outcome]) -> BenchmarkReport:
-    """Figures, rows, and a sentence about each bag that cannot be used."""
+    """Return figures, rows, and a sentence about each unusable bag."""
     rows: List[Row] = []
     for found in outcomes:
         if found.refused:

@@ -1,4 +1,4 @@
-"""A recording, each LiDAR's sweeps of which go by turns into one of two: one makes a map, the other localizes on it."""
+"""Splits the sweeps of a recording alternately into two halves: one gives a map, the other is localized on it."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import json
@@ -23,7 +23,7 @@ TRUTH_TYPE = "geometry_msgs/PoseStamped"
 
 
 class Halves(NamedTuple):
-    """Inputs of localization, all of them and both halves, and what the bag was taken for."""
+    """Inputs of localization, as a whole and as both halves, and the interpretation of the bag."""
 
     whole: pathlib.Path
     even: pathlib.Path
@@ -32,20 +32,20 @@ class Halves(NamedTuple):
 
     @property
     def odometry(self) -> PoseTrack:
-        """Of the wheels."""
+        """Odometry of the wheels."""
         samples = self.found.samples
         return pose_track(np.array([sample.time_s for sample in samples]),
                           np.array([(sample.pose.x, sample.pose.y, sample.pose.heading) for sample in samples]))
 
     @property
     def mounts(self) -> Dict[str, Pose2]:
-        """base_from_lidar of each of our topics."""
+        """base_from_lidar of each scan topic of this robot."""
         return {topic: Pose2(float(place[0, 3]), float(place[1, 3]), yaw_of(place))
                 for topic, (_, place) in zip(SCANS, self.found.mounts.values())}
 
 
 class Localized(NamedTuple):
-    """What a replay gave: poses, the valid share of them, ms of CPU for each scan, and the first sentences."""
+    """Result of a replay: poses, share of valid ones, CPU time per scan in ms, and its messages."""
 
     track: PoseTrack
     valid_share: float
@@ -54,7 +54,11 @@ class Localized(NamedTuple):
 
 
 def halves_of(bag: pathlib.Path, folder: pathlib.Path, asked: Asked) -> Halves:
-    """Write them; BagUnusable with a sentence."""
+    """Write the halves.
+
+    Raises:
+        BagUnusable: the bag cannot be used; the text has the reason.
+    """
     whole, even, odd = (folder / f"{name}.bag" for name in ("whole", "even", "odd"))
     found = convert(bag, whole, asked, True, lambda _: None)
     seen: Counter[str] = collections.Counter()
@@ -68,7 +72,11 @@ def halves_of(bag: pathlib.Path, folder: pathlib.Path, asked: Asked) -> Halves:
 
 
 def localized(bag: pathlib.Path, out: pathlib.Path, found: Found, *options: str) -> Localized:
-    """Replay a half; RuntimeError when it ends otherwise than it should."""
+    """Replay a half.
+
+    Raises:
+        RuntimeError: the replay failed.
+    """
     given = [part for name, value in found.parameters.items() for part in ("--parameter", f"{name}={value}")]
     out.mkdir(parents=True, exist_ok=True)
     if replay.main([str(bag), "--out", str(out), "--in-motion", "--no-car", *given, *options]):
@@ -82,7 +90,7 @@ def localized(bag: pathlib.Path, out: pathlib.Path, found: Found, *options: str)
 
 
 def truth_in(bag: pathlib.Path, topic: str) -> Tuple[FloatArray, FloatArray]:
-    """Stamps (n) in s and positions (n, 2) in m of the independent truth; none where the bag has no such topic."""
+    """Return stamps (n) in s and positions (n, 2) in m of the independent truth; empty if the bag has no such topic."""
     rows = []
     with rosbag.Bag(str(bag)) as read:
         about = read.get_type_and_topic_info().topics.get(topic)

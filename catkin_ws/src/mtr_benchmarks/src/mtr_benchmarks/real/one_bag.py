@@ -1,4 +1,4 @@
-"""What is found on one recording: our poses and MRPT's against the truth that it has, if any."""
+"""Compares our poses and MRPT's with the truth of one recording, if it has one."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import tempfile
@@ -20,7 +20,7 @@ MM_PER_M = 1e3
 
 
 class Off(NamedTuple):
-    """Distances of one method to the truth in mm, in the part that it was not fitted on."""
+    """Position errors of one method in mm, in the part of the truth that is not used for the fit."""
 
     rms_mm: float
     p95_mm: float
@@ -28,11 +28,11 @@ class Off(NamedTuple):
 
 
 class Outcome(NamedTuple):
-    """Of one recording.
+    """Result of one recording.
 
     Attributes:
-        refused: why it cannot be used; empty when it can.
-        valid_share: of the poses on the map of the other half.
+        refused: reason for which it cannot be used; empty: it can.
+        valid_share: share of valid poses on the map of the other half.
         ours, mrpt: None without truth, and without MRPT.
     """
 
@@ -45,12 +45,12 @@ class Outcome(NamedTuple):
     said: List[str] = []
 
     def document(self) -> Dict[str, Any]:
-        """Plain values."""
+        """Return the result as plain values."""
         return {name: value._asdict() if isinstance(value, Off) else value for name, value in self._asdict().items()}
 
 
 def measure(bag: pathlib.Path, truth_topic: str, mrpt: Optional[pathlib.Path], asked: Asked) -> Outcome:
-    """Even sweeps make a map, odd ones localize on it; a bag that cannot be used says why."""
+    """Map with the even sweeps and localize with the odd ones; the result of an unusable bag has the reason."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         try:
@@ -74,8 +74,11 @@ def measure(bag: pathlib.Path, truth_topic: str, mrpt: Optional[pathlib.Path], a
 
 
 def off(fitted: PoseTrack, scored: PoseTrack, stamps_s: FloatArray, positions: FloatArray) -> Optional[Off]:
-    """The truth is fitted to every second position with one track, and scores another on those between; None where it
-    has too few positions."""
+    """Fit every second position of the truth to one track, and return the errors of another track at the positions
+    between.
+
+    The result is None if there are too few positions.
+    """
     try:
         found = fit(fitted, stamps_s[::2], positions[::2])
     except ValueError:
@@ -86,7 +89,7 @@ def off(fitted: PoseTrack, scored: PoseTrack, stamps_s: FloatArray, positions: F
 
 def _of_mrpt(program: pathlib.Path, halves: Halves, folder: pathlib.Path, stamps_s: FloatArray,
              positions: FloatArray) -> Optional[Off]:
-    """MRPT maps as it goes, on every second sweep: as many as our map has."""
+    """Run MRPT, which maps continuously, on every second sweep: the same number as our map has."""
     run = run_mrpt(program, read_sensors(halves.whole, halves.mounts), halves.odometry, folder)
     return off(run.track, run.track, stamps_s, positions)
 

@@ -1,7 +1,8 @@
-"""How a trajectory lies to an independent truth that was measured at another point of the robot, on another clock.
+"""Alignment of a trajectory with an independent truth that was measured at another point of the robot, on another
+clock.
 
-Where the truth's frame, its point on the robot and its clock are not known, they are fitted on one part of a recording
-and scored on another: each method under the same fit, so that none is favoured by it.
+If the truth's frame, its point on the robot and its clock are unknown, they are fitted on one part of a recording. The
+errors are evaluated on another part. All methods use the same fit, so that none is favoured.
 """
 # SPDX-License-Identifier: Apache-2.0
 from typing import NamedTuple
@@ -14,15 +15,15 @@ from mtr_core.se2 import Pose2
 
 from ..localization.drives.pose_track import PoseTrack, aligned, at, compose
 
-# Truth that is off by more than this counts less: its sensor has outliers.
+# Deviations above this limit have less weight, because the truth's sensor has outliers.
 OUTLIER_M = 0.05
 MAX_DELAY_S = 0.5
-# Fewer cannot carry six unknowns.
+# Least number of points for six unknowns.
 MIN_POINTS = 20
 
 
 class TruthFit(NamedTuple):
-    """truth_from_map, the truth's point on the robot in m, and by how many s the truth's stamps are late."""
+    """truth_from_map, the truth's point on the robot in m, and the delay of the truth's stamps in s."""
 
     frame: Pose2
     lever_x_m: float
@@ -30,7 +31,7 @@ class TruthFit(NamedTuple):
     delay_s: float
 
     def positions(self, track: PoseTrack, stamps_s: FloatArray) -> FloatArray:
-        """Where the truth's sensor (n, 2) is by the track at the truth's stamps."""
+        """Return the positions (n, 2) of the truth's sensor according to the track, at the truth's stamps."""
         poses = compose(self.frame, at(track, stamps_s - self.delay_s))
         cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
         moved: FloatArray = poses[:, :2] + np.stack([cos * self.lever_x_m - sin * self.lever_y_m,
@@ -39,10 +40,13 @@ class TruthFit(NamedTuple):
 
 
 def fit(track: PoseTrack, stamps_s: FloatArray, positions: FloatArray) -> TruthFit:
-    """The fit in the sense of least squares with outliers. ValueError when there are too few points.
+    """Return the robust least-squares fit.
 
     Args:
         stamps_s, positions: (n) in s and (n, 2) in m, of the truth.
+
+    Raises:
+        ValueError: there are too few points.
     """
     inside = within(track, stamps_s)
     if inside.sum() < MIN_POINTS:
@@ -56,14 +60,14 @@ def fit(track: PoseTrack, stamps_s: FloatArray, positions: FloatArray) -> TruthF
 
 
 def errors_m(found: TruthFit, track: PoseTrack, stamps_s: FloatArray, positions: FloatArray) -> FloatArray:
-    """Distances (n) between track and truth at the truth's stamps within the drive."""
+    """Return the distances (n) between track and truth at the truth's stamps within the drive."""
     inside = within(track, stamps_s)
     off: FloatArray = np.linalg.norm(found.positions(track, stamps_s[inside]) - positions[inside], axis=1)
     return off
 
 
 def within(track: PoseTrack, stamps_s: FloatArray) -> BoolArray:
-    """True where the track has poses, whatever the delay is."""
+    """Return True for stamps at which the track has poses, whatever the delay is."""
     first_s, last_s = track.stamps_s[0] + MAX_DELAY_S, track.stamps_s[-1] - MAX_DELAY_S
     inside: BoolArray = (stamps_s >= first_s) & (stamps_s <= last_s)
     return inside

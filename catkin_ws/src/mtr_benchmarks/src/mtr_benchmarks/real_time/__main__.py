@@ -1,6 +1,7 @@
-"""Runs the simulated robot in real time, idle and beside other work; figures go to real_time.json.
+"""Runs the simulated robot in real time, on an idle and on a busy machine; figures go to real_time.json.
 
-First its nodes' silences, latencies and restarts on the machine's clock, then whole Autolock tests beside the truth.
+First it measures silences, latencies and restarts of the nodes on the machine's clock; then it runs complete Autolock
+tests and compares them with the truth.
 
 Usage: python -m mtr_benchmarks.real_time --out out/bench
 """
@@ -32,7 +33,7 @@ PROBE_LIMIT_S = 20.0
 
 
 class Probe:
-    """The process that notes arrivals; see arrivals_probe."""
+    """Process that records arrivals; see arrivals_probe."""
 
     def __init__(self) -> None:
         self._process = subprocess.Popen([sys.executable, "-m", f"{__package__}.arrivals_probe"], text=True,
@@ -41,14 +42,14 @@ class Probe:
         self._process.stdout.readline()
 
     def close(self) -> Dict[str, Any]:
-        """What it noted."""
+        """End the process and return its records."""
         said, _ = self._process.communicate("", timeout=PROBE_LIMIT_S)
         noted: Dict[str, Any] = json.loads(said)
         return noted
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--short", action="store_true", help="a short drive and a few stops of each")

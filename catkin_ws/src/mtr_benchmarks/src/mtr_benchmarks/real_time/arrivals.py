@@ -1,4 +1,4 @@
-"""When the nodes spoke: how long each was silent, beyond the period that it promises."""
+"""Arrival times of the nodes' messages: silences beyond the nodes' promised periods."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, List, Mapping, NamedTuple, Sequence
 
@@ -11,7 +11,7 @@ NS = 1e-9
 
 
 class Voice(NamedTuple):
-    """A topic on which a node speaks at its ticks, and their slot; asked_by: it answers each message of that voice."""
+    """Topic that a node publishes at its ticks, and their slot. asked_by: each message answers one of that voice."""
 
     topic: str
     slot: Slot
@@ -31,7 +31,7 @@ VOICES: Mapping[str, Voice] = {
     "dispatcher": Voice(names.DESIRED_STATE, schedule.DISPATCHER),
     "controller_input": Voice(names.MOTION_LOCK, schedule.CONTROLLER_INPUT),
 }
-# What speaks besides, so that nobody is blamed for its silence.
+# Inputs of the nodes; their silence is not counted against the nodes.
 ASKING: Mapping[str, Voice] = {SENSORS: Voice(names.WHEEL_ODOMETRY, schedule.SENSORS)}
 
 
@@ -39,8 +39,8 @@ class Silence(NamedTuple):
     """Gaps between a node's messages, in s.
 
     Attributes:
-        due_s: after which it has to speak again: its period, or the longest gap of what it answers.
-        late: by how much of its period the longest gap was longer than that.
+        due_s: longest allowed gap: the node's period, or the longest gap of its input.
+        late: excess of the longest gap over due_s, as a share of the period.
     """
 
     period_s: float
@@ -54,9 +54,9 @@ class Silence(NamedTuple):
 
 def silence(times_s: Sequence[float], begin_s: float, end_s: float, period_s: float,
             asked_s: float = 0.0) -> Silence:
-    """Of arrivals on a steady clock in a stretch of it; one that ends or begins in silence counts that.
+    """Return the silence within an interval of arrivals on a steady clock; gaps at its ends count.
 
-    asked_s: longest silence of what it answers.
+    asked_s: longest silence of the node's input.
     """
     within = [time_s for time_s in times_s if begin_s <= time_s <= end_s]
     gaps_s = np.diff([begin_s, *within, end_s])
@@ -66,7 +66,7 @@ def silence(times_s: Sequence[float], begin_s: float, end_s: float, period_s: fl
 
 
 def silences(arrivals: Mapping[str, Sequence[float]], begin_s: float, end_s: float) -> Dict[str, Silence]:
-    """Of all nodes, and of what asks them."""
+    """Return the silences of all nodes and of their inputs."""
     asking = {name: silence(arrivals[name], begin_s, end_s, voice.slot.period_ns * NS)
               for name, voice in ASKING.items()}
     nodes = {node: silence(arrivals[node], begin_s, end_s, voice.slot.period_ns * NS,
@@ -76,5 +76,5 @@ def silences(arrivals: Mapping[str, Sequence[float]], begin_s: float, end_s: flo
 
 
 def by_node(callers: Mapping[str, Mapping[str, List[float]]]) -> Dict[str, List[float]]:
-    """Arrivals by topic and caller as arrivals by node."""
+    """Return arrivals by node from arrivals by topic and caller."""
     return {node: callers.get(voice.topic, {}).get(f"/{node}", []) for node, voice in {**VOICES, **ASKING}.items()}

@@ -1,7 +1,7 @@
-"""Notes when each node speaks, from "ready" on until its input ends; then one line of JSON. A process of its own.
+"""Records the arrival of each node's messages, from "ready" until its input ends; then prints one line of JSON.
 
-Times are of the monotonic clock; `tf_age_s` is how old map to odom was at its arrival: its stamp is the end of the
-sweep that it was made of.
+Times are of the monotonic clock. `tf_age_s` is the age of the transform map to odom at its arrival; its stamp is the
+end of the sweep from which it was computed.
 """
 # SPDX-License-Identifier: Apache-2.0
 import json
@@ -21,7 +21,7 @@ PRIORITY = 50
 
 
 def main() -> int:
-    """Run until the input ends."""
+    """Record until the input ends; return the exit status."""
     try:
         os.sched_setscheduler(0, os.SCHED_FIFO, os.sched_param(PRIORITY))
     except PermissionError:

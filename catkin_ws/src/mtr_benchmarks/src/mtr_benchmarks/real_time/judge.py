@@ -1,4 +1,4 @@
-"""Rows of the table: what the robot's nodes are to be in real time."""
+"""Rows of the table: real-time requirements on the robot's nodes."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -11,20 +11,21 @@ from .restarts import Restart
 
 
 class Machine(enum.Enum):
-    """What else the machine has to do."""
+    """Other load of the machine."""
 
     IDLE = "idle"
     BUSY = "busy"
 
 
-# A node that is silent for longer than its period and half of one more blocks its tick.
+# Allowed excess of a silence, as a share of the period; a longer silence delays the node's tick.
 LATE_SHARE = 0.5
-# On a busy machine the processor may be another's for a while; after 0.5 s of silence the robot would be in FAULT.
+# On a busy machine other programs may use the processor for a while; after 0.5 s of silence the robot would be in
+# FAULT.
 BUSY_SILENCE_GOAL_S, BUSY_SILENCE_S = 0.25, 0.5
 
 
 class Limits(NamedTuple):
-    """What is aimed for, and what must be; None: no limit."""
+    """Goal and limit; None: no limit."""
 
     goal: Optional[float]
     must: Optional[float]
@@ -40,7 +41,7 @@ def _of_both(name: str, unit: str, idle: Limits = NO_LIMITS, busy: Limits = NO_L
 
 SCAN_TO_TF = _of_both("end of a scan to map -> odom, 99 %", "s", Limits(0.02, 0.05), Limits(None, 0.25))
 STOP = _of_both("the Operator's stop to the first slower command, worst", "s", Limits(0.03, 0.1), Limits(None, 0.4))
-# For information: the robot plans its way before it sets off, and a message's way through ZeroMQ is the machine's.
+# For information: the robot plans its path before it starts, and the time through ZeroMQ depends on the machine.
 COMMAND = _of_both("a waypoint sent to the first velocity at the wheels, worst", "s")
 ECHO = _of_both("such a message through ZeroMQ alone and back, worst", "s")
 ALARMS = _of_both("alarms of the nodes", "(count)", Limits(None, 0.0), Limits(None, 0.0))
@@ -50,7 +51,7 @@ RESTARTS = Requirement("killed nodes after which the robot drove again", "(share
 
 def judged(found: Mapping[Machine, Stretch], arrivals: Mapping[str, Sequence[float]],
            tf_ages: Sequence[Tuple[float, float]]) -> Tuple[List[Row], Dict[str, Any]]:
-    """Rows and figures of the stretches."""
+    """Return rows and figures of the intervals."""
     rows: List[Row] = []
     figures: Dict[str, Any] = {
         "silences": {}, "scan_to_tf_s": {}, "stop_s": {}, "command_s": {}, "echo_s": {}, "cpu": {}}
@@ -71,7 +72,7 @@ def judged(found: Mapping[Machine, Stretch], arrivals: Mapping[str, Sequence[flo
 
 
 def silence_row(machine: Machine, node: str, found: Silence) -> Row:
-    """Of one node; nobody is blamed for the silence of what it answers."""
+    """Return the row of one node; the silence of its input is not counted."""
     must_s = BUSY_SILENCE_S
     goal_s: Optional[float] = BUSY_SILENCE_GOAL_S
     if machine is Machine.IDLE:
@@ -98,13 +99,13 @@ def _latency_row(wanted: Requirement, values_s: Sequence[float], part: float, re
 
 
 def _details(median_s: float, p99_s: float, max_s: float) -> Dict[str, Optional[float]]:
-    """As JSON takes them: what never came is not known."""
+    """Convert to JSON values: an infinite time is null."""
     return {name: value if math.isfinite(value) else None
             for name, value in (("p50_s", median_s), ("p99_s", p99_s), ("max_s", max_s))}
 
 
 def restart_row(made: Sequence[Restart]) -> Row:
-    """Of all deaths of nodes."""
+    """Return the row of all killed nodes."""
     recovered_s = [each.recovered_s for each in made if each.recovered_s is not None]
     return Row(RESTARTS, len(recovered_s) / len(made),
                remark=f"{len(made)} killed; at the latest after {max(recovered_s, default=0.0):.1f} s")
@@ -115,5 +116,5 @@ def _distribution(values: Sequence[float]) -> Dict[str, float]:
 
 
 def _quantile(values: Sequence[float], part: float) -> float:
-    """One of the values, so that what never came, infinity, is one too."""
+    """Return one of the values, so that the result may be infinite."""
     return sorted(values)[math.ceil(part * len(values)) - 1]

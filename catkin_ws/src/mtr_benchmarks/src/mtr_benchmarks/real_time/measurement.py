@@ -1,4 +1,4 @@
-"""One stretch of time of the robot: it maps the Car, drives round it, and is stopped now and then."""
+"""One measured interval of the robot: it maps the Car, drives around it, and is stopped repeatedly."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import time
@@ -14,7 +14,8 @@ from ..liveness.live_robot import LiveRobot
 from .arrivals import VOICES
 
 MAP_LIMIT_S, MOVES_LIMIT_S = 180.0, 90.0
-# Of the commands to the wheels: slower by so much is braking, below that is standing (rad/s, too).
+# Thresholds of wheel commands: a decrease by the first counts as braking, a value below the second as stopped (rad/s,
+# too).
 BRAKES_MPS, STANDS_MPS = 0.005, 0.001
 ZERO_LIMIT_S = 10.0
 ECHOES = 200
@@ -22,7 +23,7 @@ ECHO_BYTES = 100
 
 
 class Stop(NamedTuple):
-    """From the Operator's stop on: when the first command to the wheels was slower, and when it was zero; s."""
+    """Times from the Operator's stop to the first slower wheel command and to zero, s; and the speed before."""
 
     brakes_s: float
     zero_s: float
@@ -31,12 +32,12 @@ class Stop(NamedTuple):
 
 @dataclass(frozen=True)
 class Stretch:
-    """What was measured in it; times of the monotonic clock.
+    """Figures of an interval; times of the monotonic clock.
 
     Attributes:
-        starts_s: from a waypoint that the Operator sends to a robot that stands, to the first velocity at the wheels.
-        cpu: of a core, by node.
-        echoes_s: of a message of a Command's size through ZeroMQ and back, without the robot.
+        starts_s: from a waypoint, sent to a stopped robot, to the first velocity at the wheels.
+        cpu: share of a core, by node.
+        echoes_s: round trips of a message of a Command's size through ZeroMQ, without the robot.
     """
 
     begin_s: float
@@ -49,18 +50,22 @@ class Stretch:
 
 
 def measure(robot: LiveRobot, watch: AlarmWatch, drive_s: float, stops: int) -> Stretch:
-    """Map, drive for so long, stop and set off again so often; LiveError when the robot does not get through."""
+    """Map the Car, drive for drive_s, then stop and restart the drive `stops` times.
+
+    Raises:
+        LiveError: the robot does not get through.
+    """
     begin_s = time.monotonic()
     processes = {node: robot.process_of(f"/{node}") for node in VOICES}
     before = {node: cpu_s(process) for node, process in processes.items()}
     robot.map_car()
     robot.wait_for_motion(MOVES_LIMIT_S)
-    # What was so before it set off, as the stop that it stood by, is no alarm.
+    # States before the start, such as the stop that held the robot, are not alarms.
     watch.take()
     robot.wait_until(lambda: robot.knows_car, "the Car mapped", MAP_LIMIT_S)
     robot.wait_for_motion(MOVES_LIMIT_S)
     robot.watch(drive_s)
-    # A stop of the Operator's is a lock like others.
+    # A stop by the Operator engages a lock, which would count as an alarm.
     alarms = watch.take()
     made, starts_s = [], []
     for _ in range(stops):
@@ -72,7 +77,7 @@ def measure(robot: LiveRobot, watch: AlarmWatch, drive_s: float, stops: int) -> 
 
 
 def stop_once(robot: LiveRobot) -> Stop:
-    """Stop a robot that drives."""
+    """Stop a driving robot."""
     robot.wait_for_motion(MOVES_LIMIT_S)
     speed_mps, first = abs(robot.commands[-1].linear_mps), len(robot.commands)
     ordered_s = robot.stop()
@@ -86,7 +91,8 @@ def stop_once(robot: LiveRobot) -> Stop:
 
 
 def start_once(robot: LiveRobot) -> float:
-    """Send a robot that was stopped to its next place; s until its wheels are told to move, infinity when never."""
+    """Send a stopped robot to its next place; return the time to the first wheel command that moves it, s; infinite if
+    none."""
     robot.wait_for_standstill(ZERO_LIMIT_S)
     first, ordered_s = len(robot.commands), robot.drive_on()
     deadline_s = ordered_s + MOVES_LIMIT_S
@@ -103,7 +109,7 @@ def _tells_to_move(command: Motion) -> bool:
 
 
 def echoes_s(count: int = ECHOES) -> List[float]:
-    """How long the machine itself takes for a message there and back, through the loopback interface."""
+    """Return the round trips of messages through the machine's loopback interface, s."""
     context, found = zmq.Context.instance(), []
     near, far = context.socket(zmq.PAIR), context.socket(zmq.PAIR)
     try:

@@ -1,4 +1,4 @@
-"""What makes a machine busy: processes that compute, and one that writes to the disk."""
+"""Load for a busy machine: processes that compute, and one that writes to the disk."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import pathlib
@@ -22,10 +22,11 @@ while True:
 
 @contextlib.contextmanager
 def other_work(folder: pathlib.Path, computing: int = COMPUTING) -> Iterator[None]:
-    """Within the context other processes want all processors, and one writes 64 MiB to the folder again and again."""
+    """Run processes that use all processors, and one that repeatedly writes 64 MiB to the folder, within the
+    context."""
     written = folder / "other_work.bin"
     commands = [[sys.executable, "-c", _COMPUTE]] * computing + [[sys.executable, "-c", _WRITE, str(written)]]
-    # Sessions of their own: a scheduler that shares by session takes them for programs that have nothing in common.
+    # With separate sessions, a scheduler that shares by session treats them as independent programs.
     processes = [subprocess.Popen(command, start_new_session=True) for command in commands]
     try:
         yield

@@ -1,4 +1,4 @@
-"""Nodes are killed in the middle of a drive; roslaunch starts each again, and the robot is to drive on."""
+"""Kills nodes during a drive; roslaunch restarts each, and the robot must drive on."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import os
@@ -12,27 +12,27 @@ from mtr_proto import robot_link_pb2 as link
 from ..liveness.live_robot import LiveError, LiveRobot
 from .arrivals import VOICES
 
-# Those that know where the Car is come last: it is forgotten with them, and a person has to put the robot at the
+# Nodes that know the Car's position are last: the position is lost with them, and a person must put the robot at the
 # starting place.
 KNOWING = ("car_locator", "localization")
 NODES = (*(node for node in VOICES if node not in KNOWING), *KNOWING)
 ROUNDS = 3
-# roslaunch waits 2 s; after a loss of position or of the Car it is mapped again, which takes a minute.
+# roslaunch waits 2 s; after a loss of the position or of the Car, the Car is mapped again, which takes a minute.
 RECOVERS_LIMIT_S = 180.0
-# A robot that is in FAULT for longer than a node takes to start does not find back by itself.
+# A robot that is in FAULT for longer than the start of a node does not recover by itself.
 PATIENCE_S = 10.0
-# After a death the wheels are told to stop by others, or the base stops for want of commands.
+# After a kill, other nodes stop the wheels, or the base stops because it receives no commands.
 STANDS_WITHIN_S = 2.0
 STANDS_MPS = 0.05
 
 
 class Restart(NamedTuple):
-    """One death of a node.
+    """One killed node.
 
     Attributes:
-        stood_s: from it on until the wheels stood; None when they did not within the limit, as others drive on.
-        recovered_s: until the robot drove again with the new process; None when it did not.
-        mapped_again: the Car had to be.
+        stood_s: time until the wheels stopped; None if they did not within the limit, because other nodes drive on.
+        recovered_s: time until the robot drove again with the new process; None if it did not.
+        mapped_again: the Car had to be mapped again.
     """
 
     node: str
@@ -44,7 +44,7 @@ class Restart(NamedTuple):
 
 
 def restarts(robot: LiveRobot, rounds: int, nodes: Sequence[str] = NODES) -> List[Restart]:
-    """Each node so often; the measurement ends where the robot does not recover."""
+    """Kill each node once per round; stop the measurement if the robot does not recover."""
     made: List[Restart] = []
     for node in [*nodes] * rounds:
         made.append(restart(robot, node))
@@ -54,7 +54,7 @@ def restarts(robot: LiveRobot, rounds: int, nodes: Sequence[str] = NODES) -> Lis
 
 
 def restart(robot: LiveRobot, node: str) -> Restart:
-    """Kill a node of a robot that drives."""
+    """Kill a node of a driving robot."""
     robot.wait_until(lambda: robot.knows_car, "the Car mapped", RECOVERS_LIMIT_S)
     robot.wait_for_motion(RECOVERS_LIMIT_S)
     killed, speed_mps = robot.process_of(f"/{node}"), abs(robot.wheels[-1].linear_mps)
@@ -73,7 +73,7 @@ def restart(robot: LiveRobot, node: str) -> Restart:
 
 
 class _Help:
-    """What an Operator does meanwhile: releases the emergency stop, and has the Car mapped when it is asked for."""
+    """Actions of an Operator: releases the emergency stop, and orders a map of the Car if the robot requests it."""
 
     def __init__(self, robot: LiveRobot):
         self._robot = robot
@@ -81,7 +81,7 @@ class _Help:
         self._begun_s: Optional[float] = None
 
     def give(self) -> bool:
-        """Always True, so that it may stand in a condition."""
+        """Help if necessary; return True, for use in a condition."""
         status = self._robot.status
         if status.emergency_stop == link.EMERGENCY_STOP_ENGAGED:
             self._robot.hold_release()

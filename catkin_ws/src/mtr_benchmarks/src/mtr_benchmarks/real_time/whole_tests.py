@@ -1,4 +1,4 @@
-"""Whole Autolock tests on the wall clock, each on a robot that is started for it: which of them come to their end."""
+"""Complete Autolock tests on the wall clock, each on a newly started robot; counts the completed ones."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import os
@@ -15,13 +15,13 @@ from .judge import Machine
 from .other_work import other_work
 
 SCENARIO = "autolock"
-# Of each machine. The axes of the issue's test, eight, each driven once.
+# Number of tests on each machine; each test drives eight axes once.
 TESTS = 10
 PARAMETERS: Dict[str, Any] = {
     "minimum_distance_m": 0.5, "maximum_distance_m": 4.0, "straightening_distance_m": 0.5,
     "measurements_distance_m": 10.0, "key_height_m": 1.0, "maximum_speed_mps": 1.0, "passes": 1,
     "measuring_speeds_mps": [0.4]}
-# Distances of such a test: to unlock and to lock on each axis.
+# Distances of such a test: unlocking and locking on each axis.
 DISTANCES = 16
 
 
@@ -29,8 +29,8 @@ class WholeTest(NamedTuple):
     """One test.
 
     Attributes:
-        took_s: of the wall clock, with the robot's start and end.
-        load: programs that wanted a processor in its last five minutes, its own among them, by the system.
+        took_s: wall time, including start and end of the robot.
+        load: the system's load average over the last five minutes, including the test itself.
     """
 
     machine: Machine
@@ -41,19 +41,19 @@ class WholeTest(NamedTuple):
 
     @property
     def is_whole(self) -> bool:
-        """The application ended well, and every distance is there and ok."""
+        """True if the application ended well, and every distance exists and is ok."""
         lines = self.made.lines[SCENARIO]
         return self.made.statuses[SCENARIO] == 0 and len(lines) == DISTANCES == len(good(lines))
 
     @property
     def errors_m(self) -> List[float]:
-        """Of the distances that have their true event."""
+        """Errors of the distances that have a true event."""
         return [abs(each.error_m) for each in good(self.made.lines[SCENARIO])]
 
 
 def whole_tests(folder: pathlib.Path, machines: Sequence[Machine], seeds: Sequence[int], simulator: str = MUJOCO, *,
                 run_one: Callable[[str, RunOptions], Run] = run) -> List[WholeTest]:
-    """Run a test for each seed on each machine; what is left of an earlier run with the same one is deleted."""
+    """Run a test for each seed on each machine; delete the results of earlier runs with the same seed."""
     folder.mkdir(parents=True, exist_ok=True)
     parameters = folder / f"{SCENARIO}.yaml"
     parameters.write_text(yaml.safe_dump(PARAMETERS), encoding="utf-8")
@@ -70,7 +70,7 @@ def whole_tests(folder: pathlib.Path, machines: Sequence[Machine], seeds: Sequen
 
 
 def rows_of_tests(made: Sequence[WholeTest]) -> List[Row]:
-    """What the tests of each machine had to be."""
+    """Return the rows of the tests on each machine."""
     return [row for machine in Machine for row in _rows_of(machine, [each for each in made if each.machine is machine])]
 
 
@@ -90,7 +90,7 @@ def _rows_of(machine: Machine, made: Sequence[WholeTest]) -> List[Row]:
 
 
 def line_of(test: WholeTest) -> str:
-    """What a person reads of one test."""
+    """Return a line about one test for a person."""
     status, lines = test.made.statuses[SCENARIO], test.made.lines[SCENARIO]
     said = "whole" if test.is_whole else f"NOT whole (exit status {status})"
     factor = test.made.notes.real_time_factor
@@ -101,7 +101,7 @@ def line_of(test: WholeTest) -> str:
 
 
 def figures_of_tests(made: Sequence[WholeTest]) -> List[Dict[str, Any]]:
-    """Everything about each."""
+    """Return all figures of each test."""
     return [{"machine": each.machine.value, "seed": each.seed, "took_s": each.took_s, "load": each.load,
              **figures_of(each.made)} for each in made]
 

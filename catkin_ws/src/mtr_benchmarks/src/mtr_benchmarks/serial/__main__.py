@@ -13,16 +13,16 @@ from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row
 from .echo import EchoFigures, measure_echo
 
-# At 57600 baud, as it was asked for; the goal is the figure of firmware/README.md.
+# Requirement at 57600 baud; the goal is the figure of firmware/README.md.
 MEDIAN = Requirement("command to echo, median", "ms", goal=5.5, must=6.0)
 P95 = Requirement("command to echo, 95 %", "ms")
 MAXIMUM = Requirement("command to echo, maximum", "ms")
-# Nothing disturbs this line.
+# No interference acts on this line.
 LOST = Requirement("commands without an echo", "(count)", must=0.0)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     options = parser.parse_args(arguments)
@@ -30,7 +30,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def report(echo: EchoFigures) -> BenchmarkReport:
-    """Figures and rows."""
+    """Return figures and rows."""
     rows = [Row(MEDIAN, echo.echo_p50_ms), Row(P95, echo.echo_p95_ms), Row(MAXIMUM, echo.echo_max_ms),
             Row(LOST, echo.commands - echo.echoes)]
     return BenchmarkReport(rows, asdict(echo))

@@ -1,4 +1,4 @@
-"""How long the host waits for the firmware's answer to a command, on the emulated board in real time, without ROS."""
+"""Measures the round trip of a command to the firmware, on the emulated board in real time, without ROS."""
 # SPDX-License-Identifier: Apache-2.0
 import io
 import statistics
@@ -20,24 +20,24 @@ from mtr_serial_link.session import SerialSession, SessionEvent
 
 COMMANDS = 400
 PERIOD_S = 0.05
-# Not a whole part of the firmware's reporting period, so that commands meet each phase of it.
+# The period is not a multiple of the firmware's reporting period, so that commands meet each of its phases.
 PERIOD_STEP_S = 0.0013
 LINK_LIMIT_S = 5.0
-# An echo that has not come by then is lost; one that comes late, on a machine that is busy, is not.
+# An echo after this time counts as lost; the limit tolerates delays of a busy machine.
 ECHO_LIMIT_S = 1.0
-# Fewer round trips have no 95 %.
+# Fewer round trips have no 95th percentile.
 MIN_ECHOES = 20
-# The lift stays where it is.
+# NaN: the lift keeps its height.
 KEPT_HEIGHT_M = float("nan")
-# The firmware's time, first field of FirmwareState; it obeys a command up to so much later.
+# Time of the firmware, first field of FirmwareState; lead by which a command expires after it.
 TIME_US, LEAD_US = struct.Struct("<I"), 500_000
 
 
 class EchoTimer(LineObserver):
-    """Takes the time at which the echo of each command arrives.
+    """Records the arrival of each command's echo.
 
     Attributes:
-        linked: the device takes commands.
+        linked: the device accepts commands.
         time_us: newest time of the firmware's clock.
     """
 
@@ -49,7 +49,7 @@ class EchoTimer(LineObserver):
         self.time_us = 0
 
     def event(self, event: SessionEvent) -> None:
-        """The session has something to act on."""
+        """Handle an event of the session."""
         if event.opened and names.FIRMWARE_COMMAND in self._session.endpoints.to_device:
             self.linked.set()
         name = self._session.endpoints.by_id[event.message.topic_id].info.name if event.message else ""
@@ -61,12 +61,12 @@ class EchoTimer(LineObserver):
                 self._arrived.notify_all()
 
     def clear(self) -> None:
-        """Forget what has come so far."""
+        """Discard the recorded echoes."""
         with self._arrived:
             self._arrivals.clear()
 
     def wait_for(self, number: int, limit_s: float) -> Optional[float]:
-        """When the echo of a command arrived, by a clock that never steps; None when it did not within the limit."""
+        """Return the arrival of a command's echo on the monotonic clock; None if it did not arrive within the limit."""
         with self._arrived:
             self._arrived.wait_for(lambda: number in self._arrivals, limit_s)
             return self._arrivals.get(number)
@@ -74,7 +74,7 @@ class EchoTimer(LineObserver):
 
 @dataclass(frozen=True)
 class EchoFigures:
-    """Round trips of commands; times are None when too few came back."""
+    """Round trips of commands; times are None if there are too few."""
 
     commands: int
     echoes: int
@@ -85,7 +85,7 @@ class EchoFigures:
 
 
 def measure_echo() -> EchoFigures:
-    """Round trips of commands to the emulated board."""
+    """Measure round trips of commands to the emulated board."""
     parameters = SerialParameters()
     session = SerialSession(parameters, md5_of, time.time_ns)
     timer = EchoTimer(session)
@@ -102,7 +102,7 @@ def measure_echo() -> EchoFigures:
 
 
 def figures_of(trips_ms: List[float], baud: int) -> EchoFigures:
-    """Median, 95 % and maximum."""
+    """Return median, 95th percentile and maximum."""
     if len(trips_ms) < MIN_ECHOES:
         return EchoFigures(COMMANDS, len(trips_ms), baud, None, None, None)
     return EchoFigures(COMMANDS, len(trips_ms), baud, statistics.median(trips_ms),
@@ -110,7 +110,7 @@ def figures_of(trips_ms: List[float], baud: int) -> EchoFigures:
 
 
 def round_trip(line: SerialLine, timer: EchoTimer, number: int) -> List[float]:
-    """Time in ms from queueing a command to receiving its echo; nothing when it was lost."""
+    """Return the time in ms from queueing a command to receiving its echo; empty if it was lost."""
     buffer = io.BytesIO()
     seal(FirmwareCommand(seq=number, lift_height_m=KEPT_HEIGHT_M, led_pattern=2,
                          latest_us=(timer.time_us + LEAD_US) % 2 ** 32)).serialize(buffer)

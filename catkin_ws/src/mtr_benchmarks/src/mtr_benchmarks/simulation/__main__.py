@@ -17,12 +17,12 @@ from .whole_stack import WholeStackFigures, measure_whole_stack
 PHYSICS = Requirement("physics and both LiDARs, x real time", "(x)")
 TICK_MEDIAN = Requirement("a tick of 20 ms: processor time, median", "ms")
 TICK_P99 = Requirement("a tick of 20 ms: processor time, 99 %", "ms")
-# The promise for a machine of two cores that does nothing else; start-up and pictures are in it.
+# Limit for an otherwise idle machine with two cores, including start-up and pictures.
 WHOLE_STACK = Requirement("whole stack, x real time", "(x)", must=7.0, at_least=True)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     options = parser.parse_args(arguments)
@@ -31,7 +31,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def report(physics: PhysicsFigures, stack: WholeStackFigures) -> BenchmarkReport:
-    """Figures and rows of both."""
+    """Return figures and rows of both parts."""
     rows = [Row(PHYSICS, physics.real_time_factor), Row(TICK_MEDIAN, physics.tick_median_ms),
             Row(TICK_P99, physics.tick_p99_ms), Row(WHOLE_STACK, stack.real_time_factor, not stack.problems)]
     return BenchmarkReport(rows, {**asdict(physics), "whole_stack": asdict(stack)}, list(stack.problems))

@@ -14,7 +14,7 @@ TICK_S = CLOCK_STEP.period_ns * 1e-9
 
 @dataclass(frozen=True)
 class PhysicsFigures:
-    """Speed, and processor time of a tick."""
+    """Speed, and processor time per tick."""
 
     real_time_factor: float
     tick_median_ms: float
@@ -22,7 +22,7 @@ class PhysicsFigures:
 
 
 def measure_physics() -> PhysicsFigures:
-    """Drive one minute of simulated time."""
+    """Measure one minute of simulated time."""
     sim = Sim(1, named_scenario("lot"))
     ticks_ms = []
     for _ in range(round(SIMULATED_S / TICK_S)):

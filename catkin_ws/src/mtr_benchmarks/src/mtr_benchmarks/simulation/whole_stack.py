@@ -1,4 +1,4 @@
-"""Speed of everything together: the demo with both scenarios, the robot's nodes, the simulator and the application."""
+"""Speed of the complete demo: both scenarios, the robot's nodes, the simulator and the application."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from dataclasses import dataclass
@@ -10,7 +10,8 @@ from mtr_bringup.stack import StackError
 
 @dataclass(frozen=True)
 class WholeStackFigures:
-    """Robot time by wall time, start-up and pictures included; None when the demo failed, which problems explain."""
+    """Robot time divided by wall time, including start-up and pictures; None if the demo failed, with the problems as
+    reason."""
 
     real_time_factor: Optional[float]
     robot_s: Optional[float] = None
@@ -19,7 +20,7 @@ class WholeStackFigures:
 
 
 def measure_whole_stack(folder: pathlib.Path) -> WholeStackFigures:
-    """Run the demo with its results in a folder, whose former content is deleted."""
+    """Run the demo with its results in a folder, whose previous content is deleted."""
     try:
         demo = run_demo(DemoOptions(folder))
     except (StackError, DemoError) as error:

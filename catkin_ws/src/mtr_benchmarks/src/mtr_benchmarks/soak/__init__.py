@@ -1,2 +1,2 @@
-"""Hours of the robot's time with faults sprinkled in: does anything grow, does accuracy stay?"""
+"""Runs the robot for hours of its time with random faults, and checks for growing resources and decreasing accuracy."""
 # SPDX-License-Identifier: Apache-2.0

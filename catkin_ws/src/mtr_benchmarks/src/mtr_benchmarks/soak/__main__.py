@@ -1,5 +1,6 @@
-"""Lets the simulated robot work for hours of its time with faults sprinkled in; figures go to soak.json, and what each
-process used, as it is seen, to soak/samples.csv.
+"""Runs the simulated robot for hours of its time with random faults; figures go to soak.json.
+
+The resources of each process are written to soak/samples.csv while they are sampled.
 
 Usage: python -m mtr_benchmarks.soak --hours 8 --out out/bench
 """
@@ -28,7 +29,7 @@ WORSE = Requirement("position error at the end beyond that at the beginning and 
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Work; the exit status says whether anything grew."""
+    """Run; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--hours", type=float, default=1.0, help="of the robot's time, default %(default)s")
@@ -51,7 +52,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def report(samples: Samples, wanderer: Wanderer, hours: float, is_whole: bool) -> BenchmarkReport:
-    """Figures and table."""
+    """Return figures and table."""
     trends = {quantity: trends_of(samples, quantity) for quantity in QUANTITIES}
     before, after = by_halves(wanderer.places)
     worse_m, half_width_m = difference(before, after)
@@ -59,7 +60,7 @@ def report(samples: Samples, wanderer: Wanderer, hours: float, is_whole: bool) -
     rows = [Row(FAILED, len(wanderer.failures), is_whole,
                 remark=f"{hours:.2f} h, {sum(wanderer.faults.values())} faults"),
             Row(UNSEEN, len(missing), is_whole, remark=", ".join(missing))]
-    # What nobody looked at has not grown either.
+    # A process without samples is not evidence of constant resources.
     is_seen = is_whole and not missing
     rows += [Row(Requirement(GROWING.format(quantity), "(count)", must=0.0), growing(list(found.values())), is_seen,
                  remark=f"sum {sum(each.per_hour for each in found.values()):+.3g} an hour")

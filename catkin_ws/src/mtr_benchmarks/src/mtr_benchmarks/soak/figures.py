@@ -1,4 +1,4 @@
-"""Figures of what was seen while the robot wandered. No ROS inside."""
+"""Figures of the samples that were taken while the robot wandered. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 from typing import Callable, Dict, Iterator, List, NamedTuple, Sequence, Tuple
@@ -11,19 +11,19 @@ from .trend import Trend, trend_of
 QUANTITIES: Dict[str, Callable[[Usage], float]] = {
     "memory, MiB": lambda usage: usage.private_mib, "open files": lambda usage: usage.files,
     "threads": lambda usage: usage.threads, "bytes waiting in sockets": lambda usage: usage.queued_bytes}
-# Of the time: pools, caches and the first map fill until then.
+# Share of the time in which pools, caches and the first map fill.
 WARM_UP_SHARE = 0.2
-# Of a soak on the robot in lock-step: its nodes and what ROS needs beside them.
+# Processes of a soak on the robot in lock-step: its nodes and the processes of ROS.
 PROCESSES = ("simulator", "drive_control", "localization", "motion_planner", "car_locator", "state_machine",
              "peripherals", "dispatcher", "fault_injection", "robot_state_publisher", "rosmaster", "rosout")
-# From the robot's start to the first look, and from the last one to the end: looks are 10 s apart, and one of a busy
-# machine comes late, s of the robot's time.
+# Longest time without a sample, s of the robot's time, also at the start and at the end; samples are 10 s apart, and
+# delayed on a busy machine.
 MAX_UNSEEN_S = 60.0
 Samples = Dict[str, List[Tuple[float, Usage]]]
 
 
 class Place(NamedTuple):
-    """Where the robot stood, how far from there it said to be (m), and by which order to map the Car it knows."""
+    """Stop of the robot: its position error in m, and the id of the map on which it was localized."""
 
     time_s: float
     error_m: float
@@ -31,7 +31,7 @@ class Place(NamedTuple):
 
 
 def trends_of(samples: Samples, quantity: str) -> Dict[str, Trend]:
-    """Slope of a quantity by process, after the warm-up; those that were there for too short a time have none."""
+    """Return the slope of a quantity by process, after the warm-up; processes with too few samples are left out."""
     found = {}
     for name, each in samples.items():
         begin_s = each[0][0] + WARM_UP_SHARE * (each[-1][0] - each[0][0])
@@ -44,7 +44,7 @@ def trends_of(samples: Samples, quantity: str) -> Dict[str, Trend]:
 
 
 def unseen(samples: Samples, end_s: float) -> List[str]:
-    """Processes that are missing, or were not seen from the robot's start until an end, s, or too seldom."""
+    """Return processes that are missing, or have gaps without samples between the robot's start and end_s."""
     trends = trends_of(samples, next(iter(QUANTITIES)))
     return [name for name in sorted({*PROCESSES, *samples}) if name not in trends or any(
         after - before > MAX_UNSEEN_S for before, after in _pauses(samples[name], end_s))]
@@ -56,7 +56,7 @@ def _pauses(samples: Sequence[Tuple[float, Usage]], end_s: float) -> Iterator[Tu
 
 
 def by_halves(places: Sequence[Place]) -> Tuple[List[float], List[float]]:
-    """Mean errors of the maps of the first and of the last half: places on one map share the map's error."""
+    """Return mean errors of the maps of the first and the last half; places on one map share the map's error."""
     ordered = sorted(places, key=lambda place: place.map_id)
     maps = [mean([place.error_m for place in group])
             for _, group in itertools.groupby(ordered, key=lambda place: place.map_id)]
@@ -64,5 +64,5 @@ def by_halves(places: Sequence[Place]) -> Tuple[List[float], List[float]]:
 
 
 def mean(values: Sequence[float]) -> float:
-    """Of some values; not a number for none."""
+    """Return the mean of the values; NaN without values."""
     return float(np.mean(values)) if len(values) else float("nan")

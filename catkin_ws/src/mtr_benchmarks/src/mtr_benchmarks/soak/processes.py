@@ -1,4 +1,4 @@
-"""What the robot's processes use of memory, files, threads and waiting bytes, by /proc. No ROS inside."""
+"""Memory, files, threads and queued bytes of the robot's processes, from /proc. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
@@ -8,15 +8,15 @@ from typing import Dict, Iterable, List, Optional, Set
 
 PROC = pathlib.Path("/proc")
 PAGE_MIB = 4096 / 2 ** 20
-# What roslaunch calls a node.
+# Argument with which roslaunch names a node.
 _NAME = re.compile(r"__name:=(\w+)")
-# Fields of /proc/PID/net/tcp: bytes that wait to be sent and to be read, and the socket's number.
+# Fields of /proc/PID/net/tcp: bytes waiting to be sent and to be read, and the socket's number.
 _QUEUES, _INODE = 4, 9
 
 
 @dataclass(frozen=True)
 class Usage:
-    """Of one process. private_mib: memory that is its own and in use; queued_bytes: in its sockets, either way."""
+    """Usage of one process. private_mib: resident private memory; queued_bytes: in its sockets, both directions."""
 
     private_mib: float
     files: int
@@ -25,7 +25,7 @@ class Usage:
 
 
 def below(parent: int, proc: pathlib.Path = PROC) -> Dict[int, str]:
-    """All processes that a process has started, and those that they have, each with the name of its node or program."""
+    """Return the descendants of a process, each with the name of its node or program."""
     children: Dict[int, List[int]] = {}
     for stat in proc.glob("[0-9]*/stat"):
         try:
@@ -42,7 +42,8 @@ def below(parent: int, proc: pathlib.Path = PROC) -> Dict[int, str]:
 
 
 def usage_of(process: int, waiting: Dict[str, int], proc: pathlib.Path = PROC) -> Optional[Usage]:
-    """Of a process now; None when it is gone. waiting: bytes by the number of a socket, see waiting_bytes."""
+    """Return the current usage of a process; None if it has ended. waiting: bytes by socket number, see
+    waiting_bytes."""
     folder = proc / str(process)
     try:
         pages = (folder / "statm").read_text(encoding="ascii").split()
@@ -56,7 +57,7 @@ def usage_of(process: int, waiting: Dict[str, int], proc: pathlib.Path = PROC) -
 
 
 def waiting_bytes(proc: pathlib.Path = PROC) -> Dict[str, int]:
-    """Bytes in the queues of all sockets of TCP, by their numbers."""
+    """Return the bytes in the queues of all TCP sockets, by socket number."""
     found: Dict[str, int] = {}
     for name in ("tcp", "tcp6"):
         path = proc / "net" / name

@@ -1,4 +1,4 @@
-"""What a soak sees, as it sees it: hours that are ended by force still tell what grew. No ROS inside."""
+"""Writes the samples of a soak immediately, so that they remain if the soak is killed. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import pathlib
@@ -12,11 +12,11 @@ COLUMNS = ("time_s", "process", *(field.name for field in fields(Usage)))
 
 
 class SamplesFile:
-    """A CSV file with a line for each look at a process; use as a context manager."""
+    """CSV file with a line for each sample of a process; use as a context manager."""
 
     def __init__(self, path: pathlib.Path):
         path.parent.mkdir(parents=True, exist_ok=True)
-        # Line by line, for whoever looks while it runs.
+        # Line buffering allows reading the file while the soak runs.
         self._file = path.open("w", encoding="utf-8", newline="", buffering=1)
         self._rows = csv.writer(self._file, lineterminator="\n")
         self._rows.writerow(COLUMNS)
@@ -29,6 +29,6 @@ class SamplesFile:
         self._file.close()
 
     def add(self, time_s: float, name: str, usage: Usage) -> None:
-        """Of one process at a time of the robot, s."""
+        """Add a sample of one process at a time of the robot, s."""
         self._rows.writerow((f"{time_s:.1f}", name, *(f"{value:.3f}" if isinstance(value, float) else value
                                                       for value in astuple(usage))))

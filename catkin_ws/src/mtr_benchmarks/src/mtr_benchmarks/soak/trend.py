@@ -1,4 +1,4 @@
-"""Does a figure grow? The slope of a series with its interval. No ROS inside."""
+"""Slope of a series with its confidence interval. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from typing import Dict, List, Sequence, Tuple
 import numpy as np
 from scipy import stats
 
-# Samples that follow each other are alike: a slope is taken of the means of so many blocks, which hardly are.
+# Consecutive samples are correlated; the slope uses the means of this number of blocks, which hardly are.
 BLOCKS = 12
 CONFIDENCE = 0.95
 HOUR_S = 3600.0
@@ -15,7 +15,7 @@ HOUR_S = 3600.0
 
 @dataclass(frozen=True)
 class Trend:
-    """A slope and half the width of its 95 % interval, for an hour. p: chance of such a one where there is none."""
+    """Slope per hour and half the width of its 95 % interval. p: probability of such a slope without a trend."""
 
     per_hour: float
     half_width: float
@@ -23,26 +23,30 @@ class Trend:
 
     @property
     def is_flat(self) -> bool:
-        """True when the interval holds zero."""
+        """True if the interval contains zero."""
         return abs(self.per_hour) <= self.half_width
 
 
 def trend_of(samples: Sequence[Tuple[float, float]]) -> Trend:
-    """Of (time, value); ValueError for fewer than three blocks."""
+    """Return the trend of (time, value).
+
+    Raises:
+        ValueError: there are fewer than three blocks.
+    """
     times_s, values = blocks(samples)
     if len(times_s) < 3:
         raise ValueError("A slope with its interval needs three blocks of samples.")
     hours = np.asarray(times_s) / HOUR_S
     fit = stats.linregress(hours, values)
     if not np.any(np.asarray(values) != values[0]):
-        # Nothing ever changed.
+        # The value is constant.
         return Trend(0.0, 0.0, 1.0)
     half_width = float(fit.stderr * stats.t.ppf(0.5 + 0.5 * CONFIDENCE, len(hours) - 2))
     return Trend(float(fit.slope), half_width, float(fit.pvalue))
 
 
 def blocks(samples: Sequence[Tuple[float, float]]) -> Tuple[Sequence[float], Sequence[float]]:
-    """Mean time and mean value of each of the blocks of equal time that have samples."""
+    """Return the mean time and mean value of each block of equal time that has samples."""
     if not samples:
         return [], []
     begin_s, end_s = samples[0][0], samples[-1][0]
@@ -55,7 +59,7 @@ def blocks(samples: Sequence[Tuple[float, float]]) -> Tuple[Sequence[float], Seq
 
 
 def growing(trends: Sequence[Trend]) -> int:
-    """How many of several grow, where one in twenty would seem to by chance: by Holm's way, at 5 % for all together."""
+    """Return the number of growing series by Holm's method, with 5 % for all of them together."""
     ordered = sorted((each.p, each.per_hour > 0.0) for each in trends)
     found = 0
     for index, (p, grows) in enumerate(ordered):
@@ -66,7 +70,7 @@ def growing(trends: Sequence[Trend]) -> int:
 
 
 def difference(before: Sequence[float], after: Sequence[float]) -> Tuple[float, float]:
-    """Mean of the later values less that of the earlier ones, and half the width of its 95 % interval (Welch)."""
+    """Return the later minus the earlier mean, and half the width of its 95 % interval (Welch)."""
     if min(len(before), len(after)) < 2:
         return math.nan, math.nan
     squares = [float(np.var(each, ddof=1)) / len(each) for each in (before, after)]

@@ -1,4 +1,4 @@
-"""A robot that goes from state to state at random, with a fault now and then; what its processes use."""
+"""Moves a robot between random states with random faults, and samples the usage of its processes."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -13,17 +13,17 @@ from .figures import Place
 from .processes import Usage, below, usage_of, waiting_bytes
 from .samples_file import SamplesFile
 
-# s of the robot's time between two looks at the processes; of wall time between two looks at the robot's clock.
+# Period of the samples in s of the robot's time, and period of the check of the robot's clock in s of wall time.
 LOOK_S, POLL_S = 10.0, 0.1
-# How often it goes where.
+# Destinations; frequent ones are repeated.
 WAYS = (MAPPING, DRIVING, DRIVING, DRIVING, WAITING, LIFTING, LIFTING)
 FAULT_SHARE = 0.6
-# After a fault, s of the robot's time, and until it is none any more.
+# Waiting time after a fault, s of the robot's time.
 AFTER_S = 3.0
 
 
 class Processes(threading.Thread):
-    """Looks at all processes of a robot while it runs, and writes down what it sees.
+    """Samples all processes of a running robot and writes the samples to a file.
 
     Attributes:
         samples: (time, usage) by the name of node or program.
@@ -36,7 +36,7 @@ class Processes(threading.Thread):
         self._path = path
 
     def run(self) -> None:
-        """Until it is ended."""
+        """Sample until `end` is called."""
         due_s = self._robot.now_s
         with SamplesFile(self._path) as file:
             while not self._over.wait(POLL_S):
@@ -52,13 +52,19 @@ class Processes(threading.Thread):
                         file.add(now_s, name, usage)
 
     def end(self) -> None:
-        """Look no more."""
+        """Stop sampling."""
         self._over.set()
         self.join()
 
 
 class Wanderer:
-    """places: where it stood. faults: how many, by their names. failures: what it did not come back from."""
+    """Moves the robot between random states.
+
+    Attributes:
+        places: stops with position errors.
+        faults: number of faults, by name.
+        failures: faults from which the robot did not recover.
+    """
 
     def __init__(self, robot: FaultyRobot, seed: int):
         self.places: List[Place] = []
@@ -68,7 +74,7 @@ class Wanderer:
         self._cells = [cell for cell in read_matrix().cells if cell.robot == LOCKSTEP]
 
     def go(self, until_s: float) -> bool:
-        """Wander until a time of the robot; False when it cannot go on before."""
+        """Wander until a time of the robot; return False if the robot cannot continue before."""
         failed = 0
         while self._robot.now_s < until_s and failed < 2:
             try:

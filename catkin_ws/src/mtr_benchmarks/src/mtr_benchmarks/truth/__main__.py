@@ -14,7 +14,7 @@ from ..harness.rows import Requirement, Row
 from .campaign import TruthFigures, run_campaign
 
 LINES = 10_000
-# A car maker decides on a distance that says ok; an invalid line costs a repetition.
+# A car maker relies on an ok distance; an invalid line only costs a repetition.
 WRONG = Requirement("wrong and ok: more than 3 sigma or 5 cm off, or of another cause", "(count)", must=0.0)
 WITHOUT_CAUSE = Requirement("invalid without a cause, of all lines", "(share)", must=0.01)
 UNDISTURBED = Requirement("undisturbed lines invalid", "(count)", must=0.0)
@@ -22,7 +22,7 @@ INVALID = Requirement("invalid, of all lines", "(share)")
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Measure; the exit status says whether every row is what it must be."""
+    """Measure; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--seed", type=int, default=1)
@@ -32,7 +32,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def report(found: TruthFigures) -> BenchmarkReport:
-    """Figures and rows."""
+    """Return figures and rows."""
     rows = [Row(WRONG, found.wrong_and_ok), Row(WITHOUT_CAUSE, found.share_without_cause),
             Row(UNDISTURBED, found.undisturbed_invalid), Row(INVALID, found.invalid / found.lines)]
     remarks = [f"{kind}: {counts['lines']} lines, {counts['wrong']} wrong, {counts['invalid']} invalid"

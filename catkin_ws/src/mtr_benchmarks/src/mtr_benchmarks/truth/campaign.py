@@ -1,4 +1,4 @@
-"""Many lines on all processors, and the figures over them."""
+"""Measures many lines on all processors, and summarizes them."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import concurrent.futures
@@ -17,7 +17,7 @@ _EXAMPLES = 20
 
 @dataclass(frozen=True)
 class TruthFigures:
-    """Counts of lines. by_kind: of each disturbance how many lines, wrong, invalid. examples: some wrong lines."""
+    """Counts of lines. by_kind: number of lines, wrong and invalid ones by disturbance. examples: some of the lines."""
 
     seed: int
     lines: int
@@ -32,12 +32,12 @@ class TruthFigures:
 
     @property
     def share_without_cause(self) -> float:
-        """Of all lines."""
+        """Share of all lines."""
         return self.invalid_without_cause / self.lines
 
 
 def run_campaign(seed: int, lines: int, processes: int = 0) -> TruthFigures:
-    """Measure so many lines; 0 processes: as many as there are processors."""
+    """Measure the given number of lines; 0 processes: one per processor."""
     work = functools.partial(run_line, seed)
     if processes == 1:
         return figures(seed, [work(number) for number in range(lines)])
@@ -46,7 +46,7 @@ def run_campaign(seed: int, lines: int, processes: int = 0) -> TruthFigures:
 
 
 def figures(seed: int, lines: Sequence[Line]) -> TruthFigures:
-    """Figures over these lines."""
+    """Return the figures of these lines."""
     wrong = [line for line in lines if line.verdict is Verdict.WRONG]
     invalid = [line for line in lines if line.verdict is Verdict.INVALID]
     groundless = [line for line in invalid if not line.is_disturbed]

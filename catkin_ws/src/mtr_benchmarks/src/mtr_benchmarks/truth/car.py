@@ -1,4 +1,4 @@
-"""The Car: what moves its locks, when and why, and the frames that tell it."""
+"""Simulated Car: causes and times of lock changes, and the frames that report them."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
 from typing import Callable, List, NamedTuple, Optional, Tuple
@@ -7,12 +7,12 @@ LOCK_ID = 0x320
 CYCLE_S = 0.02
 # LastCommandSource of the demo car's DBC.
 SOURCE_NONE, SOURCE_VICINITY, SOURCE_BUTTON = 0, 1, 2
-# LockStateChanged is set for so long.
+# Time for which LockStateChanged is set.
 CHANGED_S = 0.1
 
 
 class Place(NamedTuple):
-    """Where the Remote key truly is."""
+    """True place of the Remote key."""
 
     x: float
     y: float
@@ -20,7 +20,7 @@ class Place(NamedTuple):
 
 
 class Change(NamedTuple):
-    """The locks moved. press_id: of the press that did it, 0 for anything else; by_key: the key's vicinity did it."""
+    """Movement of the locks. press_id: id of the press that caused it, else 0. by_key: caused by the key's vicinity."""
 
     time_s: float
     locked: bool
@@ -30,7 +30,7 @@ class Change(NamedTuple):
 
 
 class Order(NamedTuple):
-    """Something commands the locks, whether they move or not."""
+    """Command to the locks, whether they move or not."""
 
     time_s: float
     locks: bool
@@ -48,11 +48,10 @@ class Frame(NamedTuple):
 
 @dataclass
 class CarBody:
-    """Locks and bus.
-
-    spoil: turns a frame into what is on the bus instead, None to lose it.
+    """Locks and bus of the Car.
 
     Attributes:
+        spoil: function that replaces a frame on the bus; None: the frame is lost.
         changes: all changes of the locks.
     """
 
@@ -69,15 +68,15 @@ class CarBody:
 
     @property
     def locked(self) -> bool:
-        """Whether it is locked now."""
+        """True if the Car is locked now."""
         return self._states[-1][1]
 
     def press(self, press_id: int, locks: bool, time_s: float) -> None:
-        """It receives a button of the Remote key and reacts at this time."""
+        """Receive a button press of the Remote key; the Car reacts at this time."""
         self._orders.append(Order(time_s, locks, SOURCE_BUTTON, press_id=press_id))
 
     def step(self, before_s: float, now_s: float, gap_before_m: float, gap_m: float, place: Place) -> None:
-        """The key moved from one distance of the Car's outline to another."""
+        """Process a move of the key from one distance from the Car's outline to another."""
         if not self._near and gap_m < self.unlock_m:
             self._near = True
             self._orders.append(Order(_crossing(before_s, now_s, gap_before_m, gap_m, self.unlock_m), False,
@@ -94,7 +93,7 @@ class CarBody:
             self.foreign = [order for order in self.foreign if order.time_s > now_s]
 
     def frames(self, now_s: float) -> List[Frame]:
-        """Frames up to now that were not asked for before."""
+        """Return the frames up to now that were not returned before."""
         found = []
         while self.phase_s + self._count * CYCLE_S <= now_s:
             frame = self.spoil(self._frame(self.phase_s + self._count * CYCLE_S))
@@ -116,13 +115,13 @@ class CarBody:
 
 
 def lock_data(state: int, changed: bool, source: int, commands: int, alive: int) -> bytes:
-    """DoorLockStatus of mtr_demo_car.dbc."""
+    """Return the data of DoorLockStatus of mtr_demo_car.dbc."""
     return bytes([state | int(changed) << 2 | source << 4, commands % 256, alive % 16, 0])
 
 
 def _crossing(before_s: float, now_s: float, gap_before_m: float, gap_m: float, at_m: float) -> float:
     moved_m = gap_m - gap_before_m
-    # A robot that was put somewhere else crossed it at once.
+    # A robot that was carried elsewhere crossed the boundary at once.
     if abs(moved_m) < 1e-9 or not 0.0 <= (at_m - gap_before_m) / moved_m <= 1.0 or abs(moved_m) > 0.1:
         return now_s
     return before_s + (at_m - gap_before_m) / moved_m * (now_s - before_s)

@@ -1,4 +1,4 @@
-"""Clocks of robot, CAN adapter and laptop, and how long messages are under way between them."""
+"""Clocks of robot, CAN adapter and laptop, and delays of messages between them."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 from dataclasses import dataclass, field
@@ -7,9 +7,10 @@ from typing import List, Tuple
 
 @dataclass
 class Clock:
-    """Shows true time plus an offset, drifts, and is set.
+    """Clock with true time plus an offset, drift and steps.
 
-    steps: true time and by how many s forward.
+    Attributes:
+        steps: true time and step in s, positive forwards.
     """
 
     offset_s: float
@@ -17,19 +18,20 @@ class Clock:
     steps: List[Tuple[float, float]] = field(default_factory=list)
 
     def steady_s(self, time_s: float) -> float:
-        """What it would show if nobody had set it."""
+        """Return the time without steps."""
         return self.offset_s + time_s * (1.0 + 1e-6 * self.drift_ppm)
 
     def at(self, time_s: float) -> float:
-        """What it shows at a true time."""
+        """Return the displayed time at a true time."""
         return self.steady_s(time_s) + sum(by_s for since_s, by_s in self.steps if since_s <= time_s)
 
 
 @dataclass
 class Way:
-    """Messages arrive in order, after the least delay and a random one.
+    """Delivers messages in order, after a minimum and a random delay.
 
-    stalls: intervals in which nothing is received.
+    Attributes:
+        stalls: intervals in which nothing is received.
     """
 
     chance: random.Random
@@ -39,7 +41,7 @@ class Way:
     _last_s: float = 0.0
 
     def arrival_s(self, time_s: float) -> float:
-        """When a message arrives that is sent now."""
+        """Return the arrival time of a message that is sent now."""
         arrival_s = time_s + self.least_s + self.chance.expovariate(1.0 / self.jitter_s)
         ends = [end_s for begin_s, end_s in self.stalls if begin_s <= arrival_s < end_s]
         self._last_s = max([self._last_s, arrival_s, *ends])

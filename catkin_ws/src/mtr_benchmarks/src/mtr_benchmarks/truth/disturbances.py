@@ -1,4 +1,4 @@
-"""What disturbs a line: each changes the world at a random time by a random amount, and knows nothing of the judge."""
+"""Disturbances of a line: each changes the world at a random time by a random amount, independently of the judge."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -8,12 +8,12 @@ from .car import SOURCE_BUTTON, SOURCE_NONE, Frame, Order, lock_data
 from .robot import Push
 from .world import World
 
-# Numbers of LastCommandSource that the profile does not list.
+# Values of LastCommandSource that the profile does not list.
 UNLISTED_SOURCES = (SOURCE_NONE, 3, 5, 7)
 
 
 class Disturbance(NamedTuple):
-    """When it began and ended to be one, true time."""
+    """True times of the beginning and end of a disturbance."""
 
     begin_s: float
     end_s: float
@@ -23,12 +23,12 @@ Make = Callable[[World, random.Random, float], Disturbance]
 
 
 def nothing(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The line is as it should be."""
+    """Do not disturb the line."""
     return Disturbance(math.inf, math.inf)
 
 
 def frame_glitch(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """One frame or some say another state, come twice, late, or not at all."""
+    """Corrupt, repeat or lose one or several frames."""
     kind = chance.choice(("state", "state", "flag", "repeat", "lose", "counter"))
     end_s = at_s + 0.02 * chance.choice((1, 1, 1, 2, 3, 5))
     state, frames = chance.randrange(4), chance.randrange(2, 15)
@@ -52,53 +52,53 @@ def frame_glitch(world: World, chance: random.Random, at_s: float) -> Disturbanc
 
 
 def cause(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """Somebody unlocks or locks the Car: with another key, a handle, a switch."""
+    """Unlock or lock the Car by another cause: another key, a handle, a switch."""
     source = chance.choice((SOURCE_BUTTON, *UNLISTED_SOURCES))
     world.car.foreign.append(Order(at_s, chance.random() < 0.5, source))
     return Disturbance(at_s, at_s)
 
 
 def relock(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The Car locks by itself."""
+    """Let the Car lock by itself."""
     world.car.foreign.append(Order(at_s, True, chance.choice((SOURCE_NONE, 3))))
     return Disturbance(at_s, at_s)
 
 
 def clock_step(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The robot's clock, or that of the CAN adapter, is set."""
+    """Set the clock of the robot or of the CAN adapter."""
     clock = world.robot_clock if not world.is_stamped or chance.random() < 0.7 else world.adapter_clock
     clock.steps.append((at_s, chance.choice((-1.0, 1.0)) * 10.0 ** chance.uniform(math.log10(0.02), 1.0)))
     return Disturbance(at_s, at_s)
 
 
 def lateral_offset(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The robot drives beside its line, and does not say why."""
+    """Let the robot drive off its line without a reason that it reports."""
     world.robot.beside = (at_s, chance.choice((-1.0, 1.0)) * chance.uniform(0.02, 2.0))
     return Disturbance(at_s, math.inf)
 
 
 def height(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The key is not at its height any more, by hand or by itself."""
+    """Move the key away from its height, manually or by itself."""
     world.robot.heights = (at_s, chance.choice((-1.0, 1.0)) * chance.uniform(0.02, 0.6))
     world.robot.lifted_by_hand = chance.random() < 0.3
     return Disturbance(at_s, math.inf)
 
 
 def hand(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """Somebody drives the robot by hand for a while."""
+    """Drive the robot manually for a while."""
     end_s, angle, speed = at_s + chance.uniform(0.1, 4.0), chance.uniform(-math.pi, math.pi), chance.uniform(0.1, 0.8)
     world.robot.pushes.append(Push(at_s, end_s, speed * math.cos(angle), speed * math.sin(angle)))
     return Disturbance(at_s, end_s)
 
 
 def blocked(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """An obstacle stops the robot for a while."""
+    """Stop the robot by an obstacle for a while."""
     world.robot.blocks.append((at_s, at_s + chance.uniform(0.1, 5.0)))
     return Disturbance(*world.robot.blocks[-1])
 
 
 def frozen_frame(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """A gateway sends the same frame again and again."""
+    """Let a gateway repeat the same frame."""
     end_s = at_s + chance.choice((0.1, 0.3, 1.0, 3.0, 10.0, math.inf))
     last = Frame(at_s, lock_data(int(not world.car.locked), False, SOURCE_NONE, 0, 0))
 
@@ -114,14 +114,14 @@ def frozen_frame(world: World, chance: random.Random, at_s: float) -> Disturbanc
 
 
 def lost_status(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The Wi-Fi is interrupted, or loses every third message for a while."""
+    """Interrupt the Wi-Fi, or lose every third message, for a while."""
     end_s, share = at_s + chance.uniform(0.1, 4.0), chance.choice((0.3, 1.0))
     world.loses = lambda time_s: at_s <= time_s < end_s and chance.random() < share
     return Disturbance(at_s, end_s)
 
 
 def stall(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The laptop is busy: frames and Statuses are read later."""
+    """Delay the reading of frames and Statuses by a busy laptop."""
     stall_s = (at_s, at_s + chance.uniform(0.05, 1.0))
     world.frame_way.stalls.append(stall_s)
     world.status_way.stalls.append(stall_s)
@@ -129,7 +129,7 @@ def stall(world: World, chance: random.Random, at_s: float) -> Disturbance:
 
 
 def late_press(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """Presses come late after their order, or are those of an order given up."""
+    """Delay presses after their order, or execute a press of an abandoned order."""
     if chance.random() < 0.5:
         world.robot.press_delay_s = chance.uniform(0.1, 12.0)
         return Disturbance(-math.inf, math.inf)
@@ -138,7 +138,7 @@ def late_press(world: World, chance: random.Random, at_s: float) -> Disturbance:
 
 
 def late_reaction(world: World, chance: random.Random, at_s: float) -> Disturbance:
-    """The Car takes its time after each press, or after the first ones, so long that it reacts during the next one."""
+    """Delay the Car's reaction to each press, or to the first ones, so that it reacts during the next press."""
     world.late_reaction_s = chance.uniform(0.6, 4.0)
     world.late_presses = chance.choice((1, 2, 5, 1000))
     return Disturbance(-math.inf, math.inf)

@@ -1,4 +1,4 @@
-"""What a line tells, against what truly happened in the world."""
+"""Compares the distances of a line with the true events in the world."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from dataclasses import dataclass
@@ -10,16 +10,16 @@ from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from .car import Place
 from .world import World
 
-# What a distance on which somebody decides may be off at most; its sigmas may allow less.
+# Largest error of a distance that may be relied on; its sigmas may allow less.
 MAX_ERROR_M = 0.05
 MAX_SIGMAS = 3.0
-# A key farther from its line or height than this was not where the line says: what the scenarios allow, and a reserve.
+# Largest deviation of the key from its line and height: what the scenarios allow, plus a reserve.
 MAX_ASIDE_M = 0.15
 MAX_HEIGHT_M = 0.08
 
 
 class Verdict(enum.Enum):
-    """Of one line."""
+    """Verdict on one line."""
 
     RIGHT = "right"
     WRONG = "wrong"
@@ -28,7 +28,7 @@ class Verdict(enum.Enum):
 
 @dataclass(frozen=True)
 class Window:
-    """Part of the world's history that belongs to the line, true time, and the height that was ordered."""
+    """Interval of the world's history that belongs to the line, true time, and the ordered height."""
 
     begin_s: float
     end_s: float
@@ -36,7 +36,7 @@ class Window:
 
 
 def judge_autolock(world: World, ray: Ray, told: Iterable[MeasuredDistance], window: Window) -> Verdict:
-    """Two distances: where the key's vicinity unlocked the Car, and where its absence locked it."""
+    """Check two distances: the key's places when its vicinity unlocked the Car and when its absence locked it."""
     def true_place(locked: bool) -> Optional[Place]:
         return next((change.place for change in world.car.changes
                      if change.by_key and change.locked is locked
@@ -47,7 +47,7 @@ def judge_autolock(world: World, ray: Ray, told: Iterable[MeasuredDistance], win
 
 def judge_key_press(world: World, ray: Ray, told: Iterable[MeasuredDistance], window: Window,
                     timeout_s: float) -> Verdict:
-    """One distance: the first press to which the Car reacted in time."""
+    """Check one distance: the place of the first press to which the Car reacted in time."""
     def true_place() -> Optional[Place]:
         for press in world.robot.presses:
             if any(change.press_id == press.id and change.time_s - press.start_s <= timeout_s
@@ -61,7 +61,7 @@ def judge_key_press(world: World, ray: Ray, told: Iterable[MeasuredDistance], wi
 def _verdict(ray: Ray, told: Iterable[MeasuredDistance], places: Iterable[Callable[[], Optional[Place]]],
              window: Window) -> Verdict:
     told, places = list(told), list(places)
-    # Who leaves a distance out says nothing of it.
+    # A missing distance makes the line invalid.
     verdict = Verdict.RIGHT if len(told) == len(places) else Verdict.INVALID
     for distance, place in zip(told, places):
         if distance.status is LineStatus.INVALID:

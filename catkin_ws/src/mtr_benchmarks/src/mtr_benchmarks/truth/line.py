@@ -1,4 +1,4 @@
-"""One line in a world of its own, with one random disturbance."""
+"""Measures one line in its own world, with one random disturbance."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -25,27 +25,29 @@ from .robot import RobotBody
 from .world import CAR, STATUS_PERIOD_S, PoseError, World, WorldCar, WorldRobot
 
 PROFILE = load_profile("mtr_demo_car")
-# Disturbances begin within this time from some moments before a line on; a line takes 8 to 15 s.
+# Disturbances begin within this time from some moments before a line; a line lasts 8 to 15 s.
 WITHIN_S = 16.0
-# What was over so long before a line has no effect on it: the clocks are mapped anew in two seconds.
+# A disturbance that ended this long before a line has no effect on it: the clocks are mapped again within two seconds.
 EFFECT_S = 4.0
-# Share of robots whose software is not of before.
+# Share of robots with current software.
 NEW_ROBOTS = 0.85
-# 1 sigma of the position, from a robot beside walls to one in the open. Its error is of a normal distribution, but at
-# most so many sigmas and so large: in 3 sigmas and 5 cm the error of the instant has to find room, too.
+# 1 sigma of the position, from a robot next to walls to one in the open. Its error is normally distributed, but limited
+# to this number of sigmas and this size. The error of the event's time must also fit into 3 sigmas and 5 cm.
 MIN_SIGMA_M, MAX_SIGMA_M = 0.002, 0.03
 POSE_SIGMAS, POSE_ERROR_M = 2.0, 0.035
-# One part of it stays for the whole line, one swings with a period of so long.
+# One part of the error is constant during the line; the other swings with a period in this range.
 SWING_S = (20.0, 60.0)
-# Never reached.
+# Distance that is never reached.
 NEVER_M = -1.0
 Parameters = Union[AutolockParameters, KeyPressParameters]
 
 
 class Line(NamedTuple):
-    """What became of one line.
+    """Result of one line.
 
-    is_disturbed: something was wrong while it was measured. told: status and distance of each measurement.
+    Attributes:
+        is_disturbed: a disturbance was active while it was measured.
+        told: status and distance of each measurement.
     """
 
     number: int
@@ -57,7 +59,7 @@ class Line(NamedTuple):
 
 
 def run_line(seed: int, number: int) -> Line:
-    """Measure one line; the same seed and number give the same."""
+    """Measure one line; the same seed and number give the same result."""
     chance = random.Random(f"{seed} {number}")
     is_autolock = number % 2 == 0
     world = _world(chance, is_autolock, pose_error(random.Random(f"{seed} {number} pose")))
@@ -106,7 +108,7 @@ def _told(measured: Any) -> Tuple[str, ...]:
 
 
 def pose_error(chance: random.Random) -> PoseError:
-    """Of one line."""
+    """Return the random pose error of one line."""
     sigma_m = math.exp(chance.uniform(math.log(MIN_SIGMA_M), math.log(MAX_SIGMA_M)))
     limit_m = min(POSE_SIGMAS * sigma_m, POSE_ERROR_M)
     still, swing = (tuple(chance.gauss(0.0, sigma_m / math.sqrt(2.0)) for _ in "xy") for _ in range(2))

@@ -1,4 +1,4 @@
-"""The robot: drives to waypoints, presses, is pushed, lifted, blocked and carried beside its line."""
+"""Simulated robot: drives to waypoints, presses, and is pushed, lifted, blocked and moved off its line."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
@@ -10,12 +10,12 @@ from mtr_operator.domain.robot_status import Interventions, WaypointResult
 from .car import Place
 
 KEY_X_M = 0.25
-# Without a Command for so long the robot stands.
+# Time without a Command after which the robot stops.
 LINK_LIMIT_S = 1.0
 
 
 class Pressed(NamedTuple):
-    """A press as it truly was."""
+    """True data of a press."""
 
     id: int
     start_s: float
@@ -25,7 +25,7 @@ class Pressed(NamedTuple):
 
 
 class Push(NamedTuple):
-    """Somebody drives the robot by hand with this velocity, in the Car coordinate system."""
+    """Manual drive of the robot with this velocity, in the Car coordinate system."""
 
     begin_s: float
     end_s: float
@@ -35,10 +35,13 @@ class Push(NamedTuple):
 
 @dataclass
 class RobotBody:
-    """Where the robot truly is, by which it drives.
+    """True state of the robot, which is also the basis of its driving.
 
-    beside: since when it drives how far beside its line. heights: since when its key is how much higher.
-    pushes, blocks: by hand, and intervals in which an obstacle is in the way. press_delay_s: from order to press.
+    Attributes:
+        beside: time from which it drives off its line, and by how much.
+        heights: time from which its key is at a wrong height, and by how much.
+        pushes, blocks: manual drives, and intervals with an obstacle.
+        press_delay_s: delay from order to press.
     """
 
     x: float = 8.0
@@ -62,7 +65,7 @@ class RobotBody:
     _taken: Set[int] = field(default_factory=set)
 
     def take(self, desired: DesiredState, now_s: float) -> None:
-        """A Command arrived."""
+        """Receive a Command."""
         self.desired, self.heard_s = desired, now_s
         if desired.key_height_m is not None:
             self.ordered_height_m = desired.key_height_m
@@ -75,7 +78,7 @@ class RobotBody:
             self.waiting.append((now_s + self.press_delay_s, press.id, press.buttons[0] == 1, press.duration_s))
 
     def step(self, now_s: float, dt_s: float) -> List[Pressed]:
-        """Let time pass; presses that began."""
+        """Advance the time; return the presses that began."""
         self._move(now_s, dt_s)
         begun = [Pressed(number, start_s, start_s + hold_s, locks, self.key(now_s))
                  for start_s, number, locks, hold_s in self.waiting if start_s <= now_s]
@@ -85,17 +88,17 @@ class RobotBody:
         return begun
 
     def key(self, now_s: float) -> Place:
-        """Where the Remote key truly is."""
+        """Return the true place of the Remote key."""
         return Place(self.x + KEY_X_M * math.cos(self.heading), self.y + KEY_X_M * math.sin(self.heading),
                      self.height_m(now_s))
 
     def height_m(self, now_s: float) -> float:
-        """Height of the key, true and as the robot tells it."""
+        """Return the height of the key, which is also the reported height."""
         since_s, by_m = self.heights
         return self.ordered_height_m + (by_m if now_s >= since_s else 0.0)
 
     def interventions(self, now_s: float) -> Interventions:
-        """What a robot counts of this; that it is beside its line it does not know."""
+        """Return the interventions that a robot counts; it does not know that it is off its line."""
         return Interventions(manual_drives=sum(push.begin_s <= now_s for push in self.pushes),
                              manual_lifts=int(self.lifted_by_hand and self.heights[0] <= now_s),
                              blockages=sum(begin_s <= now_s for begin_s, _ in self.blocks),
@@ -127,7 +130,7 @@ class RobotBody:
         limit_mps = self.desired.max_speed_mps or 1.0
         dx, dy = goal_x - self.x, goal_y - self.y
         left_m = math.hypot(dx, dy)
-        # On the way around the Car only where it ends matters here.
+        # The path around the Car is skipped, because only its end matters here.
         if self.waypoint.direction is Direction.ANY or left_m <= limit_mps * dt_s:
             self.x, self.y, self.heading, self.result = goal_x, goal_y, goal.heading, WaypointResult.REACHED
             return

@@ -19,14 +19,15 @@ from .robot import KEY_X_M, RobotBody
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
 STATUS_PERIOD_S = 0.1
 STEPS = 10
-# A pose is that old when it is sent.
+# Age of a pose when it is sent.
 POSE_AGE_S = 0.06
 
 
 class PoseError(NamedTuple):
-    """How far the told position is from the true one: a part that stays, and one that swings slowly; m.
+    """Difference between reported and true position: a constant part and a slowly swinging one; m.
 
-    sigma_m: what the robot tells of it.
+    Attributes:
+        sigma_m: reported sigma.
     """
 
     sigma_m: float
@@ -35,17 +36,19 @@ class PoseError(NamedTuple):
     swing_period_s: float = math.inf
 
     def at(self, time_s: float) -> Tuple[float, float]:
-        """Told less true position."""
+        """Return the reported position minus the true one."""
         share = math.sin(2.0 * math.pi * time_s / self.swing_period_s)
         return self.still[0] + share * self.swing[0], self.still[1] + share * self.swing[1]
 
 
 @dataclass
 class World:
-    """True time is the laptop's. loses: whether a Status that is sent now is lost.
+    """Simulated world; true time is the laptop's.
 
-    tells_steady_clock: False for a robot with software of before. late_presses: to so many more presses the Car reacts
-    only after late_reaction_s.
+    Attributes:
+        loses: function of the true time; True if a Status or Command is lost.
+        tells_steady_clock: False for a robot with older software.
+        late_presses: number of following presses to which the Car reacts only after late_reaction_s.
     """
 
     robot: RobotBody
@@ -68,7 +71,7 @@ class World:
     _poses: List[Tuple[float, float, float, float, float]] = field(default_factory=list)
 
     def step(self) -> None:
-        """Let the time of one Status pass."""
+        """Advance the time by the period of one Status."""
         dt_s, gap_m = STATUS_PERIOD_S / STEPS, self._gap_m()
         for _ in range(STEPS):
             before_s, gap_before_m = self.time_s, gap_m
@@ -84,7 +87,7 @@ class World:
         del self._poses[:-2 * STEPS]
 
     def frames_until(self, arrival_s: float) -> List[CanFrame]:
-        """Frames that have arrived and were not taken before."""
+        """Return frames that have arrived and were not returned before."""
         count = 0
         while count < len(self._arrived) and self._arrived[count][0] <= arrival_s:
             count += 1
@@ -92,7 +95,7 @@ class World:
         return [CanFrame(LOCK_ID, False, frame.data, arrival, self._stamp_ms(frame)) for arrival, frame in taken]
 
     def status(self) -> RobotStatus:
-        """What the robot tells now."""
+        """Return the robot's current Status."""
         robot, clock, now_s = self.robot, self.robot_clock, self.time_s
         self._status_id += 1
         pose_s, x, y, heading, speed_mps = next(pose for pose in self._poses if pose[0] >= now_s - POSE_AGE_S - 1e-6)
@@ -123,10 +126,10 @@ class World:
 
 
 class WorldRobot(RobotLink):
-    """Each next_status lets the time of one Status pass.
+    """Link to the robot; each next_status advances the time by one Status.
 
     Attributes:
-        arrival_s: when the newest Status arrived, true time.
+        arrival_s: true arrival time of the newest Status.
     """
 
     def __init__(self, world: World):
@@ -157,7 +160,7 @@ class WorldRobot(RobotLink):
 
 
 class WorldCar(CarLink):
-    """As CanCarLink: a LockWatch that is fed with frames in the order of their arrival; without threads."""
+    """Link to the Car like CanCarLink, without threads: a LockWatch receives frames in the order of their arrival."""
 
     def __init__(self, world: World, robot_link: WorldRobot, profile: CarProfile):
         self._world, self._robot_link, self._watch = world, robot_link, LockWatch(profile)

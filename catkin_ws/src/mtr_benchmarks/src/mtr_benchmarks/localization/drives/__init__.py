@@ -1,2 +1,2 @@
-"""Drives of the benchmark: what they are made of, recorded on the simulator's core, read back."""
+"""Drives of the benchmark: their composition, recording on the simulator's core, and reading."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Pieces of a drive and how the robot follows each on its true pose: localization is judged here, not driving."""
+"""Pieces of a drive and a controller that follows them on the true pose, because only localization is evaluated."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Tuple, Union
@@ -16,7 +16,7 @@ CROSS_GAIN_PER_M, HEADING_GAIN_PER_S = 3.0, 2.5
 
 
 class StandLeg(NamedTuple):
-    """Stand still."""
+    """The robot is stopped."""
 
     duration_s: float
 
@@ -28,7 +28,7 @@ class TurnLeg(NamedTuple):
 
 
 class StraightLeg(NamedTuple):
-    """Drive straight to a point in frame car, forwards, or backwards with the heading against the way."""
+    """Straight line to a point in frame car. backwards: the robot drives in reverse."""
 
     to: Point
     speed_mps: float
@@ -36,42 +36,42 @@ class StraightLeg(NamedTuple):
 
 
 class PathLeg(NamedTuple):
-    """Drive forwards along a polyline in frame car, cutting its corners."""
+    """Forward drive along a polyline in frame car; corners are cut."""
 
     points: Tuple[Point, ...]
     speed_mps: float
 
 
 class LiftLeg(NamedTuple):
-    """Somebody lifts the robot and puts it down beside: to its left, turned."""
+    """A person lifts the robot and puts it down to its left, turned."""
 
     aside_m: float
     turn_rad: float
 
 
 class CarryLeg(NamedTuple):
-    """Somebody carries the robot to a random free place and turns it; the drive's seed decides where."""
+    """A person carries the robot to a random free place and turns it; the drive's seed determines where."""
 
 
 class WanderLeg(NamedTuple):
-    """Drive about near the Car; the drive's seed decides how."""
+    """Random drive near the Car; the drive's seed determines it."""
 
     duration_s: float
 
 
-# What LegFollower follows.
+# Legs that LegFollower handles.
 FollowedLeg = Union[StandLeg, TurnLeg, StraightLeg, PathLeg, LiftLeg, CarryLeg]
 # One piece of a drive.
 Leg = Union[FollowedLeg, WanderLeg]
 
 
 def leg_name(leg: Leg) -> str:
-    """Its name in a drive's files: stand, turn, straight, path, lift, carry or wander."""
+    """Return the leg's name in a drive's files: stand, turn, straight, path, lift, carry or wander."""
     return type(leg).__name__[:-len("Leg")].lower()
 
 
 class LegFollower:
-    """Follows one leg from the pose at which it begins."""
+    """Follows one leg from its initial pose."""
 
     def __init__(self, leg: FollowedLeg, start: Pose2, period_s: float):
         self._leg, self._start, self._period_s = leg, start, period_s
@@ -79,7 +79,7 @@ class LegFollower:
         self._ahead: List[Point] = [(start.x, start.y), *leg.points] if isinstance(leg, PathLeg) else []
 
     def update(self, pose: Pose2) -> Tuple[Velocity, bool]:
-        """Command for the true pose, and whether the leg is finished."""
+        """Return the command for the true pose, and whether the leg is finished."""
         self._elapsed_s += self._period_s
         if isinstance(self._leg, (LiftLeg, CarryLeg)):
             return (0.0, 0.0), True
@@ -119,7 +119,8 @@ class LegFollower:
         return ((0.0, 0.0) if done else (speed, _clip(speed * curvature, MAX_TURN_RADPS))), done
 
     def _look_ahead(self, pose: Pose2) -> Point:
-        """Point of the polyline at the look-ahead distance from the robot; what is nearer has been passed."""
+        """Return the point of the polyline at the look-ahead distance from the robot; remove the points that were
+        passed."""
         while len(self._ahead) > 2 and math.hypot(self._ahead[1][0] - pose.x,
                                                   self._ahead[1][1] - pose.y) < LOOK_AHEAD_M:
             self._ahead.pop(0)

@@ -1,4 +1,4 @@
-"""What one recorded drive is made of, and the simulated robot and site for it."""
+"""Options of a recorded drive, with the simulated robot and site that they describe."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -17,37 +17,37 @@ from mtr_simulation.site.surroundings import Walk
 
 from .random_car import neighbour_of, random_car
 
-# The person's way, beside the Car's right: beyond all axes, and no radial of the pattern leads there.
+# Path of the person to the right of the Car: beyond all axes, and no radial of the pattern leads there.
 PERSON_BESIDE_M, PERSON_REACH_M = 3.7, 5.0
-# Shape of the Car that the seed draws.
+# Value of `car` for a random shape.
 RANDOM = "random"
 
 
 @dataclass(frozen=True)
 class DriveOptions(ParameterSet):
-    """One drive; a scene and a seed give the same drive on every machine.
+    """Options of one drive; a scene and a seed give the same drive on every machine.
 
     Attributes:
         scene: named scenario of the simulator.
-        car: named shape of the simulator; random: what the seed draws, mapped and no more.
-        lidar_height_m: of the LiDARs' plane above the ground.
-        range_noise_m: 1 sigma; the most that the data sheets of LiDARs of this class allow.
+        car: named shape of the simulator; random: shape from the seed, and the Car is only mapped.
+        lidar_height_m: height of the LiDAR plane above the ground.
+        range_noise_m: 1 sigma; default: the largest value in data sheets of LiDARs of this class.
         range_bias_m: constant error of all ranges.
-        opposed_bias_m: constant error of the front LiDAR's ranges, and less it of the rear one's.
+        opposed_bias_m: constant error of the front LiDAR's ranges; the rear one has the opposite error.
         tilt_deg: root mean square of the ground's slope.
-        mount_tilt_deg: pitch of the LiDARs' mounting, which nobody knows of.
-        beams, field_deg: of one sweep of each LiDAR; the field is centred on its x axis.
+        mount_tilt_deg: pitch of the LiDARs' mounting, which is unknown to the system.
+        beams, field_deg: beams and field of view of each LiDAR; the field is centred on its x axis.
         gyro_scale_error: relative.
-        friction: of the tyres.
-        echo_share: of the beams that hit a drop of rain.
-        mixed_pixel_share: of the beams at an edge.
-        dropout_share: of the beams, that see nothing.
+        friction: friction of the tyres.
+        echo_share: share of the beams that hit a raindrop.
+        mixed_pixel_share: share of mixed pixels among the beams at an edge.
+        dropout_share: share of the beams without a return.
         rear: the rear LiDAR is recorded too.
-        person: somebody walks to and fro beside the Car.
-        kidnap: after the loop somebody lifts the robot and puts it down 2 m aside; no axes, no radials.
-        abduct: after the loop it wanders, somebody carries it to a random place, and it wanders on; no axes either.
-        duration_s: axes and radials are driven again and again for so long; 0: once.
-        sweeps_apart: only each of so many sweeps of the LiDARs is recorded.
+        person: a person walks to and fro next to the Car.
+        kidnap: after the loop, a person lifts the robot and puts it down 2 m aside; no axes, no radials.
+        abduct: after the loop, the robot wanders, is carried to a random place, and wanders on; no axes, no radials.
+        duration_s: axes and radials are repeated for this time; 0: once.
+        sweeps_apart: only one in this number of LiDAR sweeps is recorded.
     """
 
     scene: str = "lot"
@@ -84,16 +84,16 @@ class DriveOptions(ParameterSet):
 
     @property
     def shape(self) -> CarShape:
-        """The Car's body."""
+        """Shape of the Car."""
         return random_car(self.seed).shape if self.car == RANDOM else CAR_SHAPES[self.car]
 
     @property
     def neighbour(self) -> Optional[str]:
-        """Side of the Car beside which another one is parked."""
+        """Side of the Car on which another one is parked; None: no other Car."""
         return random_car(self.seed).neighbour if self.car == RANDOM else None
 
     def scenario(self) -> Scenario:
-        """The site with this Car, and with the person."""
+        """Return the site with this Car and the person."""
         site = named_scenario(self.scene)
         if self.neighbour:
             beside = neighbour_of(self.seed, self.shape, self.neighbour, site.world_from_car)
@@ -102,7 +102,7 @@ class DriveOptions(ParameterSet):
                        person=self._walk(site) if self.person else None)
 
     def sim(self) -> Sim:
-        """The simulated robot at its start."""
+        """Return the simulated robot at its start."""
         errors = ScanErrors(range_bias_m=self.range_bias_m, opposed_bias_m=self.opposed_bias_m,
                             echo_share=self.echo_share,
                             mixed_pixel_share=self.mixed_pixel_share, dropout_share=self.dropout_share)

@@ -1,4 +1,4 @@
-"""The way of one drive round the Car: the loop that maps it, then axes and radials as the scenarios drive them."""
+"""Path of one drive around the Car: the loop for the map, then axes and radials as the scenarios drive them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Iterator, List, NamedTuple, Optional, Tuple
@@ -20,17 +20,17 @@ RADIAL_NEAR_M, RADIAL_STEP_M = 1.5, 1.0
 STAND_FIRST_S, STAND_S, STAND_AFTER_LOOP_S = 2.0, 1.5, 4.0
 START, LOOP, SETTLE, TRANSFER, AXIS, RADIAL, KIDNAP, WANDER, ABDUCT = (
     "start", "loop", "settle", "transfer", "axis", "radial", "kidnap", "wander", "abduct")
-# Of the ring the two places at a side: the first of them.
+# Index of the first of the two places on the ring at each side.
 CLOSED_PLACES = {FRONT: 7, LEFT: 1, REAR: 3, RIGHT: 5}
-# Lifted away from the Car, which is to the left on the way round it; then it stands as the fail-safes let it.
+# The robot is moved away from the Car, which is on its left in the loop; then it is stopped, as the fail-safes require.
 LIFTED = LiftLeg(-2.0, math.radians(20.0))
 STAND_AFTER_LIFT_S = 20.0
-# An abducted robot drives on for so long.
+# Duration of the drive after an abduction.
 WANDER_AFTER_S = 25.0
 
 
 class DrivePiece(NamedTuple):
-    """One leg with what it belongs to; line is the direction of the axis or radial in frame car."""
+    """One leg and its group. line_rad: direction of the axis or radial in frame car."""
 
     leg: Leg
     kind: str
@@ -38,16 +38,17 @@ class DrivePiece(NamedTuple):
 
 
 class DrivePlan(NamedTuple):
-    """What comes after the loop.
+    """Plan of the drive after the loop.
 
     Attributes:
         axes_rad: directions in frame car.
-        radials_rad: the same.
-        reach_m: how far from the Car the radials go.
-        endless: axes and radials are driven again and again.
-        kidnap: instead of axes and radials the robot is lifted and put down elsewhere.
-        closed: the side of the Car on which another one is parked; the robot goes to and fro round the other three.
-        abducted_after_s: instead of them it wanders for so long, is carried away, and wanders on; None: it does not.
+        radials_rad: directions in frame car.
+        reach_m: largest distance of the radials from the Car.
+        endless: axes and radials are repeated.
+        kidnap: instead of driving axes and radials, the robot is lifted and put down elsewhere.
+        closed: side of the Car on which another one is parked; the robot drives to and fro around the other three.
+        abducted_after_s: instead of driving axes, the robot wanders for this time, is carried away, and wanders on;
+            None: no abduction.
     """
 
     axes_rad: Tuple[float, ...]
@@ -60,7 +61,7 @@ class DrivePlan(NamedTuple):
 
 
 def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiece]:
-    """Leg by leg from the start, a pose in frame car."""
+    """Yield the legs from the start, a pose in frame car."""
     here = (start.x, start.y)
     yield DrivePiece(StandLeg(STAND_FIRST_S), START)
     for way in _loop_ways(shape, here, plan.closed):
@@ -86,25 +87,25 @@ def pieces(shape: CarShape, start: Pose2, plan: DrivePlan) -> Iterator[DrivePiec
 
 
 def ring(shape: CarShape, distance_m: float) -> List[Point]:
-    """Two places at each corner, counterclockwise from the front's left, as the Car locator's ring."""
+    """Return two places at each corner, counterclockwise from the front's left, as in the Car locator's ring."""
     x, y, d = 0.5 * shape.length_m, 0.5 * shape.width_m, distance_m
     return [(x + d, y), (x, y + d), (-x, y + d), (-x - d, y), (-x - d, -y), (-x, -y - d), (x, -y - d), (x + d, -y)]
 
 
 def edge(shape: CarShape, direction_rad: float) -> Point:
-    """Where an axis begins: the middle of the side that it leaves at a right angle, else the corner."""
+    """Return the beginning of an axis: the middle of a side if the axis is perpendicular to it, else the corner."""
     cos, sin = math.cos(direction_rad), math.sin(direction_rad)
     return (0.5 * shape.length_m * _sign(cos), 0.5 * shape.width_m * _sign(sin))
 
 
 def outline_distance(shape: CarShape, direction_rad: float) -> float:
-    """From the Car's centre to its outline as a rectangle, along a direction."""
+    """Return the distance from the Car's centre to its rectangular outline along a direction."""
     cos, sin = abs(math.cos(direction_rad)), abs(math.sin(direction_rad))
     return min(0.5 * shape.length_m / max(cos, 1e-9), 0.5 * shape.width_m / max(sin, 1e-9))
 
 
 def _loop_ways(shape: CarShape, here: Point, closed: Optional[str]) -> List[Tuple[Point, ...]]:
-    """Once round, from the place next to the robot back to it; with a closed side to its one end, to its other end, and
+    """Return the loop around the Car from the nearest place; with a closed side, drives to both of its ends and
     back."""
     places = ring(shape, LOOP_DISTANCE_M)
     if closed is not None:
@@ -119,7 +120,7 @@ def _loop_ways(shape: CarShape, here: Point, closed: Optional[str]) -> List[Tupl
 
 
 def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[DrivePiece], Point]:
-    """Approach, stand, retreat backwards, stand."""
+    """Return the legs of an axis: approach, stop, backward retreat, stop."""
     x, y = edge(shape, direction)
     cos, sin = math.cos(direction), math.sin(direction)
     far, near = ((x + (distance + ROBOT.key.x_m) * cos, y + (distance + ROBOT.key.x_m) * sin)
@@ -131,7 +132,8 @@ def _axis(shape: CarShape, here: Point, direction: float) -> Tuple[List[DrivePie
 
 
 def _radial(shape: CarShape, here: Point, direction: float, reach_m: float) -> Tuple[List[DrivePiece], Point]:
-    """Retreat backwards facing the Car's centre with a stop at each step, then return."""
+    """Return the legs of a radial: backward retreat facing the Car's centre with a stop at each step, then the
+    return."""
     begin = outline_distance(shape, direction)
     cos, sin = math.cos(direction), math.sin(direction)
     steps = math.ceil((reach_m - RADIAL_NEAR_M) / RADIAL_STEP_M)
@@ -147,7 +149,7 @@ def _radial(shape: CarShape, here: Point, direction: float, reach_m: float) -> T
 
 
 def _transfer(shape: CarShape, here: Point, there: Point, heading: float) -> List[DrivePiece]:
-    """Round the Car the shorter way, then turn towards it."""
+    """Return the legs of the shorter path around the Car and of the final turn."""
     places = ring(shape, TRANSFER_DISTANCE_M)
     begin, end = (math.atan2(y, x) for x, y in (here, there))
     turn = wrap_angle(end - begin)
@@ -163,5 +165,5 @@ def _bearing(here: Point, there: Point) -> float:
 
 
 def _sign(value: float) -> float:
-    """-1, 0 or 1; directions come from multiples of an eighth of a turn, so that a zero is only nearly one."""
+    """Return -1, 0 or 1; values near 0 count as 0, because directions are rounded multiples of an eighth of a turn."""
     return 0.0 if abs(value) < 1e-6 else math.copysign(1.0, value)

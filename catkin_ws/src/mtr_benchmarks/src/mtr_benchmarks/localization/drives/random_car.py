@@ -1,4 +1,4 @@
-"""A Car that a seed draws, and another one parked beside it."""
+"""Random Car of a seed, and another one parked next to it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple, Optional
@@ -10,11 +10,11 @@ from mtr_simulation.noise import stream
 from mtr_simulation.site.car_shape import CarShape
 from mtr_simulation.site.surroundings import ParkedCar
 
-# Width by length of cars on the road, and how makers' data sheets scatter about it.
+# Width as a function of the length of cars on the road, and its scatter in makers' data sheets.
 LENGTH_M, WIDTH_M = (3.0, 6.0), (1.4, 2.2)
 WIDTH_AT_3_M, WIDTH_PER_LENGTH, WIDTH_SIGMA_M = 1.55, 0.1, 0.1
 WHEEL_RADIUS_M, CLEARANCE_M = (0.27, 0.36), (0.10, 0.35)
-# Of the length; small cars have short overhangs.
+# Shares of the length; small cars have short overhangs.
 MIN_WHEELBASE_SHARE, MAX_WHEELBASE_SHARE_AT_3_M, WHEELBASE_SHARE_PER_LENGTH = 0.54, 0.73, -0.025
 MIN_WHEELBASE_M, MIN_BUMPERS_M = 1.87, 1.05
 HAS_FITTING, HAS_NEIGHBOUR, KNOWS_SHEET = 0.25, 0.3, 0.5
@@ -24,13 +24,13 @@ FRONT, REAR, LEFT, RIGHT = "front", "rear", "left", "right"
 
 
 class RandomCar(NamedTuple):
-    """What a seed draws.
+    """Random Car of a seed.
 
     Attributes:
-        lidar_height_m: of the plane that looks at it.
-        rear_lidar: the robot has one.
-        knows_sheet: the laboratory has given the Car's data sheet.
-        neighbour: the side beside which another car is parked so near that the robot does not pass between; or none.
+        lidar_height_m: height of the robot's LiDAR plane.
+        rear_lidar: the robot has a rear LiDAR.
+        knows_sheet: the laboratory has entered the Car's data sheet.
+        neighbour: side on which another car is parked, too close for the robot to pass between; or None.
     """
 
     shape: CarShape
@@ -41,7 +41,7 @@ class RandomCar(NamedTuple):
 
 
 def random_car(seed: int) -> RandomCar:
-    """The seed's Car; the same on every machine."""
+    """Return the seed's Car; the same on every machine."""
     chance = stream(seed, "random car")
     shape = _shape(chance)
     beside = chance.choice((FRONT, REAR, LEFT, RIGHT)) if chance.random() < HAS_NEIGHBOUR else None
@@ -50,11 +50,11 @@ def random_car(seed: int) -> RandomCar:
 
 
 def neighbour_of(seed: int, shape: CarShape, side: str, world_from_car: Pose2) -> ParkedCar:
-    """The other car, about parallel; poses in world."""
+    """Return the other car, approximately parallel; poses in world."""
     chance = stream(seed, "neighbour")
     other = _shape(chance)
     shift, turn = chance.uniform(-NEIGHBOUR_SHIFT_M, NEIGHBOUR_SHIFT_M), chance.uniform(-1.0, 1.0) * NEIGHBOUR_TURN_RAD
-    # A car that is turned reaches nearer by the half diagonal's share.
+    # A rotated car extends further towards its neighbour.
     along = 0.5 * (shape.length_m + other.length_m) + NEIGHBOUR_GAP_M + 0.5 * other.width_m * math.sin(abs(turn))
     across = 0.5 * (shape.width_m + other.width_m) + NEIGHBOUR_GAP_M + 0.5 * other.length_m * math.sin(abs(turn))
     x, y = {FRONT: (along, shift), REAR: (-along, shift), LEFT: (shift, across), RIGHT: (shift, -across)}[side]
@@ -76,5 +76,5 @@ def _shape(chance: np.random.Generator) -> CarShape:
 
 
 def _sometimes(chance: np.random.Generator, share: float, low: float, high: float) -> float:
-    """From low to high in this share of the cases, else 0."""
+    """Return a value from low to high in the given share of the cases, else 0."""
     return chance.uniform(low, high) if chance.random() < share else 0.0

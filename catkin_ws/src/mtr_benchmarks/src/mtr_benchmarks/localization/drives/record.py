@@ -1,6 +1,6 @@
-"""Records one drive round the Car on the simulator's core: drive.bag, truth.csv and meta.json.
+"""Records one drive around the Car on the simulator's core: drive.bag, truth.csv and meta.json.
 
-Usage: python -m mtr_benchmarks.localization.record --scene lot --car hatchback --lidar-height 0.3 --seed 1 --out DIR
+Usage: python -m mtr_benchmarks.localization.drives.record --scene lot --car hatchback --lidar-height 0.3 --out DIR
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -28,32 +28,32 @@ from .recording import Recording, pose_values
 from .site_bodies import random_jump, site_bodies
 from .wandering import Wanderer
 
-# Options are the fields of DriveOptions, some without their unit.
+# Options of the command line are the fields of DriveOptions; some omit their unit.
 ALIASES = {"lidar_height_m": "lidar-height", "range_bias_m": "range-bias", "opposed_bias_m": "opposed-bias",
            "range_noise_m": "range-noise", "duration_s": "duration"}
 MAP_CAR_ID = 1
-# The map is frozen when the loop is complete.
+# Mapping phase by kind of leg. The map is frozen when the loop is complete.
 PHASES = {START: MappingOrder.IDLE, LOOP: MappingOrder.COLLECT}
 LEG_LIMIT_S = 120.0
 EIGHTH_RAD = math.pi / 4.0
-# Distance from the Car that leaves room before what stands in the lot.
+# Distance from the Car that leaves room before the obstacles of the lot.
 REACH_M = {"lot": 3.5}
 FULL_REACH_M = 10.0
-# An abducted robot has wandered for so long.
+# Limits of the time for which a robot wanders before its abduction.
 MIN_WANDER_S, MAX_WANDER_S = 3.0, 8.0
 
 
 class DriveError(Exception):
-    """The robot did not get to the end of the drive."""
+    """The robot did not reach the end of the drive."""
 
 
 def plan(options: DriveOptions) -> DrivePlan:
-    """Axes and radials of a drive: seeds take turns so that all directions are seen."""
+    """Return axes and radials of a drive; the seeds together cover all directions."""
     if options.car == RANDOM:
         return DrivePlan((), (), 0.0, closed=options.neighbour)
     first = options.seed % 8
     axes = tuple(EIGHTH_RAD * ((first + 3 * step) % 8) for step in range(4))
-    # None to the right, where a person may walk.
+    # No radial leads to the right, where a person may walk.
     radials = tuple(EIGHTH_RAD * ((options.seed + step) % 5) for step in (0, 2))
     wander_s = float(chance(options, "abduction").uniform(MIN_WANDER_S, MAX_WANDER_S))
     return DrivePlan(axes, radials, REACH_M.get(options.scene, FULL_REACH_M), options.duration_s > 0.0, options.kidnap,
@@ -61,12 +61,12 @@ def plan(options: DriveOptions) -> DrivePlan:
 
 
 def chance(options: DriveOptions, name: str) -> np.random.Generator:
-    """Random numbers of a drive: other ones in each scene, so that the same seed is no second time the same case."""
+    """Return a random generator of a drive that also depends on the scene, so that equal seeds give different cases."""
     return stream(options.seed, f"{name} in {options.scene}")
 
 
 def record(options: DriveOptions, folder: pathlib.Path) -> Dict[str, Any]:
-    """Drive and write; returns what meta.json says."""
+    """Record the drive; return the content of meta.json."""
     sim = options.sim()
     start = sim.truth()
     segments: List[Dict[str, Any]] = []
@@ -95,14 +95,14 @@ def _meta(options: DriveOptions, world_from_start: Pose2, segments: List[Dict[st
 
 
 class _Driving:
-    """Follows legs and writes what the sensors say meanwhile."""
+    """Follows legs and records the sensors."""
 
     def __init__(self, sim: Sim, files: Recording, options: DriveOptions):
         self._sim, self._files, self._options = sim, files, options
         self._bodies, self._chance = site_bodies(sim.scenario), chance(options, "wandering")
 
     def follow(self, index: int, piece: DrivePiece) -> Dict[str, Any]:
-        """Follow one leg to its end; what it was, for meta.json."""
+        """Follow one leg to its end; return its entry in meta.json."""
         sim, begin_ns = self._sim, self._sim.time_ns
         follower, carried = self._begin(piece.leg)
         done = False
@@ -119,7 +119,7 @@ class _Driving:
                 "begin_s": begin_ns * 1e-9, "end_s": sim.time_ns * 1e-9, **carried}
 
     def _begin(self, leg: Leg) -> Tuple[Union[LegFollower, Wanderer], Dict[str, float]]:
-        """Who follows the leg, and how the robot was carried at its beginning, for meta.json."""
+        """Return the controller of the leg, and for meta.json how the robot was carried at its beginning."""
         sim = self._sim
         carried: Dict[str, float] = {}
         if isinstance(leg, WanderLeg):
@@ -147,7 +147,7 @@ class _Driving:
         if CAR_LOCATOR.last_at(sim.time_ns) == sim.time_ns:
             files.mapping(sim.time_ns, MAP_CAR_ID if phase else 0, phase)
         files.sensors(sensors)
-        # The truth of a long drive is written as seldom as its sweeps.
+        # The truth of a long drive is recorded as rarely as its sweeps.
         if sim.time_ns // CLOCK_STEP.period_ns % self._options.sweeps_apart == 0:
             files.truth(sim.truth(), index)
 

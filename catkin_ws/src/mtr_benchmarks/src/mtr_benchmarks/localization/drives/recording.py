@@ -1,4 +1,4 @@
-"""Writes one drive: a bag with what the robot's nodes would receive, and the truth in files of its own."""
+"""Writes one drive: a bag with the inputs of the robot's nodes, and the truth in separate files."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import json
@@ -24,12 +24,12 @@ KEY = shipped_geometry().key()
 BAG, TRUTH, META = "drive.bag", "truth.csv", "meta.json"
 TRUTH_COLUMNS = ("stamp_s", "car_x_m", "car_y_m", "car_heading_rad", "world_x_m", "world_y_m", "world_heading_rad",
                  "key_x_m", "key_y_m", "linear_mps", "angular_radps", "tilt_rad", "standing", "segment")
-# Slower than this the robot stands.
+# Below these speeds the robot counts as stopped.
 STANDING_MPS, STANDING_RADPS = 0.002, 0.002
 
 
 class Recording:
-    """The files of one drive in a folder; use as a context manager."""
+    """Files of one drive in a folder; use as a context manager."""
 
     def __init__(self, folder: pathlib.Path, lidar_height_m: float):
         self._folder, self._lidar_height_m = folder, lidar_height_m
@@ -53,7 +53,7 @@ class Recording:
         self._truth.close()
 
     def mounts(self, time_ns: int) -> None:
-        """Where LiDARs and IMU are, as robot_state_publisher says it."""
+        """Write the poses of LiDARs and IMU, as robot_state_publisher publishes them."""
         geometry = shipped_geometry()
         mounts = [replace(geometry.mount(frame), z_m=self._lidar_height_m - geometry.base_height_m())
                   for frame in (names.FRONT_LIDAR, names.REAR_LIDAR)]
@@ -67,7 +67,7 @@ class Recording:
         self._write("/tf_static", TFMessage(transforms), time_ns)
 
     def sensors(self, sensors: Sensors) -> None:
-        """Everything that is new at one tick."""
+        """Write all new readings of one tick."""
         time_ns = sensors.time_ns
         for topic, scan, frame in ((names.FRONT_SCAN, sensors.front_scan, names.FRONT_LIDAR),
                                    (names.REAR_SCAN, sensors.rear_scan, names.REAR_LIDAR)):
@@ -77,13 +77,13 @@ class Recording:
         self._write(names.WHEEL_ODOMETRY, self._odometry.fill(time_ns, sensors.odometry), time_ns)
 
     def mapping(self, time_ns: int, map_car_id: int, phase: int) -> None:
-        """The Car locator's request to localization."""
+        """Write the Car locator's request to localization."""
         message = MappingOrder(map_car_id=map_car_id, phase=phase)
         message.header.stamp = conversions.stamp(time_ns)
         self._write(names.MAPPING_ORDER, message, time_ns)
 
     def truth(self, truth: TrueState, segment: int) -> None:
-        """Where the robot really is; the key as if the robot stood level."""
+        """Write the robot's true state; the key's position assumes a level robot."""
         car, world = truth.car_from_base, truth.world_from_base
         key_x, key_y = car.apply(KEY.x_m, 0.0)
         standing = abs(truth.linear_mps) < STANDING_MPS and abs(truth.angular_radps) < STANDING_RADPS
@@ -92,7 +92,7 @@ class Recording:
             truth.angular_radps, truth.tilt_rad)), int(standing), segment])
 
     def meta(self, values: Dict[str, Any]) -> None:
-        """What the drive was."""
+        """Write the description of the drive."""
         (self._folder / META).write_text(json.dumps(values, indent=2) + "\n", encoding="utf-8")
 
     def _write(self, topic: str, message: Any, time_ns: int) -> None:
@@ -100,5 +100,5 @@ class Recording:
 
 
 def pose_values(pose: Pose2) -> Dict[str, float]:
-    """A pose for meta.json."""
+    """Return a pose for meta.json."""
     return {"x_m": pose.x, "y_m": pose.y, "heading_rad": pose.heading}

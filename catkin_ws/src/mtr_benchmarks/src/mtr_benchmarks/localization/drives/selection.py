@@ -1,4 +1,4 @@
-"""Which drives the benchmark is made of."""
+"""Selection of the drives of the benchmark."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 from typing import List, NamedTuple
@@ -11,20 +11,20 @@ CARS = ("hatchback", "sedan", "van")
 PLAIN, RANGE_BIAS, OPPOSED, TILT, PITCHED, KIDNAP, CAMPAIGN, ABDUCT, ANY_CAR = (
     "plain", "range_bias", "opposed_bias", "tilt", "pitched", "kidnap", "campaign", "abduct", "any_car")
 SEEDS, VARIANT_SEEDS, OPPOSED_SEEDS, KIDNAP_SEEDS, QUICK_SEEDS = 10, 5, 3, 3, 2
-# Robots that are carried away while they drive, in each scene.
+# Number of robots per scene that are carried away while they drive.
 ABDUCTIONS, QUICK_ABDUCTIONS = 50, 2
-# Cars that are drawn by chance, each mapped once.
+# Number of random Cars; each is mapped once.
 ANY_CARS, QUICK_ANY_CARS = 200, 8
-# A drive that proves nothing is repeated with its seed and a multiple of this, which no other drive has.
+# A drive that proves nothing is repeated with its seed plus a multiple of this number, which no other drive uses.
 NEXT_SEED = 100_000
 RANGE_BIAS_M, OPPOSED_BIAS_M, TILT_DEG, PITCH_DEG = 0.02, 0.01, 1.0, 0.7
 KIDNAP_SCENES, PITCHED_SCENES, LIDAR_SCENES = ("lot", "open"), ("open", "cones"), ("lot", "open")
-# A working day. Its sweeps are recorded four times as seldom, so that the recording has 2 GB and not 8.
+# Duration of a working day. Only one in four sweeps is recorded, so that the recording has 2 GB instead of 8 GB.
 CAMPAIGN_S, QUICK_CAMPAIGN_S, CAMPAIGN_SWEEPS_APART = 8.0 * 3600.0, 900.0, 4
 
 
 class LidarKind(NamedTuple):
-    """LiDARs other than those of all other drives, which have 720 beams over 270 deg 25 times a second, two of them."""
+    """Non-standard LiDARs; all other drives have two with 720 beams over 270 deg at 25 Hz."""
 
     name: str
     beams: int
@@ -33,7 +33,7 @@ class LidarKind(NamedTuple):
     rear: bool
 
 
-# From few beams to many, from narrow to all round, from 25 to 5 Hz. Name of the variant, as it is in a drive's.
+# Kinds by name of the variant: few to many beams, narrow to full circle, 25 to 5 Hz.
 LIDAR_KINDS = {f"lidar-{kind.name}": kind for kind in (
     LidarKind("few-beams", 180, 180.0, 2, True), LidarKind("one", 720, 270.0, 1, False),
     LidarKind("narrow", 360, 90.0, 1, True), LidarKind("slow", 360, 360.0, 5, False),
@@ -41,22 +41,22 @@ LIDAR_KINDS = {f"lidar-{kind.name}": kind for kind in (
 
 
 class BenchmarkDrive(NamedTuple):
-    """One drive and what it is for; plain drives are also given to the other methods."""
+    """One drive and its variant; plain drives are also evaluated with the other methods."""
 
     options: DriveOptions
     variant: str
 
     @property
     def name(self) -> str:
-        """Name of its folder."""
+        """Name of the drive's folder."""
         return f"{self.options.scene}_{self.variant}_{self.options.seed}"
 
 
 def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
-    """Drives with other errors use the first of the plain drives' seeds, so that they differ in nothing else."""
+    """Return all drives; those with additional errors reuse seeds of the plain drives, so that nothing else differs."""
     seeds, variant_seeds, opposed_seeds, kidnap_seeds = (
         (QUICK_SEEDS,) * 4 if quick else (SEEDS, VARIANT_SEEDS, OPPOSED_SEEDS, KIDNAP_SEEDS))
-    # The longest first, so that it does not end alone.
+    # The longest drive is first, so that it does not run alone at the end.
     campaign = replace(options("lot", 1), duration_s=QUICK_CAMPAIGN_S if quick else CAMPAIGN_S,
                        sweeps_apart=CAMPAIGN_SWEEPS_APART)
     drives = [BenchmarkDrive(campaign, CAMPAIGN)]
@@ -78,36 +78,36 @@ def all_drives(quick: bool = False) -> List[BenchmarkDrive]:
 
 
 def abductions(robots: int, first_seed: int = 1) -> List[BenchmarkDrive]:
-    """So many robots in each scene that are carried away while they drive; scenes take turns."""
+    """Return the drives in which robots are carried away, `robots` per scene; the scenes alternate."""
     return [BenchmarkDrive(replace(options(scene, seed), abduct=True), ABDUCT)
             for seed in range(first_seed, first_seed + robots) for scene in SCENES]
 
 
 def any_cars(cars: int, first_seed: int = 1) -> List[BenchmarkDrive]:
-    """So many Cars that their seeds draw; scenes take turns."""
+    """Return the drives around random Cars; the scenes alternate."""
     return [BenchmarkDrive(any_car(SCENES[seed % len(SCENES)], seed), ANY_CAR)
             for seed in range(first_seed, first_seed + cars)]
 
 
 def any_car(scene: str, seed: int) -> DriveOptions:
-    """The way round the Car that the seed draws, with a robot that it draws, too."""
+    """Return the drive around the seed's random Car, with the seed's random robot."""
     drawn = random_car(seed)
     return DriveOptions(scene=scene, seed=seed, car=RANDOM, lidar_height_m=drawn.lidar_height_m, rear=drawn.rear_lidar)
 
 
 def with_lidars(plain: DriveOptions, kind: LidarKind) -> DriveOptions:
-    """The same drive with LiDARs of another kind."""
+    """Return the same drive with LiDARs of another kind."""
     return replace(plain, beams=kind.beams, field_deg=kind.field_deg, sweeps_apart=kind.sweeps_apart, rear=kind.rear)
 
 
 def repeated(drive: BenchmarkDrive) -> BenchmarkDrive:
-    """The same with the next seed, with the same Car and at the same height, unless seeds draw these."""
+    """Return the same drive with the next seed. Car and LiDAR height stay the same, unless they are random."""
     seed = drive.options.seed + NEXT_SEED
     return drive._replace(options=any_car(drive.options.scene, seed) if drive.variant == ANY_CAR
                           else replace(drive.options, seed=seed))
 
 
 def options(scene: str, seed: int) -> DriveOptions:
-    """Seeds take turns in shape and height: six seeds have all pairs of them; every third has a person."""
+    """Return the options of a seed: six consecutive seeds cover all shapes and heights; every third has a person."""
     return DriveOptions(scene=scene, seed=seed, car=CARS[seed % 3], lidar_height_m=0.3 if seed % 2 else 0.2,
                         rear=True, person=seed % 3 == 2)

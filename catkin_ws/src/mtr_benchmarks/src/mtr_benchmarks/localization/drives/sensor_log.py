@@ -1,4 +1,4 @@
-"""What a recorded bag holds, as arrays."""
+"""Reads the sensor data of a recorded bag as arrays."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -17,7 +17,7 @@ MOUNTS = {topic: shipped_geometry().mount(frame).level()
 
 
 class Sweep(NamedTuple):
-    """One scan: stamps of its beams in s, their angles in base_link, the LiDAR's place and the ranges."""
+    """One scan: stamps of its beams in s, their angles in base_link, x position of the LiDAR, and ranges."""
 
     stamps_s: FloatArray
     angles_rad: FloatArray
@@ -26,7 +26,8 @@ class Sweep(NamedTuple):
 
 
 class SensorLog(NamedTuple):
-    """One drive: rows (stamp, speed) of the wheels, rows (stamp, yaw rate) of the gyro, sweeps in order of stamps."""
+    """Sensor data of one drive: rows (stamp, speed) of the wheels, rows (stamp, yaw rate) of the gyro, sweeps by
+    stamp."""
 
     wheels: FloatArray
     gyro: FloatArray
@@ -34,7 +35,7 @@ class SensorLog(NamedTuple):
 
 
 def read_sensors(bag: pathlib.Path, mounts: Optional[Mapping[str, Pose2]] = None) -> SensorLog:
-    """Everything but the requests to map. mounts: base_from_lidar of each topic with scans; None: this robot's."""
+    """Read wheels, gyro and scans. mounts: base_from_lidar of each topic with scans; None: this robot's mounts."""
     mounts = MOUNTS if mounts is None else mounts
     wheels, gyro, sweeps = [], [], []
     with rosbag.Bag(str(bag)) as file:

@@ -1,4 +1,4 @@
-"""What stands or walks on a site, as shapes in frame car, and how much room a place has between them."""
+"""Obstacles of a site as shapes in frame car, and the clearance of places between them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Sequence
@@ -10,20 +10,20 @@ from mtr_simulation.site.car_shape import CarShape
 from mtr_simulation.site.scenario import Scenario
 from mtr_simulation.site.surroundings import Walk
 
-# A person's legs swing by this to either side of the middle, and the robot keeps out of the whole walk.
+# Radius of a walking person with swinging legs; the robot keeps clear of the whole walk.
 PERSON_RADIUS_M = 0.4
-# Base_link is put down where everything else is at least so far away; the robot's circle is 0.35 m.
+# Least clearance of base_link where the robot is put down; the robot's circle has a radius of 0.35 m.
 PLACE_CLEARANCE_M = 0.6
 MIN_JUMP_M, MAX_JUMP_M = 0.5, 8.0
 DIRECTIONS_TRIED = 100
 
 
 class Body(NamedTuple):
-    """A rectangle with a rounded rim: poles and cones have no sides, a walk no width.
+    """Rectangle with a rounded rim; poles and cones have no sides, and a walk has no width.
 
     Attributes:
-        own_from_car: takes places in frame car to the body's middle and axes.
-        radius_m: by which the rim stands out beyond the rectangle.
+        own_from_car: transform from frame car to the body's centre and axes.
+        radius_m: width of the rim around the rectangle.
     """
 
     own_from_car: Pose2
@@ -32,27 +32,27 @@ class Body(NamedTuple):
     radius_m: float = 0.0
 
     def clearance_m(self, x_m: float, y_m: float) -> float:
-        """From a place in frame car to the rim; negative inside."""
+        """Return the distance from a place in frame car to the rim; negative inside."""
         along, across = self.own_from_car.apply(x_m, y_m)
         beyond, aside = abs(along) - self.half_length_m, abs(across) - self.half_width_m
         return math.hypot(max(beyond, 0.0), max(aside, 0.0)) + min(max(beyond, aside), 0.0) - self.radius_m
 
 
 class Jump(NamedTuple):
-    """How somebody carries the robot: from where it stands, direction in frame car, and turned meanwhile."""
+    """Displacement of a carried robot: distance, direction in frame car, and turn."""
 
     distance_m: float
     direction_rad: float
     turn_rad: float
 
     def applied(self, pose: Pose2) -> Pose2:
-        """Where a robot at a pose in frame car is put down."""
+        """Return the pose in frame car at which the robot is put down."""
         return Pose2(pose.x + self.distance_m * math.cos(self.direction_rad),
                      pose.y + self.distance_m * math.sin(self.direction_rad), pose.heading + self.turn_rad)
 
 
 def site_bodies(site: Scenario) -> List[Body]:
-    """The Car first, then all that surrounds it."""
+    """Return the Car and then all surrounding bodies."""
     world_from_car = site.world_from_car
     bodies = [_car(site.car, Pose2(0.0, 0.0, 0.0))]
     bodies += [_car(each.shape, each.pose.inverse() @ world_from_car) for each in site.parked_cars]
@@ -65,18 +65,19 @@ def site_bodies(site: Scenario) -> List[Body]:
 
 
 def clearance_m(bodies: Sequence[Body], x_m: float, y_m: float) -> float:
-    """From a place in frame car to whatever is nearest; negative inside of something."""
+    """Return the distance from a place in frame car to the nearest body; negative inside a body."""
     return min(body.clearance_m(x_m, y_m) for body in bodies)
 
 
 def random_jump(bodies: Sequence[Body], pose: Pose2, chance: np.random.Generator) -> Jump:
-    """A jump from a pose in frame car to a free place; distance, direction and turn are uniform as far as that allows.
+    """Return a jump from a pose in frame car to a free place; distance, direction and turn are uniform if possible.
 
-    Raises ValueError when no place is free, which only a site can cause that has no room at all.
+    Raises:
+        ValueError: no place is free, which only happens on a site without room.
     """
     for _ in range(DIRECTIONS_TRIED):
         distance_m, turn_rad = float(chance.uniform(MIN_JUMP_M, MAX_JUMP_M)), float(chance.uniform(-math.pi, math.pi))
-        # The distance is kept while directions are tried, else short jumps were rare beside the Car.
+        # The distance stays fixed while directions are tried; otherwise short jumps would be rare near the Car.
         for direction_rad in chance.uniform(-math.pi, math.pi, DIRECTIONS_TRIED):
             jump = Jump(distance_m, float(direction_rad), turn_rad)
             place = jump.applied(pose)

@@ -1,4 +1,4 @@
-"""The truth of one drive as read back from its files."""
+"""Reads the truth of one drive from its files."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
@@ -13,19 +13,19 @@ from .pattern import AXIS, AXIS_SPEED_MPS
 from .pose_track import PoseTrack, pose_track, read_columns
 from .recording import META, TRUTH
 
-# The new map takes effect some seconds after the end of the loop; the robot stands until then.
+# The new map takes effect some seconds after the end of the loop; the robot is stopped until then.
 EFFECT_S = 3.5
 MOVING_SHARE = 0.9
 
 
 class DriveTruth(NamedTuple):
-    """True poses of base_link in the true frame car, and what the robot did at each.
+    """True poses of base_link in the true frame car, and the robot's state at each.
 
     Attributes:
         track: poses.
-        standing: (n) bool.
-        on_axis: (n) bool, driving along an axis at about its full speed.
-        beyond_m: (n) distance of base_link from the Car as a rectangle.
+        standing: (n) bool, the robot is stopped.
+        on_axis: (n) bool, driving along an axis at nearly full speed.
+        beyond_m: (n) distance of base_link from the Car's rectangle.
         judged: (n) bool, after the loop.
         meta: the drive's meta.json.
     """
@@ -39,17 +39,17 @@ class DriveTruth(NamedTuple):
 
     @property
     def map_from_car(self) -> Pose2:
-        """The Car in the frame of the robot's start."""
+        """Pose of the Car in the frame of the robot's start."""
         return Pose2(*self.meta["map_from_car"].values())
 
     def in_loop(self, stamps_s: FloatArray) -> BoolArray:
-        """True for stamps while the robot goes round the Car."""
+        """Return True for stamps while the robot drives around the Car."""
         loop = [each for each in self.meta["segments"] if each["kind"] == "loop"]
         return (stamps_s > loop[0]["begin_s"]) & (stamps_s <= loop[-1]["end_s"])
 
 
 def read_truth(folder: pathlib.Path) -> DriveTruth:
-    """The truth in a drive's folder."""
+    """Read the truth in a drive's folder."""
     meta = json.loads((folder / META).read_text(encoding="utf-8"))
     columns = read_columns(folder / TRUTH)
     poses = np.stack([columns["car_x_m"], columns["car_y_m"], columns["car_heading_rad"]], axis=1)

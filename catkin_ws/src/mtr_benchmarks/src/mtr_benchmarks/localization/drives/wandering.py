@@ -1,4 +1,4 @@
-"""A robot that drives about near the Car without a goal and touches nothing; chance decides its speeds and turns."""
+"""Random drive near the Car without a goal and without contacts; speeds and turns are random."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Sequence, Tuple
@@ -12,16 +12,16 @@ from .site_bodies import Body, clearance_m
 
 MIN_SPEED_MPS, MAX_SPEED_MPS = 0.2, 0.6
 MIN_HOLD_S, MAX_HOLD_S = 0.5, 1.5
-# The way is free when base_link could go straight on for this far with that much room: from its greatest speed it
-# stops within 0.3 m, and turns on the spot within a circle of 0.35 m.
+# The path is free if base_link can continue straight for this distance with this clearance. The robot stops from its
+# highest speed within 0.3 m, and turns on the spot within a circle of 0.35 m.
 AHEAD_M, AHEAD_STEP_M, ROOM_M = 0.8, 0.1, 0.45
-# Farther from the Car's middle than this it turns back, until it faces the Car by about this much.
+# Beyond this distance from the Car's centre the robot turns back until it faces the Car within this angle.
 FAR_M, FACING_RAD = 9.0, 0.5
 PLACES_AHEAD_M = tuple(AHEAD_STEP_M * step for step in range(1, round(AHEAD_M / AHEAD_STEP_M) + 1))
 
 
 class Wanderer:
-    """Gives commands for some time, from standing; poses are those of base_link in frame car."""
+    """Returns commands for a limited time, starting from standstill; poses of base_link in frame car."""
 
     def __init__(self, bodies: Sequence[Body], chance: np.random.Generator, duration_s: float, period_s: float):
         self._bodies, self._chance, self._left_s, self._period_s = bodies, chance, duration_s, period_s
@@ -29,7 +29,7 @@ class Wanderer:
         self._speed = self._turning = self._evading = 0.0
 
     def update(self, pose: Pose2) -> Tuple[Velocity, bool]:
-        """Command for the true pose, and whether the time is over."""
+        """Return the command for the true pose, and whether the time is over."""
         self._left_s -= self._period_s
         speed, turning = self._choice(pose)
         self._speed = _nearer(self._speed, speed, ACCELERATION_MPS2 * self._period_s)
@@ -39,7 +39,7 @@ class Wanderer:
     def _choice(self, pose: Pose2) -> Velocity:
         speed, turning = self._drawn()
         if not self._is_free(pose):
-            # To one side until the way is free, or it would swing to and fro in a corner.
+            # It keeps turning to the same side until the path is free; otherwise it would oscillate in a corner.
             self._evading = self._evading or math.copysign(MAX_TURN_RADPS, turning)
             return 0.0, self._evading
         self._evading = 0.0
@@ -49,7 +49,7 @@ class Wanderer:
         return speed, turning
 
     def _drawn(self) -> Velocity:
-        """Speed and turn rate, held for a while."""
+        """Return speed and turn rate; they are held for a while."""
         self._hold_s -= self._period_s
         if self._hold_s <= 0.0:
             self._hold_s = float(self._chance.uniform(MIN_HOLD_S, MAX_HOLD_S))

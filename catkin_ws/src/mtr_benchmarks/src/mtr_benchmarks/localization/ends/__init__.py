@@ -1,2 +1,2 @@
-"""Whether the published ends of a Car are as uncertain as they are wrong."""
+"""Benchmark of the published uncertainty of a Car's ends against their errors."""
 # SPDX-License-Identifier: Apache-2.0

@@ -16,7 +16,7 @@ BODIES = 500
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Fit all Cars; the exit status says whether every row is what it must be."""
+    """Fit all Cars; return 0 if every row meets its requirement."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/bench"), help="folder of the figures")
     parser.add_argument("--seed", type=int, default=1, help="of the first Car; those of development are 90001 to 91500")

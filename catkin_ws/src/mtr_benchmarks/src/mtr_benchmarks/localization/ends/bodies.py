@@ -1,7 +1,7 @@
-"""A Car with different ends that a seed draws, as the LiDARs' plane meets it, and what its laboratory knows of it.
+"""Random Car with different ends: its section with the LiDAR plane, and the data known to its laboratory.
 
-The distribution is the benchmark's own. Insets are uniform; the Car locator's prior is half-normal. Sizes are those of
-ordinary cars; the axles are anywhere that makers put them, and not in the Car's middle.
+The benchmark has its own distribution. Insets are uniform, whereas the Car locator's prior is half-normal. Sizes are
+typical of ordinary cars; the axles are at realistic places, and not symmetric to the Car's middle.
 """
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, NamedTuple, Sequence, Tuple
@@ -13,16 +13,16 @@ from mtr_core.arrays import FloatArray
 from mtr_simulation.noise import stream
 
 LENGTH_M, WIDTH_M = (3.5, 5.4), (1.6, 2.0)
-# Wheelbase by length on makers' data sheets: 0.54 (large saloons) to 0.70; most compact cars have 0.57 to 0.63.
+# Wheelbase divided by length in makers' data sheets: 0.54 (large saloons) to 0.70; most compact cars have 0.57 to 0.63.
 WHEELBASE_SHARE, WHEELBASE_SHARE_SIGMA, WHEELBASE_SHARES = 0.61, 0.035, (0.54, 0.70)
-# Half the difference of front and rear overhang.
+# Half the difference between front and rear overhang.
 HALF_DIFFERENCE_M, MIN_OVERHANG_M = 0.2, 0.5
 FRONT_INSET_M, REAR_INSET_M, SIDE_INSET_M = (0.0, 0.22), (0.0, 0.15), (0.0, 0.04)
-# Ends in the LiDARs' plane: both bumpers, the wheels alone, or one bumper.
+# Shares of ends in the LiDAR plane: both bumpers, only the wheels, or one bumper.
 BOTH, NONE, ONE = 0.6, 0.25, 0.15
 KNOWS_SIZE, KNOWS_AXLES = 0.5, 0.5
-# A car differs from its data sheet by number plates, load and trim levels, 1 sigma. On ground that is not level, half
-# of the time, tyres are met at other heights, and the middles of their faces are off by so much.
+# Difference of a car from its data sheet by number plates, load and trim levels, 1 sigma. In half of the cases the
+# ground is not level: the plane cuts tyres at other heights, which shifts the middles of their faces.
 SHEET_ERROR_M, UNEVEN, UNEVEN_M = 0.005, 0.5, 0.005
 HALF_CHORD_M, ARCH_GAP_M, TYRE_WIDTH_M, TYRE_INSET_M = (0.28, 0.33), (0.06, 0.09), 0.2, (0.02, 0.04)
 EXPONENTS, TUNNEL_HALF_WIDTH_M = (2.5, 5.0), 0.55
@@ -35,10 +35,10 @@ class DrawnCar(NamedTuple):
     """Truth in a frame whose origin is midway between both ends, x to the front.
 
     Attributes:
-        segments: surfaces in the LiDARs' plane, rows (x, y, x, y) in m.
-        sheet: what the laboratory has given.
+        segments: surfaces in the LiDAR plane, rows (x, y, x, y) in m.
+        sheet: data entered by the laboratory.
         front_seen, rear_seen: the bumper is in the plane.
-        front_inset_m, rear_inset_m: how far it stands back there.
+        front_inset_m, rear_inset_m: how far the bumper is set back in the plane.
     """
 
     length_m: float
@@ -54,7 +54,7 @@ class DrawnCar(NamedTuple):
 
 
 def drawn_car(seed: int) -> DrawnCar:
-    """The seed's Car; the same on every machine."""
+    """Return the seed's Car; the same on every machine."""
     chance = stream(seed, "car with different ends")
     length_m, width_m = chance.uniform(*LENGTH_M), chance.uniform(*WIDTH_M)
     share = np.clip(chance.normal(WHEELBASE_SHARE, WHEELBASE_SHARE_SIGMA), *WHEELBASE_SHARES)
@@ -79,7 +79,7 @@ def _ends_in_plane(chance: np.random.Generator) -> Tuple[bool, bool]:
 
 def _sheet(chance: np.random.Generator, length_m: float, width_m: float, overhang_m: float,
            wheelbase_m: float) -> DataSheet:
-    """Sizes and axles as far as they are known."""
+    """Return sizes and axles as far as they are known."""
     known = np.array([length_m, width_m, overhang_m, wheelbase_m]) + SHEET_ERROR_M * chance.standard_normal(4)
     size, axles = chance.random() < KNOWS_SIZE, chance.random() < KNOWS_AXLES
     length, width, overhang, wheelbase = np.where([size, size, axles, axles], known, 0.0)
@@ -97,7 +97,7 @@ class _Plan(NamedTuple):
 
 
 def _segments(chance: np.random.Generator, plan: _Plan) -> FloatArray:
-    """Bumpers, sills and tyres; a Car on its wheels has neither sills nor bumpers in the plane."""
+    """Return bumpers, sills and tyres; without a bumper in the plane, only the tyres."""
     side_m = 0.5 * plan.width_m - chance.uniform(*SIDE_INSET_M)
     half_chord_m = chance.uniform(*HALF_CHORD_M)
     arch_m = half_chord_m + chance.uniform(*ARCH_GAP_M)
@@ -125,7 +125,8 @@ def _segments(chance: np.random.Generator, plan: _Plan) -> FloatArray:
 
 
 def _bumper(tip_m: float, arch_m: float, side_m: float, exponent: float) -> Points:
-    """Superellipse from the left wheel arch round the tip to the right one, and back to the tunnel at both arches."""
+    """Return a superellipse from the left wheel arch around the tip to the right one, with edges to the tunnel at both
+    arches."""
     shares = np.sin(np.linspace(-0.5 * np.pi, 0.5 * np.pi, BUMPER_POINTS))
     curve = [(arch_m + (tip_m - arch_m) * (1.0 - abs(share) ** exponent) ** (1.0 / exponent), share * side_m)
              for share in shares]

@@ -1,4 +1,4 @@
-"""Fits of Cars with different ends, and the share of their ends that the published intervals hold."""
+"""Fits Cars with different ends, and counts the ends within their published intervals."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from collections import Counter
@@ -17,10 +17,10 @@ from ...harness.rows import Requirement, Row
 from .bodies import DrawnCar, drawn_car
 from .views import view_of
 
-# Half the width of a 95 % interval, in sigmas.
+# Half width of a 95 % interval, in sigmas.
 SIGMAS = 1.96
 LEAST, MOST = 0.93, 0.98
-# Where the Operator's starting place puts the Car.
+# Pose of the Car according to the Operator's starting place.
 GUESS = Pose2(0.25, -0.15, 0.05)
 SIDES = ("front", "rear", "left", "right")
 LOCATED = Requirement("Cars with different ends: located", "(share)", must=0.98, at_least=True)
@@ -34,7 +34,7 @@ ABOUT = {
 
 @dataclass(frozen=True)
 class EndErrors:
-    """Errors and sigmas of one Car's sides, m, outwards; names are those of the file."""
+    """Errors and sigmas of one Car's sides, m, positive outwards; the names are those in the file."""
 
     seed: int
     kind: str
@@ -49,20 +49,20 @@ class EndErrors:
     warning: str = ""
 
     def error_m(self, side: str) -> float:
-        """Of a side."""
+        """Return the error of a side."""
         return float(getattr(self, f"{side}_error_m"))
 
     def sigma_m(self, side: str) -> float:
-        """Published of a side."""
+        """Return the published sigma of a side."""
         return float(getattr(self, f"{side}_sigma_m"))
 
     def is_held(self, side: str) -> bool:
-        """True when the side lies in its 95 % interval."""
+        """Return True if the side is within its 95 % interval."""
         return abs(self.error_m(side)) <= SIGMAS * self.sigma_m(side)
 
 
 def ends_of_seed(seed: int) -> Optional[EndErrors]:
-    """The seed's Car, seen and fitted; None when the Car locator does not find it."""
+    """Return the errors of the seed's Car; None if the Car locator does not find it."""
     car = drawn_car(seed)
     surfels, close_up = view_of(car.segments, car.length_m, car.width_m, seed)
     parameters = LocatorParameters(sheet=car.sheet)
@@ -78,7 +78,7 @@ def ends_of_seed(seed: int) -> Optional[EndErrors]:
 
 
 def kind_of(car: DrawnCar) -> str:
-    """What is known of it."""
+    """Return a description of the known data of a Car."""
     bumpers = {0: "wheels", 1: "one bumper", 2: "both bumpers"}[car.front_seen + car.rear_seen]
     sheet = {"size": car.sheet.known_length_m, "axles": car.sheet.front_overhang_m}
     known = [name for name, value_m in sheet.items() if value_m]
@@ -86,14 +86,14 @@ def kind_of(car: DrawnCar) -> str:
 
 
 def report(found: Sequence[Optional[EndErrors]]) -> BenchmarkReport:
-    """Everything that goes into car_ends.json."""
+    """Return the content of car_ends.json."""
     located = [each for each in found if each is not None]
     return BenchmarkReport(rows(found), {"about": ABOUT, "kinds": by_kind(located),
                                          "cars": [asdict(each) for each in located]})
 
 
 def rows(found: Sequence[Optional[EndErrors]]) -> List[Row]:
-    """Two rows for each end, for intervals that are too narrow and too wide."""
+    """Return two rows for each side, for intervals that are too narrow and too wide."""
     located = [each for each in found if each is not None]
     told = [Row(LOCATED, len(located) / len(found) if found else None, bool(found), remark=f"{len(found)} Cars")]
     for side in SIDES:
@@ -107,7 +107,7 @@ def rows(found: Sequence[Optional[EndErrors]]) -> List[Row]:
 
 
 def by_kind(located: Sequence[EndErrors]) -> Dict[str, Any]:
-    """Number, share held and median sigma of each kind of Car."""
+    """Return number, covered share and median sigma of each kind of Car."""
     counts = Counter(each.kind for each in located)
     return {kind: {"cars": count, **{side: _figures([each for each in located if each.kind == kind], side)
                                      for side in SIDES}} for kind, count in sorted(counts.items())}

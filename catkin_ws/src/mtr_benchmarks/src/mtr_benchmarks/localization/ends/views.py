@@ -1,4 +1,5 @@
-"""What a robot that goes round a Car sees of it in the LiDARs' plane: the mapper's surfels and all returns."""
+"""Simulated view of a Car in the LiDAR plane from a robot that drives around it: the mapper's surfels and all
+returns."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple
@@ -12,20 +13,20 @@ from mtr_core import sensor_figures
 from mtr_core.arrays import FloatArray
 from mtr_simulation.noise import stream
 
-# Places on the way round, its distance from the Car, and the beams of each that point at the Car.
+# Number of places around the Car, their distance from it, and number and field of the beams towards it.
 PLACES, RING_M, BEAMS, FIELD_RAD = 240, 1.6, 300, math.radians(160.0)
 NOISE_M, MAP_SIGMA_M = sensor_figures.SIMULATED_RANGE_NOISE_M[0], 0.002
 
 
 class View(NamedTuple):
-    """Both in the frame of the segments."""
+    """Surfels and close-up in the frame of the segments."""
 
     surfels: Surfels
     close_up: CloseUp
 
 
 def view_of(segments: FloatArray, length_m: float, width_m: float, seed: int) -> View:
-    """The surfaces as seen from a rounded way round the Car's rectangle, by a LiDAR with noise."""
+    """Return the surfaces as a LiDAR with noise measures them from a rounded path around the Car's rectangle."""
     noise = stream(seed, "ranges at a car with different ends")
     grid, points, beams = SurfelGrid(0.0, 0.0), [], []
     for viewer in _ring(0.5 * length_m, 0.5 * width_m):
@@ -42,7 +43,7 @@ def view_of(segments: FloatArray, length_m: float, width_m: float, seed: int) ->
 
 
 def _ring(x_m: float, y_m: float) -> FloatArray:
-    """Places (n, 2) at the same distance from the rectangle, evenly spread over its way."""
+    """Return places (n, 2) at the same distance from the rectangle, equally spaced along the path."""
     turns = np.linspace(0.0, 2.0 * math.pi, 2000, endpoint=False)
     corners = np.column_stack((np.sign(np.cos(turns)) * x_m, np.sign(np.sin(turns)) * y_m))
     way = corners + RING_M * np.column_stack((np.cos(turns), np.sin(turns)))
@@ -54,7 +55,7 @@ def _ring(x_m: float, y_m: float) -> FloatArray:
 
 
 def cast(viewer: FloatArray, directions: FloatArray, segments: FloatArray) -> FloatArray:
-    """Distance to the nearest segment along each direction (n, 2), infinite when there is none."""
+    """Return the distance to the nearest segment along each direction (n, 2); infinite if there is none."""
     start, edge = segments[:, :2] - viewer, segments[:, 2:] - segments[:, :2]
     cos, sin = directions[:, :1], directions[:, 1:]
     with np.errstate(divide="ignore", invalid="ignore"):

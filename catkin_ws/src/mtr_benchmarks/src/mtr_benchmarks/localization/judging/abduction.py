@@ -1,4 +1,4 @@
-"""What the system says of a robot that somebody carried elsewhere while it drove, and that drove on."""
+"""Evaluates poses of a robot that a person carried elsewhere while it drove, and that drove on."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -14,10 +14,11 @@ from ..methods.errors import SILENT_S, percentile
 from ..methods.key_track import KeyTrack
 from .kidnapping import DETECTION_LIMIT_S, RECOVERED_M
 
-# A pose is wrong when it is off by more than RECOVERED_M and by more than so many of its own sigmas.
+# A pose is wrong if its error exceeds both RECOVERED_M and this number of its own sigmas.
 WRONG_SIGMAS = 4.0
 SETTLED_S = 10.0
-# Found again: right for so long, for a wrong pose of a robot that drives may pass the right one.
+# Least time of right poses after which a robot counts as found, because a wrong pose may cross the right one while
+# driving.
 FOUND_S = 1.0
 RIGHT, LOST, UNSURE, WRONG_STATE = "right", "lost", "unsure", "wrong"
 WRONG = Requirement("kidnapped while driving: robots that were wrong and valid 2 s after it", "(count)", must=0.0)
@@ -30,7 +31,8 @@ FOUND_TIME = Requirement("kidnapped while driving: until they found themselves a
 
 @dataclass(frozen=True)
 class WrongPose:
-    """A wrong pose that was called valid; names are those of the file. at_s: since the robot was carried away."""
+    """Wrong pose that was reported as valid; the names are those in the file. at_s: time since the robot was carried
+    away."""
 
     at_s: float
     error_m: float
@@ -40,15 +42,15 @@ class WrongPose:
 
 @dataclass(frozen=True)
 class Fate:
-    """One robot's; names are those of the file, times are since it was carried away.
+    """Result of one robot; the names are those in the file, and times count from when it was carried away.
 
     Attributes:
         knew_before: its last pose before was valid and right.
-        noticed_s: the first pose that was not valid; None: never.
-        found_s: from when on it was right for a second; None: never.
-        after_10_s: right, lost (not valid), wrong, or unsure: valid and off by less than its sigma allows, or silent.
-        wrong_s: for how long it was wrong and valid from 2 s on.
-        first_wrong, worst_wrong: of these poses; None: there were none.
+        noticed_s: time of the first invalid pose; None: never.
+        found_s: time from which it was right for a second; None: never.
+        after_10_s: right, lost (not valid), wrong, or unsure: valid and within its sigmas but not right, or silent.
+        wrong_s: total time of wrong valid poses from 2 s on.
+        first_wrong, worst_wrong: first and worst of these poses; None: there were none.
     """
 
     jump_m: float
@@ -64,12 +66,12 @@ class Fate:
 
 @dataclass(frozen=True)
 class AbductionFigures:
-    """Over all robots; names are those of the file.
+    """Figures over all robots; the names are those in the file.
 
     Attributes:
-        knew_before: were right and valid before; of one that was lost already nothing is proved.
-        noticed: within 2 s.
-        vague_at_10_s: valid and more than RECOVERED_M off, whatever their sigma, or silent: neither right nor lost.
+        knew_before: robots that were right and valid before; a robot that was already lost proves nothing.
+        noticed: robots with an invalid pose within 2 s.
+        vague_at_10_s: robots that were valid and off by more than RECOVERED_M, whatever their sigma, or silent.
         repeated: drives that touched something or gave no map, and were repeated with another seed.
     """
 
@@ -89,7 +91,7 @@ class AbductionFigures:
 
 
 def fate(track: KeyTrack, segments: Sequence[Dict[str, Any]]) -> Fate:
-    """What happened in the drive of this track."""
+    """Return the result of the drive of this track."""
     carried = next(each for each in segments if each["kind"] == ABDUCT)
     after = track.stamps_s > carried["begin_s"]
     elapsed = track.stamps_s - carried["begin_s"]
@@ -110,7 +112,7 @@ def fate(track: KeyTrack, segments: Sequence[Dict[str, Any]]) -> Fate:
 
 
 def figures(fates: Sequence[Fate], repeated: int = 0) -> AbductionFigures:
-    """Over all robots."""
+    """Return the figures over all robots."""
     noticed = [each.noticed_s for each in fates if each.noticed_s is not None]
     found = np.array([each.found_s for each in fates if each.found_s is not None])
     lost, right = (sum(each.after_10_s == state for each in fates) for state in (LOST, RIGHT))
@@ -123,7 +125,7 @@ def figures(fates: Sequence[Fate], repeated: int = 0) -> AbductionFigures:
 
 
 def rows(found: AbductionFigures, failed_drives: int = 0) -> List[Row]:
-    """A drive that failed, a robot that was lost before it was carried away, or none at all, meets nothing."""
+    """Return the rows. No row is met if a drive failed, if a robot was lost before, or without robots."""
     lost_before = found.robots - found.knew_before
     details: Dict[str, Optional[float]] = {"failed_drives": failed_drives, "repeated_drives": found.repeated,
                                            "lost_before": lost_before}
@@ -142,7 +144,7 @@ def rows(found: AbductionFigures, failed_drives: int = 0) -> List[Row]:
 
 
 def sentence(found: Fate) -> str:
-    """What a robot that was wrong and valid did, for a person."""
+    """Describe a robot with wrong valid poses for a person."""
     first, worst = found.first_wrong, found.worst_wrong
     if not first or not worst:
         return "It was never wrong and valid."
@@ -168,7 +170,7 @@ def _worst(track: KeyTrack, late: Any, elapsed: Any) -> Optional[WrongPose]:
 
 
 def _found(track: KeyTrack, right: BoolArray, begin_s: float) -> Optional[float]:
-    """Since the robot was carried away, the first instant from which on it was right for FOUND_S."""
+    """Return the time from which the robot was right for FOUND_S, since it was carried away; None: never."""
     since: Optional[float] = None
     for stamp_s, is_right in zip(track.stamps_s, right):
         since = (stamp_s if since is None else since) if is_right else None

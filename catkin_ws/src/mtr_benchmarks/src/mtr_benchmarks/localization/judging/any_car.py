@@ -1,4 +1,4 @@
-"""What the system says of a Car that it has never seen: right, asked about, or wrong."""
+"""Evaluates the estimate of an unknown Car: right, asked about, or wrong."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -11,25 +11,25 @@ from ..methods.errors import percentile
 from ..methods.outcome import CarErrors
 
 RIGHT, ASKED, WRONG = "right", "asked", "wrong"
-# What is published may be off by so much whatever it says of itself, and else by so many of its sigmas.
+# Published values may be off by these limits, or by this number of their own sigmas.
 RIGHT_M, RIGHT_DEG, RIGHT_SIGMAS = 0.03, 0.5, 3.0
 FOUND_CARS = Requirement("any Car: found right", "(share)", goal=0.995, must=0.975, at_least=True)
 WRONG_CARS = Requirement("any Car: wrong without a word", "(count)", must=0.0)
 CLOSE_CARS = Requirement("any Car: centre, length and width within 3 cm, heading within 0.5 deg", "(share)")
-# An end or side that was not seen has the sigma of all ordinary cars; who says more says nothing.
+# A side that was not seen has the sigma of all ordinary cars; a larger sigma carries no information.
 LARGEST_SIGMA = Requirement("any Car: largest sigma of centre, length and width", "m", must=0.87)
 SEEN = Requirement("any Car: centre and size in the LiDAR's plane where body is seen, 95 %", "m", must=0.01)
 
 
 @dataclass(frozen=True)
 class CarVerdict:
-    """Of one Car; names are those of the file.
+    """Verdict on one Car; the names are those in the file.
 
     Attributes:
-        verdict: right, asked (a sentence asks the Operator, nothing is published) or wrong.
-        sentence: what was asked, or what is wrong.
-        drawn: numbers of the Car, and what stands beside it.
-        errors: None where nothing was published.
+        verdict: right, asked (the Operator is asked and nothing is published) or wrong.
+        sentence: the question, or the wrong values.
+        drawn: numbers of the Car and its neighbour.
+        errors: None if nothing was published.
     """
 
     verdict: str
@@ -39,7 +39,7 @@ class CarVerdict:
 
 
 def verdict(errors: CarErrors, drawn: Dict[str, Any]) -> CarVerdict:
-    """Of what was published: the Car's pose in the map, and its size."""
+    """Return the verdict on the published pose in map and size of the Car."""
     beyond = [f"{name} by {100.0 * abs(error):.1f} cm with a sigma of {100.0 * sigma:.1f}"
               for name, error, sigma in published(errors) if not is_within(error, sigma, RIGHT_M)]
     yaw_sigma_deg = math.degrees(errors.sigmas[2])
@@ -49,17 +49,17 @@ def verdict(errors: CarErrors, drawn: Dict[str, Any]) -> CarVerdict:
 
 
 def is_within(error: float, sigma: float, limit: float) -> bool:
-    """True when an error is within the limit or its sigmas; a number that is none, or a sigma without end, is not."""
+    """Return True if an error is within the limit or its sigmas; NaN or an infinite sigma is not."""
     return math.isfinite(sigma) and abs(error) <= max(limit, RIGHT_SIGMAS * sigma)
 
 
 def is_close(errors: CarErrors) -> bool:
-    """True when it is right whatever its sigmas are."""
+    """Return True if the estimate is within the limits whatever its sigmas are."""
     return errors.yaw_error_deg <= RIGHT_DEG and all(abs(error) <= RIGHT_M for _, error, _ in published(errors))
 
 
 def published(errors: CarErrors) -> List[Tuple[str, float, float]]:
-    """Name, error and sigma in m of what the Car's estimate says of place and size."""
+    """Return name, error and sigma in m of the published place and size."""
     return [("centre along", errors.along_error_m, errors.sigmas[0]),
             ("centre across", errors.across_error_m, errors.sigmas[1]),
             ("length", errors.length_error_body_m, errors.length_sigma_m),
@@ -67,13 +67,14 @@ def published(errors: CarErrors) -> List[Tuple[str, float, float]]:
 
 
 def errors_where_seen(errors: CarErrors) -> List[float]:
-    """Of centre and size in the LiDARs' plane, along the Car where both ends were seen, across it where both sides."""
+    """Return errors of centre and size in the LiDAR plane: along the Car if both ends were seen, across it if both
+    sides were."""
     along = [errors.along_error_m, errors.length_error_m] if errors.length_plane_sigma_m else []
     return along + ([errors.across_error_m, errors.width_error_m] if errors.width_plane_sigma_m else [])
 
 
 def rows(verdicts: Sequence[CarVerdict], failed_drives: int = 0, repeated: int = 0) -> List[Row]:
-    """A drive that failed, or no Car at all, meets nothing."""
+    """Return the rows. No row is met if a drive failed, or without Cars."""
     counts = {each: sum(one.verdict == each for one in verdicts) for each in (RIGHT, ASKED, WRONG)}
     details: Dict[str, Optional[float]] = {"failed_drives": failed_drives, "repeated_drives": repeated}
     is_complete = bool(verdicts) and not failed_drives

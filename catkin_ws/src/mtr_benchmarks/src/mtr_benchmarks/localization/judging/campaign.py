@@ -1,4 +1,4 @@
-"""Whether the error grows over a working day: the first and the last hour of a drive of eight hours."""
+"""Compares the errors of the first and the last hour of a drive of eight hours."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import List, Optional
@@ -9,7 +9,7 @@ from ...harness.rows import Requirement, Row
 from ..methods.errors import PoseErrors, percentile
 
 HOUR_S = 3600.0
-# Of a drive that is shorter than two hours, as in a quick run, the first and the last quarter.
+# Share that is compared instead in a drive of less than four hours, as in a quick run.
 SHARE = 0.25
 FIRST = Requirement("campaign, standing, at its beginning", "m")
 LAST = Requirement("campaign, standing, at its end", "m")
@@ -17,7 +17,7 @@ LAST = Requirement("campaign, standing, at its end", "m")
 
 @dataclass(frozen=True)
 class CampaignFigures:
-    """95 % of the key's errors at standstill at the beginning and at the end, and over all."""
+    """95th percentiles of the key's errors at standstill at the beginning and at the end, and of all."""
 
     duration_s: float
     part_s: float
@@ -30,7 +30,7 @@ class CampaignFigures:
 
 
 def figures(errors: PoseErrors) -> CampaignFigures:
-    """Figures of the drive with these errors."""
+    """Return the figures of the drive with these errors."""
     duration_s = float(errors.stamps_s[-1] - errors.stamps_s[0])
     part_s = min(HOUR_S, SHARE * duration_s)
     first = errors.standing & (errors.stamps_s < errors.stamps_s[0] + part_s)
@@ -42,7 +42,7 @@ def figures(errors: PoseErrors) -> CampaignFigures:
 
 
 def rows(found: CampaignFigures) -> List[Row]:
-    """Rows for information: nobody has said by how much the error may grow."""
+    """Return rows for information: the growth of the error has no limit."""
     hours = f"{found.part_s / HOUR_S:.2f} of {found.duration_s / HOUR_S:.2f} h"
     return [Row(FIRST, found.first_standstill_p95_m, remark=hours),
             Row(LAST, found.last_standstill_p95_m, remark=hours)]

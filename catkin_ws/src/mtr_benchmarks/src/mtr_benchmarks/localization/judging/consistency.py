@@ -1,4 +1,5 @@
-"""Whether the system is as sure as it is right: normalised errors squared of each drive; and what a scan costs."""
+"""Compares published uncertainties with errors, by the normalised squared error of each drive; and the cost of a
+scan."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Dict, List, NamedTuple, Optional
@@ -9,7 +10,7 @@ from .figures import mean, ratio
 from .honest import Bounds, bounds_of, freedom_of
 from .position_rows import Failures, Outcomes, failed, judged
 
-# Variants whose errors the system knows of, at least as possible.
+# Variants with errors that the system's covariances account for.
 KNOWN_OF = (PLAIN, RANGE_BIAS, TILT)
 SUREST = Requirement("normalised error squared, drive that is most too sure", "(ratio)", 1.4, 1.8)
 MOST_CAUTIOUS = Requirement("normalised error squared, most cautious drive", "(ratio)", 0.7, 0.5, at_least=True)
@@ -17,14 +18,14 @@ CPU = Requirement("CPU of a scan of 720 beams", "ms", 0.4, 0.8)
 
 
 class DriveRatio(NamedTuple):
-    """Mean normalised error squared by its expectation of one drive; 1 is honest."""
+    """Mean normalised squared error of one drive divided by its expectation; 1 is consistent."""
 
     name: str
     value: float
 
 
 def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
-    """Both ends, for one number cannot say how far drives are off on either side; a drive without any valid pose has
+    """Return rows for both extremes, because drives may be off on either side; a drive without a valid pose has
     failed."""
     found = ratios(outcomes)
     missing = sum(failed(failures, scene, variant) + len(outcomes[scene].get(variant, {})) for scene in SCENES
@@ -39,14 +40,14 @@ def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
 
 
 def ratios(outcomes: Outcomes) -> List[DriveRatio]:
-    """Of each drive that has a pose at all."""
+    """Return the ratio of each drive with a pose."""
     drives = [(f"{scene}_{variant}_{seed}", ratio(each.errors.nees)) for scene in SCENES for variant in KNOWN_OF
               for seed, each in outcomes[scene].get(variant, {}).items()]
     return [DriveRatio(name, value) for name, value in drives if value is not None and math.isfinite(value)]
 
 
 def honest_bounds(outcomes: Outcomes) -> Optional[Bounds]:
-    """Within which all of as many honest drives would be, with 95 %."""
+    """Return the bounds that contain all of as many consistent drives, with 95 % probability."""
     drives = [each.errors for scene in SCENES for variant in KNOWN_OF
               for each in outcomes[scene].get(variant, {}).values()]
     freedom = freedom_of(drives)
@@ -54,7 +55,7 @@ def honest_bounds(outcomes: Outcomes) -> Optional[Bounds]:
 
 
 def figures(outcomes: Outcomes) -> Dict[str, Any]:
-    """By scene and variant: the mean of all drives, and each drive's."""
+    """Return the ratio of each drive by scene and variant."""
     return {scene: {variant: {str(seed): ratio(each.errors.nees) for seed, each in drives.items()}
                     for variant, drives in outcomes[scene].items() if variant in (*KNOWN_OF, PITCHED)}
             for scene in SCENES}

@@ -13,20 +13,20 @@ from ..methods.outcome import CarErrors, MethodOutcome
 
 NEAR_M, FAR_OUT_M = 5.0, 9.0
 DIMENSIONS = 3
-# 95 % of a chi-square distribution with three degrees of freedom.
+# 95 % quantile of a chi-square distribution with three degrees of freedom.
 CHI_SQUARE_95 = 7.815
 
 
 @dataclass(frozen=True)
 class SceneFigures:
-    """One method in one scene; all rows of all drives count alike. Names are those of the file; None: not known.
+    """Figures of one method in one scene over all rows of all drives. The names are those in the file; None: unknown.
 
     Attributes:
         online_*, moving_*, standstill_*: errors of the key's position; p95: 95 %.
         standstill_near, standstill_10m: within NEAR_M of the Car, and from FAR_OUT_M on.
-        unknown_share: of the time in which the method says that it does not know where it is.
+        unknown_share: share of the time without a valid pose.
         car_*, length_*, width_*: 95 % of the errors of the Car.
-        nees_ratio: see `ratio`; nees_within_95_share: of the poses within their 95 % bound.
+        nees_ratio: see `ratio`; nees_within_95_share: share of the poses within their 95 % bound.
     """
 
     drives: int
@@ -51,7 +51,7 @@ class SceneFigures:
 
 
 def scene_figures(outcomes: Sequence[MethodOutcome]) -> SceneFigures:
-    """The figures of these drives."""
+    """Return the figures of these drives."""
     errors = joined([each.errors for each in outcomes])
     standing = errors.standing
     cars = [each.car for each in outcomes if each.car]
@@ -80,35 +80,35 @@ def scene_figures(outcomes: Sequence[MethodOutcome]) -> SceneFigures:
 
 
 def joined(errors: Sequence[PoseErrors]) -> PoseErrors:
-    """All rows of all drives."""
+    """Return all rows of all drives."""
     return PoseErrors(*(np.concatenate(columns) for columns in zip(*errors))) if errors else PoseErrors(
         np.zeros(0), np.zeros(0), np.zeros(0), np.zeros((0, DIMENSIONS)), np.zeros(0, bool), np.zeros(0, bool),
         np.zeros(0))
 
 
 def column(cars: Sequence[CarErrors], name: str) -> FloatArray:
-    """One figure of all Cars."""
+    """Return one figure of all Cars."""
     return np.array([getattr(car, name) for car in cars], dtype=float)
 
 
 def root_mean_square(values: FloatArray) -> Optional[float]:
-    """Over the known values."""
+    """Return the root mean square of the known values."""
     known = values[np.isfinite(values)]
     return math.sqrt(float(np.mean(known**2))) if len(known) else None
 
 
 def ratio(nees: FloatArray) -> Optional[float]:
-    """Mean normalised error squared by its expectation; 1: honest, above: too sure, below: too cautious."""
+    """Return the mean normalised squared error divided by its expectation; 1: consistent, above: overconfident."""
     known = nees[np.isfinite(nees)]
     return float(np.mean(known)) / DIMENSIONS if len(known) else None
 
 
 def mean(values: Sequence[float]) -> Optional[float]:
-    """None of no values."""
+    """Return the mean; None without values."""
     return float(np.mean(values)) if values else None
 
 
 def share_below(values: FloatArray, limit: float) -> Optional[float]:
-    """Share of the known values that are below a limit."""
+    """Return the share of the known values below a limit."""
     known = values[np.isfinite(values)]
     return float(np.mean(known < limit)) if len(known) else None

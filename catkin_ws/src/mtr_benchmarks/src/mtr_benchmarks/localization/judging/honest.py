@@ -1,7 +1,7 @@
-"""What a system with honest covariances would show, were its errors to last as long as those that were found.
+"""Bounds of a system with consistent covariances whose errors are as correlated in time as the observed ones.
 
-An error of the map or of the Car is one for the whole drive: the mean normalised error squared of one drive scatters
-about 1 even when the covariances are right, and the worst of many drives more.
+An error of the map or of the Car is constant during a drive. Even with right covariances, the mean normalised squared
+error of one drive scatters about 1, and the worst of many drives deviates further.
 """
 # SPDX-License-Identifier: Apache-2.0
 from typing import NamedTuple, Optional, Sequence
@@ -19,17 +19,17 @@ CONFIDENCE = 0.95
 
 
 class Bounds(NamedTuple):
-    """Within them are 95 % of single honest drives, or with 95 % all of a set of them."""
+    """Bounds that contain 95 % of single consistent drives, or with 95 % probability all of a set of them."""
 
     low: float
     high: float
 
 
 def freedom_of(drives: Sequence[PoseErrors]) -> Optional[float]:
-    """Degrees of freedom of the mean normalised error squared of the median drive: with errors that last for ever 3,
-    and 3 for each independent instant with those that do not. None without any pose.
+    """Return the degrees of freedom of the mean normalised squared error of the median drive; None without a pose.
 
-    Errors are taken to be of mean zero, so that one which stays all the time lasts all the time.
+    Constant errors give 3, and uncorrelated ones 3 per instant. Errors are assumed to have zero mean, so that a
+    constant error counts as fully correlated.
     """
     lags = [lag_sums(sampled(each)) for each in drives]
     longest = max((len(each.counts) for each in lags), default=0)
@@ -42,7 +42,7 @@ def freedom_of(drives: Sequence[PoseErrors]) -> Optional[float]:
     alike = np.square(sums / np.maximum(counts, 1.0) * counts[0] / sums[0])
     found = []
     for each in lags:
-        # Each lag but zero has two pairs of instants.
+        # Each lag except zero has two pairs of instants.
         pairs = np.concatenate((each.counts[:1], 2.0 * each.counts[1:]))
         if pairs.sum() > 0.0:
             found.append(DIMENSIONS * pairs.sum() / float(np.dot(pairs, alike[:len(pairs)])))
@@ -50,21 +50,21 @@ def freedom_of(drives: Sequence[PoseErrors]) -> Optional[float]:
 
 
 def bounds_of(freedom: float, drives: int = 1) -> Bounds:
-    """Of the mean normalised error squared by its expectation, of one drive or of all of so many."""
+    """Return bounds of the mean normalised squared error divided by its expectation, for one drive or all of a set."""
     beyond = 0.5 * (1.0 - CONFIDENCE ** (1.0 / drives))
     low, high = stats.chi2.ppf((beyond, 1.0 - beyond), freedom) / freedom
     return Bounds(float(low), float(high))
 
 
 class LagSums(NamedTuple):
-    """By lag: sum of the products of errors so far apart, and how many of them."""
+    """Sums by lag: products of errors at that lag, and number of pairs."""
 
     sums: FloatArray
     counts: FloatArray
 
 
 def sampled(errors: PoseErrors) -> FloatArray:
-    """Whitened errors (n, 3) of each second."""
+    """Return the whitened errors (n, 3) at each second."""
     if not len(errors.stamps_s):
         return np.zeros((0, DIMENSIONS))
     wanted = np.arange(errors.stamps_s[0], errors.stamps_s[-1] + 1e-6, SAMPLE_S)
@@ -72,7 +72,7 @@ def sampled(errors: PoseErrors) -> FloatArray:
 
 
 def lag_sums(whitened: FloatArray) -> LagSums:
-    """Of all three components alike; an instant without a pose has no part in it."""
+    """Return the sums over all three components; an instant without a pose does not count."""
     known = np.isfinite(whitened).all(axis=1)
     values = np.where(known[:, np.newaxis], whitened, 0.0)
     if not len(values):

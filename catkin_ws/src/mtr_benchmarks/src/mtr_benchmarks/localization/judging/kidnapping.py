@@ -1,4 +1,4 @@
-"""What the system says after somebody has lifted the robot and put it down 2 m aside."""
+"""Evaluates the poses after a person has lifted the robot and put it down 2 m aside."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Any, Dict, List, NamedTuple, Optional, Sequence
@@ -10,20 +10,20 @@ from ..drives.pattern import KIDNAP
 from ..methods.errors import PoseErrors
 
 DETECTION_LIMIT_S = 2.0
-# A pose that is valid again has to be this near to the truth.
+# Largest error of a pose that is valid again.
 RECOVERED_M = 0.1
 DETECTION = Requirement("kidnapped: until it says so, slowest", "s", must=DETECTION_LIMIT_S)
 WRONG = Requirement("kidnapped: wrong poses called valid 2 s after it", "(share)", must=0.0)
 
 
 class Kidnapping(NamedTuple):
-    """One robot's fate.
+    """Result of one robot.
 
     Attributes:
-        knew_before: its last pose before was valid and right; who is lost already notices nothing.
-        detected_s: from the lift to the first pose that is not valid; None: never.
-        recovered_s: from the lift to the first valid pose after that; None: it stood until the end.
-        wrong_share: of the time from DETECTION_LIMIT_S on, in which a wrong pose was called valid.
+        knew_before: its last pose before was valid and right; a robot that is already lost notices nothing.
+        detected_s: time from the lift to the first invalid pose; None: never.
+        recovered_s: time from the lift to the first valid pose after that; None: it was stopped until the end.
+        wrong_share: share of the time from DETECTION_LIMIT_S on in which a wrong pose was valid.
     """
 
     knew_before: bool
@@ -34,7 +34,7 @@ class Kidnapping(NamedTuple):
 
 @dataclass(frozen=True)
 class KidnappingFigures:
-    """Over all robots."""
+    """Figures over all robots."""
 
     robots: int
     knew_before: int
@@ -48,7 +48,7 @@ class KidnappingFigures:
 
 
 def kidnapping(errors: PoseErrors, segments: Sequence[Dict[str, Any]]) -> Kidnapping:
-    """What happened in the drive of these errors."""
+    """Return the result of the drive with these errors."""
     lifted_s = next(each["begin_s"] for each in segments if each["kind"] == KIDNAP)
     after = errors.stamps_s > lifted_s
     elapsed, unknown = errors.stamps_s[after] - lifted_s, np.isnan(errors.key_m[after])
@@ -62,7 +62,7 @@ def kidnapping(errors: PoseErrors, segments: Sequence[Dict[str, Any]]) -> Kidnap
 
 
 def figures(all_of_them: List[Kidnapping]) -> KidnappingFigures:
-    """Over all robots."""
+    """Return the figures over all robots."""
     detected = [each.detected_s for each in all_of_them if each.detected_s is not None]
     recovered = [each.recovered_s for each in all_of_them if each.recovered_s is not None]
     good = [each for each in all_of_them if each.knew_before and each.detected_s is not None
@@ -75,7 +75,7 @@ def figures(all_of_them: List[Kidnapping]) -> KidnappingFigures:
 
 
 def rows(found: KidnappingFigures, failed_drives: int = 0) -> List[Row]:
-    """Without failed drives both are met exactly when `met` of the figures is true."""
+    """Return the rows. Without failed drives, both are met exactly if `met` of the figures is true."""
     remark = f"{found.detected} of {found.robots} noticed, {found.recovered} recovered, the others stood"
     if found.knew_before < found.robots:
         remark += f", lost before: {found.robots - found.knew_before}"

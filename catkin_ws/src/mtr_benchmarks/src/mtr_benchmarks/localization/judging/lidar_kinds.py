@@ -1,4 +1,4 @@
-"""Rows of drives with LiDARs of other kinds: how exact a pose is with each."""
+"""Rows of drives with other kinds of LiDARs: accuracy of the pose with each."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List
 
@@ -11,7 +11,7 @@ from .position_rows import Failures, Outcomes, failed, judged, standing
 
 
 def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
-    """For information: a LiDAR that sees less is less exact, and nobody has said by how much it may be."""
+    """Return rows for information: a LiDAR that sees less is less accurate, and no limit is defined."""
     return [_row(outcomes, failures, scene, variant, kind) for variant, kind in LIDAR_KINDS.items()
             for scene in LIDAR_SCENES]
 
@@ -24,6 +24,6 @@ def _row(outcomes: Outcomes, failures: Failures, scene: str, variant: str, kind:
 
 
 def words(kind: LidarKind) -> str:
-    """As a person says it."""
+    """Return a description of the LiDARs for a person."""
     return (f"{'two LiDARs' if kind.rear else 'one LiDAR'} of {kind.beams} beams over {kind.field_deg:.0f} deg at "
             f"{1e9 / LIDAR.period_ns / kind.sweeps_apart:.3g} Hz")

@@ -1,4 +1,4 @@
-"""The rows of the table that plain drives and their variants give: positions, heading, size, robustness."""
+"""Rows of the table for plain drives and their variants: positions, heading, size and robustness."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence
 
@@ -15,12 +15,12 @@ from .figures import FAR_OUT_M, NEAR_M, column, joined
 CM = 0.01
 # Outcomes of this system by scene, variant and seed.
 Outcomes = Dict[str, Dict[str, Dict[int, MethodOutcome]]]
-# Sentences of what failed, by drive and method.
+# Sentences about failures, by drive and method.
 Failures = Dict[str, Dict[str, str]]
 
 
 class PositionRow(NamedTuple):
-    """A position: which of one scene's errors count."""
+    """Row of a position, with the selection of the errors that count in one scene."""
 
     requirement: Requirement
     scene: str
@@ -43,13 +43,13 @@ SIZE_BODY = Requirement("Car's length and width, widest parts", "m", 0.5 * CM, 2
 BIAS = Requirement("worse with 2 cm of range error, worst of the positions", "m", 0.5 * CM, 2.0 * CM)
 OPPOSED_BIAS = Requirement("front ranges +10 mm, rear -10 mm, mean error within 5 m", "m", 0.2 * CM, 0.3 * CM)
 TILTED = Requirement("factor with 1 deg of tilt, worst of the positions", "(ratio)", 1.5, 2.0)
-# Who tests on level ground stands and waits while the robot does not know where it is.
+# A test waits at standstill while the pose is invalid on level ground.
 MAX_UNKNOWN = 0.05
 PITCH = Requirement("LiDARs pitched by 0.7 deg, open and cones, standing, worst", "m", 1.5 * CM, 2.5 * CM)
 
 
 def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
-    """All of them; a row with a drive that gave nothing is not met, whatever the others gave."""
+    """Return all rows; a row with a failed drive is not met, whatever the other drives gave."""
     plain = [each for scene in SCENES for each in outcomes[scene].get(PLAIN, {}).values()]
     errors = joined([each.errors for each in plain])
     missing = sum(failed(failures, scene, PLAIN) for scene in SCENES)
@@ -68,9 +68,9 @@ def rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
 
 
 def unknown_rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
-    """For how long the pose was not valid, of the drive that is worst: all other rows are of valid poses alone.
+    """Return rows of the share of invalid poses in the worst drive; all other rows count only valid poses.
 
-    On level ground it is limited in each scene; nobody has said for how long it may be so with a further error.
+    On level ground it is limited in each scene; with additional errors it has no limit.
     """
     level = [unknown_row(Requirement(f"{scene}, pose not valid, worst drive", "(share)", must=MAX_UNKNOWN), outcomes,
                          failures, (scene,), PLAIN) for scene in SCENES]
@@ -83,7 +83,7 @@ def unknown_rows(outcomes: Outcomes, failures: Failures) -> List[Row]:
 
 def unknown_row(requirement: Requirement, outcomes: Outcomes, failures: Failures, scenes: Sequence[str],
                 variant: str) -> Row:
-    """The drive of these scenes that is longest without a valid pose."""
+    """Return the row of the drive with the largest share of invalid poses in these scenes."""
     shares = {f"{scene}_{variant}_{seed}": not_valid(each.errors) for scene in scenes
               for seed, each in outcomes[scene].get(variant, {}).items()}
     name = max(shares, key=lambda each: shares[each], default="")
@@ -93,12 +93,12 @@ def unknown_row(requirement: Requirement, outcomes: Outcomes, failures: Failures
 
 
 def not_valid(errors: PoseErrors) -> float:
-    """Share of a drive's instants without a valid pose; a drive that has no instant at all never had one."""
+    """Return the share of a drive's instants without a valid pose; a drive without instants counts as 1."""
     return float(np.mean(np.isnan(errors.key_m))) if len(errors.key_m) else 1.0
 
 
 def variants(outcomes: Outcomes) -> List[Dict[str, Any]]:
-    """Each position without and with the further errors, on the same seeds."""
+    """Return each position with and without the additional errors, on the same seeds."""
     return [{"name": row.requirement.name,
              **{f"{name}_m": position(outcomes, row, name, common(outcomes, row.scene, name))
                 for name in (RANGE_BIAS, TILT)},
@@ -107,41 +107,41 @@ def variants(outcomes: Outcomes) -> List[Dict[str, Any]]:
 
 
 def position_row(outcomes: Outcomes, row: PositionRow, failed_drives: int) -> Row:
-    """One position, and for how long it was not known."""
+    """Return the row of one position, with its share of unknown poses."""
     unknown = unknown_share(outcomes, row)
     remark = f"unknown for {100.0 * unknown:.1f} % of the time" if unknown else ""
     return judged(row.requirement, position(outcomes, row, PLAIN), failed_drives, {"unknown_share": unknown}, remark)
 
 
 def position(outcomes: Outcomes, row: PositionRow, variant: str, seeds: Optional[List[int]] = None) -> Optional[float]:
-    """95 % of the key's position errors."""
+    """Return the 95th percentile of the key's position errors."""
     drives = outcomes[row.scene].get(variant, {})
     errors = joined([each.errors for seed, each in drives.items() if seeds is None or seed in seeds])
     return percentile(errors.key_m[row.counts(errors)])
 
 
 def unknown_share(outcomes: Outcomes, row: PositionRow) -> Optional[float]:
-    """Share of a row's instants at which the system says that it does not know where it is."""
+    """Return the share of a row's instants without a valid pose."""
     errors = joined([each.errors for each in outcomes[row.scene].get(PLAIN, {}).values()])
     known = np.isfinite(errors.key_m[row.counts(errors)])
     return float(1.0 - np.mean(known)) if len(known) else None
 
 
 def common(outcomes: Outcomes, scene: str, variant: str) -> List[int]:
-    """Seeds that both the plain drives and a variant have."""
+    """Return the seeds that both the plain drives and a variant have."""
     return sorted(outcomes[scene].get(PLAIN, {}).keys() & outcomes[scene].get(variant, {}).keys())
 
 
 def compared(outcomes: Outcomes, row: PositionRow, variant: str,
              by: Callable[[float, float], float]) -> Optional[float]:
-    """A variant's figure against the plain one on the same seeds."""
+    """Return the comparison of a variant's figure with the plain one on the same seeds."""
     seeds = common(outcomes, row.scene, variant)
     with_it, plain = position(outcomes, row, variant, seeds), position(outcomes, row, PLAIN, seeds)
     return by(with_it, plain) if with_it is not None and plain else None
 
 
 def mean_near(outcomes: Outcomes, variant: str) -> Optional[float]:
-    """Mean of the key's position errors near the Car in a variant's drives; an unknown pose counts not."""
+    """Return the mean of the key's position errors near the Car in a variant's drives; unknown poses do not count."""
     errors = joined([each.errors for scene in SCENES for each in outcomes[scene].get(variant, {}).values()])
     near_m = errors.key_m[(errors.standing | errors.on_axis) & (errors.beyond_m <= NEAR_M)]
     known_m = near_m[np.isfinite(near_m)]
@@ -149,43 +149,43 @@ def mean_near(outcomes: Outcomes, variant: str) -> Optional[float]:
 
 
 def standing(outcomes: Outcomes, scene: str, variant: str) -> Optional[float]:
-    """95 % of the key's position errors while the robot stands, in a variant's drives in one scene."""
+    """Return the 95th percentile of the key's position errors at standstill, in a variant's drives in one scene."""
     errors = joined([each.errors for each in outcomes[scene].get(variant, {}).values()])
     return percentile(errors.key_m[errors.standing])
 
 
 def difference(first: float, second: float) -> float:
-    """How much the first is larger."""
+    """Return the difference."""
     return first - second
 
 
 def quotient(first: float, second: float) -> float:
-    """How many times the second the first is."""
+    """Return the quotient."""
     return first / second
 
 
 def size_error(plain: List[MethodOutcome], suffix: str) -> Optional[float]:
-    """95 % of the errors of length and width, of the Cars whose body is in the LiDAR's plane."""
+    """Return the 95th percentile of the errors of length and width, for Cars whose body is in the LiDAR plane."""
     cars = [each.car for each in plain if each.car and not each.car.only_wheels]
     errors = np.concatenate([np.abs(column(cars, f"{name}_error{suffix}_m")) for name in ("length", "width")])
     return percentile(errors)
 
 
 def worst(values: List[Optional[float]]) -> Optional[float]:
-    """The maximum; None where one is not known, for that one may be the worst."""
+    """Return the maximum; None if a value is unknown, because it may be the worst."""
     known = [value for value in values if value is not None]
     return max(known, default=None) if len(known) == len(values) else None
 
 
 def failed(failures: Failures, scene: str, variant: str) -> int:
-    """Drives of a scene in which this system, or the recording, failed."""
+    """Return the number of drives of a scene in which this system or the recording failed."""
     return sum(name.startswith(f"{scene}_{variant}_") and bool(sentences.keys() & {THIS_SYSTEM, "recording"})
                for name, sentences in failures.items())
 
 
 def judged(requirement: Requirement, value: Optional[float], failed_drives: int,
            details: Optional[Dict[str, Optional[float]]] = None, remark: str = "") -> Row:
-    """One row; with a failed drive it is not met."""
+    """Return one row; with a failed drive it is not met."""
     remarks = [f"{failed_drives} drives failed"] if failed_drives else []
     return Row(requirement, value, is_complete=not failed_drives,
                details={"failed_drives": failed_drives, **(details or {})},

@@ -1,2 +1,2 @@
-"""What this system and two others make of a recorded drive."""
+"""Runs this system and two others on a recorded drive."""
 # SPDX-License-Identifier: Apache-2.0

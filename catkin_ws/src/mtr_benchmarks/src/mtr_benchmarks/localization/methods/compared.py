@@ -1,4 +1,4 @@
-"""The two methods that this system is compared with."""
+"""Runs the two methods with which this system is compared."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from typing import Dict
@@ -16,7 +16,7 @@ from .outcome import MRPT_ICP, ODOMETRY_GYRO, MethodOutcome
 
 
 def compare(folder: pathlib.Path, truth: DriveTruth, mrpt_program: pathlib.Path) -> Dict[str, MethodOutcome]:
-    """Odometry with gyro, and MRPT on top of it; both are given the Car by the truth of the loop."""
+    """Run odometry with gyro, and MRPT on top of it; both receive the Car's pose from the truth of the loop."""
     log = read_sensors(folder / BAG)
     odometry = dead_reckoned(log)
     slam = run_mrpt(mrpt_program, log, odometry, folder)
@@ -25,7 +25,7 @@ def compare(folder: pathlib.Path, truth: DriveTruth, mrpt_program: pathlib.Path)
 
 
 def fitted_car(track: PoseTrack, truth: DriveTruth) -> MeasuredCar:
-    """The Car where it fits the method's own way round it best: as if its locator made no error."""
+    """Return the Car's pose that fits the method's own loop best, as if its locator made no error."""
     loop = truth.in_loop(track.stamps_s)
     car_from_map = aligned(track.poses[loop], at(truth.track, track.stamps_s[loop]))
     return MeasuredCar(car_from_map.inverse(), np.zeros((3, 3)))

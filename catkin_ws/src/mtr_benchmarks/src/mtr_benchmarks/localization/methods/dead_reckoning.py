@@ -1,4 +1,4 @@
-"""Wheels and gyro alone: what a robot knows without looking, with the gyro's bias measured whenever it stands."""
+"""Odometry of wheels and gyro without LiDAR; the gyro's bias is measured at each standstill."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -9,14 +9,14 @@ from mtr_core.arrays import FloatArray
 from ..drives.pose_track import PoseTrack, pose_track
 from ..drives.sensor_log import SensorLog
 
-# Standing: the wheels say nothing for this long.
+# The robot counts as stopped after the wheels have been at rest for this time.
 STILL_S = 0.5
-# The bias follows the mean of the last standstill's rates over about this time.
+# Time constant with which the bias follows the rates at standstill.
 BIAS_MEMORY_S = 2.0
 
 
 def dead_reckoned(log: SensorLog) -> PoseTrack:
-    """Poses from the start, at each message of the wheels."""
+    """Return the poses from the start, at each message of the wheels."""
     stamps, speeds = log.wheels.T
     rates = np.interp(stamps, *log.gyro.T)
     periods = np.diff(stamps, prepend=stamps[0])
@@ -29,7 +29,7 @@ def dead_reckoned(log: SensorLog) -> PoseTrack:
 
 
 def _bias(stamps: FloatArray, speeds: FloatArray, rates: FloatArray) -> FloatArray:
-    """The gyro's bias as known at each stamp from the standstills before it."""
+    """Return the gyro's bias at each stamp, from the standstills before it."""
     bias, count, still_since = 0.0, 0.0, stamps[0]
     known = np.zeros(len(stamps))
     longest = BIAS_MEMORY_S / float(np.median(np.diff(stamps)))

@@ -1,6 +1,7 @@
-"""Where this system said the key was, at each of its estimates, against the truth; without the Car locator.
+"""Errors of the key at each estimate of this system against the truth, without the Car locator.
 
-Frame map is laid on the truth by the adjusted key frames of the loop, as if the Car had been located without error.
+Frame map is aligned with the truth by the adjusted key frames of the loop, as if the Car had been located without
+error.
 """
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
@@ -20,13 +21,13 @@ REPLAY, TRAJECTORY = "replay", "trajectory.csv"
 
 
 class KeyTrack(NamedTuple):
-    """One row for each estimate.
+    """Errors with one row for each estimate.
 
     Attributes:
-        error_m: distance of the key from where it is said to be.
-        sigma_m: what the estimate's covariance says of the key in the direction of that error.
+        error_m: position error of the key.
+        sigma_m: sigma of the key's position in the direction of that error, from the estimate's covariance.
         valid: the estimate may be used.
-        mode: of LocalizedPose.
+        mode: mode of LocalizedPose.
     """
 
     stamps_s: FloatArray
@@ -37,7 +38,12 @@ class KeyTrack(NamedTuple):
 
 
 def run_key_track(folder: pathlib.Path, truth: DriveTruth) -> KeyTrack:
-    """Localization on the drive in a folder; raises NoMap without a map, SystemFailure when it gives nothing."""
+    """Run localization on the drive in a folder.
+
+    Raises:
+        NoMap: the drive gave no map.
+        SystemFailure: localization gave no result.
+    """
     out = folder / REPLAY
     mapped(folder / BAG, out)
     mode = read_columns(out / TRAJECTORY)["mode"]
@@ -45,9 +51,10 @@ def run_key_track(folder: pathlib.Path, truth: DriveTruth) -> KeyTrack:
 
 
 def key_track(track: PoseTrack, frames: PoseTrack, true: PoseTrack, mode: FloatArray) -> KeyTrack:
-    """Errors of a track with covariances.
+    """Return the errors of a track with covariances.
 
-    The truth is interpolated at the estimates' stamps, and not the other way round: an estimate jumps when it is found.
+    The truth is interpolated at the estimates' stamps, and not vice versa, because an estimate jumps when the robot is
+    found.
     """
     assert track.covariances is not None and track.valid is not None
     map_from_car = aligned(frames.poses, at(true, frames.stamps_s)).inverse()

@@ -1,4 +1,4 @@
-"""MRPT's ICP SLAM on the same data: scans freed of the robot's motion by wheels and gyro, and the odometry of both."""
+"""Runs MRPT's ICP SLAM on the same data: scans corrected for the robot's motion, and odometry of wheels and gyro."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -14,23 +14,23 @@ from ..drives.sensor_log import SensorLog, Sweep
 
 # Beams over the full circle, as dense as the LiDARs' own.
 BEAMS = 960
-# It is given every second sweep, 12.5 Hz: as accurate in a drive with all of them, in half of the time.
+# Every second sweep is used (12.5 Hz): the accuracy is the same as with all of them, in half of the time.
 EVERY = 2
 
 
 class MrptError(Exception):
-    """The program failed; the text says what it said."""
+    """The program failed; the text has its error output."""
 
 
 class MrptRun(NamedTuple):
-    """Poses at the stamps of the scans, and the CPU time of each."""
+    """Poses at the stamps of the scans, and the CPU time per scan."""
 
     track: PoseTrack
     cpu_ms_per_scan: float
 
 
 def run_mrpt(program: pathlib.Path, log: SensorLog, odometry: PoseTrack, folder: pathlib.Path) -> MrptRun:
-    """Let the program work on the drive."""
+    """Run the program on the drive."""
     source, result = folder / "mrpt_input.bin", folder / "mrpt.csv"
     _write(source, log, odometry)
     done = subprocess.run([str(program), str(source), str(result)], text=True, capture_output=True, check=False)
@@ -43,7 +43,7 @@ def run_mrpt(program: pathlib.Path, log: SensorLog, odometry: PoseTrack, folder:
 
 
 def _write(path: pathlib.Path, log: SensorLog, odometry: PoseTrack) -> None:
-    """The program's input, see its head."""
+    """Write the program's input; its source describes the format."""
     turns = list(_turns(log.sweeps))[::EVERY]
     with path.open("wb") as file:
         file.write(np.array([len(turns), BEAMS], dtype="<i8").tobytes())
@@ -55,7 +55,7 @@ def _write(path: pathlib.Path, log: SensorLog, odometry: PoseTrack) -> None:
 
 
 def _turns(sweeps: List[Sweep]) -> Iterator[List[Sweep]]:
-    """Sweeps of all LiDARs that begin at the same time."""
+    """Yield the sweeps of all LiDARs that begin at the same time."""
     together: List[Sweep] = []
     for sweep in sweeps:
         if together and sweep.stamps_s[0] > together[0].stamps_s[0] + 1e-6:
@@ -67,7 +67,7 @@ def _turns(sweeps: List[Sweep]) -> Iterator[List[Sweep]]:
 
 
 def points(sweep: Sweep, odometry: PoseTrack, pose: FloatArray) -> FloatArray:
-    """Returns (n, 2) in base_link at a pose, each seen from where the robot was at its beam's time."""
+    """Return points (n, 2) in base_link at a pose, each corrected for the robot's pose at its beam's time."""
     seen = sweep.ranges_m > 0.0
     x, y, heading = at(odometry, sweep.stamps_s[seen]).T
     local_x = sweep.x_m + sweep.ranges_m[seen] * np.cos(sweep.angles_rad[seen])
@@ -79,7 +79,7 @@ def points(sweep: Sweep, odometry: PoseTrack, pose: FloatArray) -> FloatArray:
 
 
 def rebinned(clouds: List[FloatArray]) -> FloatArray:
-    """Range of the nearest return in each of BEAMS directions from -pi on, 0 where there is none."""
+    """Return the range of the nearest return in each of BEAMS directions from -pi on; 0 without a return."""
     cloud: Tuple[FloatArray, ...] = tuple(np.concatenate(clouds).T)
     distances = np.hypot(*cloud)
     step = 2.0 * math.pi / (BEAMS - 1)

@@ -1,4 +1,4 @@
-"""What one method makes of one drive."""
+"""Result of one method in one drive."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import List, NamedTuple, Optional
@@ -11,16 +11,17 @@ METHODS = (THIS_SYSTEM, ODOMETRY_GYRO, MRPT_ICP)
 
 @dataclass(frozen=True)
 class CarErrors:
-    """How the Car was found; names are those of the file.
+    """Errors of the located Car; the names are those in the file.
 
     Attributes:
-        position_error_m, along_error_m, across_error_m, yaw_error_deg: of its pose in the adjusted map.
-        length_error_m, width_error_m: of what was measured in the LiDARs' plane; _plane_sigma_m: their sigmas.
-        length_error_body_m, width_error_body_m: of what was published against the widest parts; _sigma_m: their sigmas.
-        sigmas: of the pose, along and across the Car and of its heading; m and rad.
-        only_wheels: the LiDARs' plane meets no body.
-        warning: of the Car locator.
-        key_frame_rmse_m: what the key frames are off among themselves, which is localization's error.
+        position_error_m, along_error_m, across_error_m, yaw_error_deg: errors of its pose in the adjusted map.
+        length_error_m, width_error_m: errors of the size in the LiDAR plane; _plane_sigma_m: their sigmas.
+        length_error_body_m, width_error_body_m: errors of the published size against the widest parts; _sigma_m: their
+            sigmas.
+        sigmas: sigmas of the pose, along and across the Car and of its heading; m and rad.
+        only_wheels: the LiDAR plane does not meet the body.
+        warning: warning of the Car locator.
+        key_frame_rmse_m: errors of the key frames relative to each other, which localization causes.
     """
 
     position_error_m: float
@@ -42,12 +43,12 @@ class CarErrors:
 
 
 class MethodOutcome(NamedTuple):
-    """What one method made of one drive.
+    """Result of one method in one drive.
 
     Attributes:
-        errors: of the key after the loop.
+        errors: errors of the key after the loop.
         cpu_ms_per_scan: CPU time.
-        car: how the Car was found; None from a method that finds none.
+        car: errors of the located Car; None if the method does not locate it.
     """
 
     errors: PoseErrors

@@ -1,4 +1,4 @@
-"""This system on one drive: localization's replay of the bag, then the Car locator on the surfaces that it leaves."""
+"""Runs this system on one drive: localization's replay of the bag, then the Car locator on the resulting surfaces."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math
@@ -31,19 +31,19 @@ MIN_INSET_M = 0.001
 
 
 class SystemFailure(Exception):
-    """The system gave nothing to judge; the text is what it said."""
+    """The system gave no result to evaluate; the text is its message."""
 
 
 class NotLocated(SystemFailure):
-    """The Car locator asks about the Car, or says why there is none."""
+    """The Car locator did not locate the Car; the text has its question or reason."""
 
 
 class NoMap(SystemFailure):
-    """The way round the Car gave no map."""
+    """The path around the Car gave no map."""
 
 
 def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> MethodOutcome:
-    """Errors of the whole chain in one drive."""
+    """Return the errors of the whole chain in one drive."""
     out = folder / "replay"
     summary = mapped(folder / BAG, out)
     track = read_replayed(out / "trajectory.csv")
@@ -53,7 +53,11 @@ def run_this_system(folder: pathlib.Path, truth: DriveTruth) -> MethodOutcome:
 
 
 def mapped(bag: pathlib.Path, out: pathlib.Path) -> Dict[str, Any]:
-    """Run localization over the bag; its summary, or NoMap."""
+    """Run localization over the bag; return its summary.
+
+    Raises:
+        NoMap: the drive gave no map.
+    """
     replay(bag, out)
     summary: Dict[str, Any] = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     if not summary["map_valid"]:
@@ -73,7 +77,7 @@ def replay(bag: pathlib.Path, out: pathlib.Path) -> None:
 
 
 def read_replayed(path: pathlib.Path) -> PoseTrack:
-    """The trajectory that replay wrote."""
+    """Read the trajectory of the replay."""
     columns = read_columns(path)
     poses = np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1)
     covariances = np.stack([columns[f"c{row}{column}"] for row in "xyh" for column in "xyh"], axis=1)
@@ -81,14 +85,17 @@ def read_replayed(path: pathlib.Path) -> PoseTrack:
 
 
 def usual_sheet(meta: Dict[str, Any]) -> Optional[DataSheet]:
-    """What a laboratory gives of a Car that the LiDARs' plane meets below its widest line."""
+    """Return the data sheet that a laboratory enters if the LiDAR plane is below the Car's widest line; else None."""
     return data_sheet(meta) if is_below_widest_line(meta) else None
 
 
 def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = (),
            sheet: Optional[DataSheet] = None) -> CarFit:
-    """The Car among the surfaces, or NotLocated; the Operator said where the robot was put, and perhaps what the data
-    sheet says."""
+    """Locate the Car from the surfaces, the Operator's starting place, and optionally the data sheet.
+
+    Raises:
+        NotLocated: the Car was not located.
+    """
     prior = Pose2(*meta["prior_car_from_start"].values()).inverse()
     try:
         return fit_files(out, prior, replace(PARAMETERS, sheet=sheet or DataSheet()), scans)
@@ -97,21 +104,21 @@ def locate(out: pathlib.Path, meta: Dict[str, Any], scans: Iterable[Scan] = (),
 
 
 def is_below_widest_line(meta: Dict[str, Any]) -> bool:
-    """True when the plane does not meet the Car where it is longest and widest."""
+    """Return True if the plane does not meet the Car at its largest length and width."""
     at_lidar = meta["at_lidar"]
     return at_lidar["only_wheels"] or min(meta["length_m"] - at_lidar["length_m"],
                                           meta["width_m"] - at_lidar["width_m"]) > MIN_INSET_M
 
 
 def data_sheet(meta: Dict[str, Any]) -> DataSheet:
-    """What a lab knows of its Car."""
+    """Return the complete data sheet of the Car."""
     return DataSheet(known_length_m=meta["length_m"], known_width_m=meta["width_m"],
                       front_overhang_m=meta["front_overhang_m"],
                       wheelbase_m=meta["wheelbase_m"])
 
 
 def car_pose(found: CarFit) -> MeasuredCar:
-    """The Car in map with its covariance; its sigmas are along and across the Car."""
+    """Return the Car in map with its covariance; its sigmas are along and across the Car."""
     pose = found.rectangle.pose
     along, across, turn = found.sigmas
     cos, sin = math.cos(pose.heading), math.sin(pose.heading)
@@ -120,15 +127,16 @@ def car_pose(found: CarFit) -> MeasuredCar:
 
 
 def key_frames(out: pathlib.Path) -> PoseTrack:
-    """The adjusted key frames."""
+    """Read the adjusted key frames."""
     columns = read_columns(out / "key_frames.csv")
     return pose_track(columns["stamp_s"], np.stack([columns["x_m"], columns["y_m"], columns["heading_rad"]], axis=1))
 
 
 def car_errors(found: CarFit, frames: PoseTrack, truth: DriveTruth) -> CarErrors:
-    """Errors of the Car's pose in the adjusted map, laid on the truth by its key frames, and of its size.
+    """Return the errors of the Car's size, and of its pose in the adjusted map, aligned with the truth by the key
+    frames.
 
-    What the key frames are off among themselves is localization's error, the rest is the Car locator's.
+    Localization causes the errors of the key frames relative to each other; the remaining error is the Car locator's.
     """
     car, meta = found.rectangle, truth.meta
     true = at(truth.track, frames.stamps_s)
@@ -148,7 +156,7 @@ def car_errors(found: CarFit, frames: PoseTrack, truth: DriveTruth) -> CarErrors
 
 
 class PlaneErrors(NamedTuple):
-    """Errors and sigmas of length and width in the LiDARs' plane."""
+    """Errors and sigmas of length and width in the LiDAR plane."""
 
     length_m: float
     width_m: float
@@ -157,7 +165,7 @@ class PlaneErrors(NamedTuple):
 
 
 def plane_errors(found: CarFit, at_lidar: Dict[str, Any]) -> PlaneErrors:
-    """Errors of what was measured in the LiDARs' plane; what was not measured is what is published."""
+    """Return the errors of the size in the LiDAR plane; a size that was not measured is the published one."""
     size, car = found.in_plane, found.rectangle
     return PlaneErrors((size.length or car.length) - at_lidar["length_m"],
                        (size.width or car.width) - at_lidar["width_m"], size.length_sigma, size.width_sigma)
