@@ -1,4 +1,4 @@
-"""Catkin reads the Python packages of mtr_fault_injection from here."""
+"""Python packages of mtr_fault_injection for catkin."""
 # SPDX-License-Identifier: Apache-2.0
 from distutils.core import setup
 

@@ -1,2 +1,2 @@
-"""Faults on request: what they do, when, and where they take hold."""
+"""Faults on request: effects, schedule, and control of parts and links."""
 # SPDX-License-Identifier: Apache-2.0

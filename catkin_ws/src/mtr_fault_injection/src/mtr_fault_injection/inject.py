@@ -18,12 +18,12 @@ NOT_STARTED = ("Faults cannot be injected: no robot runs here that was started w
 
 
 def listed() -> str:
-    """All parts with what each can have, a line each."""
+    """Return all parts with their kinds of fault, one line each."""
     return "\n".join(f"  {part.name:<18}{', '.join(kind.value for kind in part.kinds)}" for part in PARTS.values())
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Ask the node for a fault; the exit status: 0 done, 1 refused, 2 nobody to ask."""
+    """Request a fault from the node; return the exit status: 0 done, 1 refused, 2 the node is not running."""
     usual = ", ".join(f"{kind.value} {amount:g}" for kind, amount in USUAL_AMOUNTS.items())
     parser = argparse.ArgumentParser(prog="inject", formatter_class=argparse.RawDescriptionHelpFormatter,
                                      description="Lets a part of the running robot have a fault for a while.",

@@ -1,4 +1,4 @@
-"""Faults of the computer: a full disk and a processor that is busy with something else. No ROS inside."""
+"""Faults of the computer: a full disk, and a processor with other load. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import errno
 import os
@@ -11,16 +11,20 @@ from typing import List
 from .parts import FaultError
 
 MIB = 1024 * 1024
-# Two processes for each core: whoever wants to work waits for one of them.
+# With two busy processes per core, every other program must wait for one of them.
 BUSY_PER_CORE = 2
 BUSY = "while True: pass"
 
 
 class FullDisk:
-    """Fills what is free of a folder's disk with a file without a name, so that it is gone with this process."""
+    """Fills the free space of a folder's disk with an unnamed file, which disappears with this process."""
 
     def __init__(self, folder: str, limit_mib: int):
-        """limit_mib: a disk with more than that is not filled, for that would take long; FaultError says so."""
+        """limit_mib: largest free space that is filled, because filling more would take too long.
+
+        Raises:
+            FaultError: the disk has more free space, or the folder is missing.
+        """
         if not folder:
             raise FaultError("There is no folder whose disk may be filled; name one with the parameter disk_folder.")
         if not pathlib.Path(folder).is_dir():
@@ -45,12 +49,12 @@ class FullDisk:
                 return
 
     def end(self) -> None:
-        """Give it back."""
+        """Release the disk space."""
         self._file.close()
 
 
 class BusyProcessor:
-    """Processes that compute and nothing else."""
+    """Processes that only compute."""
 
     def __init__(self) -> None:
         self._processes: List[subprocess.Popen[bytes]] = []
@@ -58,7 +62,7 @@ class BusyProcessor:
             self._processes.append(subprocess.Popen([sys.executable, "-c", BUSY]))
 
     def end(self) -> None:
-        """End them."""
+        """End the processes."""
         for process in self._processes:
             process.kill()
         for process in self._processes:

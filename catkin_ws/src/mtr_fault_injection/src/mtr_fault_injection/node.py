@@ -1,4 +1,4 @@
-"""The node fault_injection: a service that takes orders, relays of the sensors' topics, and what is done elsewhere."""
+"""Node fault_injection: a service for requests, relays of the sensors' topics, and control of all other faults."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import threading
@@ -26,12 +26,12 @@ from .set_clock import ClockFile
 from .spoiling import Spoiler
 
 LOOPBACK = "127.0.0.1"
-# How late the end of a fault is noticed; of wall time, for simulated time may stand still because of it.
+# Period in which ends of faults are checked; wall time, because a fault may stop simulated time.
 TURN_S = 0.01
 
 
 class _Relayed(NamedTuple):
-    """A sensor's topic. source: where its driver speaks; name: what the nodes call it."""
+    """Relayed topic of a sensor. source: topic of the driver; name: topic of the sensor without faults."""
 
     part: str
     source: str
@@ -40,12 +40,13 @@ class _Relayed(NamedTuple):
 
 
 def relayed_topic(name: str) -> str:
-    """Where the nodes listen instead, when faults can be injected; robot.launch says it to them."""
+    """Return the topic that the nodes use if faults can be injected; robot.launch configures them so."""
     return f"{names.FAULT_INJECTION}{name}"
 
 
 class FaultInjectionNode:
-    """Off unless it was started; each fault is logged as a warning, which the Operator reads."""
+    """Inactive unless the robot was started for it; each fault is logged as a warning, which is shown to the
+    Operator."""
 
     def __init__(self, parameters: Parameters):
         self._parameters, self._schedule, self._lock = parameters, Schedule(), threading.RLock()
@@ -59,7 +60,7 @@ class FaultInjectionNode:
         self._service = rospy.Service(names.INJECT_FAULT, InjectFault, self._inject)
 
     def spin(self) -> None:
-        """End what is over, until shutdown; then everything."""
+        """End expired faults until shutdown, then all."""
         try:
             while not rospy.is_shutdown():
                 with self._lock:
@@ -125,7 +126,7 @@ class FaultInjectionNode:
 
     @staticmethod
     def _processes() -> List[int]:
-        """Of all nodes that run."""
+        """Return the processes of all running nodes."""
         found = []
         for node in parts.NODES:
             try:
@@ -190,5 +191,5 @@ class FaultInjectionNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node; return its exit status."""
     return run_node("fault_injection", Parameters, FaultInjectionNode)

@@ -8,18 +8,18 @@ from mtr_core.parameters import ParameterSet, number
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the node is started with.
+    """Parameters of the node.
 
     Attributes:
-        simulated: the hardware is the simulator's, which can have faults of its own.
-        seed: of whatever is random in a fault.
+        simulated: the hardware is the simulator's, which can have faults.
+        seed: seed of random faults.
         front_scan, rear_scan, imu_data, wheel_odometry, navsat_fix, battery, firmware_state: topics of the drivers;
-            what is said there goes on under /fault_injection.
-        status_port, command_port: of the robot's link, on 127.0.0.1.
-        relay_status_port, relay_command_port: where the relay of the link listens on 127.0.0.1; 0: there is none.
-        clock_file: through which the clock of the nodes is set, see set_clock.py; empty: it cannot be.
-        disk_folder: whose disk may be filled; empty: none.
-        disk_limit_mib: free space of a disk that is filled at most.
+            they are relayed under /fault_injection.
+        status_port, command_port: ports of the robot's link, on 127.0.0.1.
+        relay_status_port, relay_command_port: ports of the link's relay on 127.0.0.1; 0: no relay.
+        clock_file: file that sets the clock of the nodes, see set_clock.py; empty: the clock cannot be set.
+        disk_folder: folder whose disk may be filled; empty: none.
+        disk_limit_mib: largest free space that is filled.
     """
 
     simulated: bool = False

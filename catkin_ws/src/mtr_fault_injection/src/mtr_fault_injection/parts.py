@@ -1,4 +1,4 @@
-"""The catalogue: which part can have which fault. Everything else refers to these names."""
+"""Catalogue of parts and their kinds of fault; all other modules refer to these names."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Dict, List, NamedTuple, Tuple
@@ -9,33 +9,33 @@ NONE = "none"
 
 
 class FaultError(RobotError):
-    """A fault cannot be injected; the text says what is possible."""
+    """A fault cannot be injected; the text has the possible ones."""
 
 
 class Kind(enum.Enum):
-    """What a part does instead of working."""
+    """Behaviour of a faulty part."""
 
-    OFF = "off"            # nothing comes, or nothing is done
-    STUCK = "stuck"        # the same again and again, with new stamps; a lift that does not move
-    GARBAGE = "garbage"    # numbers that mean nothing, bytes that are no message
-    SLOW = "slow"          # everything `amount` s late; of a node and of the computer: little time to work
+    OFF = "off"            # no output or no effect
+    STUCK = "stuck"        # the same output repeated with new stamps; a lift that does not move
+    GARBAGE = "garbage"    # meaningless numbers, or bytes that are not a message
+    SLOW = "slow"          # everything `amount` s late; for a node or the computer: little processor time
     STOP = "stop"          # SIGSTOP, and SIGCONT at the end; a CAN controller that has left the bus
-    KILL = "kill"          # SIGKILL, and again for as long as the fault lasts
+    KILL = "kill"          # SIGKILL, repeated while the fault lasts
     LOSE = "lose"          # a share of `amount` of the messages is lost
-    DOUBLE = "double"      # each message twice
-    REORDER = "reorder"    # each second message before the one ahead of it
+    DOUBLE = "double"      # each message is sent twice
+    REORDER = "reorder"    # each pair of messages is swapped
     FORWARD = "forward"    # the clock is `amount` s ahead
     BACK = "back"          # the clock is `amount` s behind
-    CLAIM = "claim"        # another Operator sends Commands
-    EMPTY = "empty"        # no beam of a LiDAR has an echo: +inf, as dazzled or covered ones report
-    SECTOR = "sector"      # the same up to `amount` degrees to both sides of where it points
-    DARK = "dark"          # no beam of a LiDAR measures: zero
-    NEAR = "near"          # a cap: each beam ends 5 cm from the LiDAR
-    TILT = "tilt"          # an IMU on a robot whose rear is lifted by `amount` degrees
+    CLAIM = "claim"        # a foreign Operator sends Commands
+    EMPTY = "empty"        # no beam of a LiDAR has an echo: +inf, as dazzled or covered LiDARs report
+    SECTOR = "sector"      # like `empty`, within `amount` degrees on both sides of the LiDAR's x axis
+    DARK = "dark"          # all beams of a LiDAR return zero
+    NEAR = "near"          # a cap on the LiDAR: each beam returns 5 cm
+    TILT = "tilt"          # IMU readings of a robot whose rear is lifted by `amount` degrees
 
 
 class Place(enum.Enum):
-    """Where a fault takes hold."""
+    """Place where a fault acts."""
 
     MESSAGES = "messages"      # between a driver and the nodes
     SIMULATOR = "simulator"    # in the simulated hardware
@@ -45,7 +45,7 @@ class Place(enum.Enum):
 
 
 class Part(NamedTuple):
-    """Something that can have faults. kinds: which."""
+    """Part with its possible kinds of fault."""
 
     name: str
     place: Place
@@ -80,7 +80,7 @@ _ALL = (
     Part(CPU, Place.MACHINE, (Kind.SLOW, Kind.STOP)),
 )
 PARTS: Dict[str, Part] = {part.name: part for part in _ALL}
-# s, s, s, a share, and degrees twice: what a fault takes that does not say how much.
+# Default amounts: s for slow, forward and back, a share for lose, degrees for sector and tilt.
 USUAL_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 0.5, Kind.FORWARD: 0.4, Kind.BACK: 0.4, Kind.LOSE: 0.3,
                                    Kind.SECTOR: 45.0, Kind.TILT: 5.0}
 MAX_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 10.0, Kind.FORWARD: 86400.0, Kind.BACK: 86400.0, Kind.LOSE: 1.0,
@@ -88,19 +88,27 @@ MAX_AMOUNTS: Dict[Kind, float] = {Kind.SLOW: 10.0, Kind.FORWARD: 86400.0, Kind.B
 
 
 def catalogue() -> Dict[str, List[str]]:
-    """Kinds of fault by part, as words."""
+    """Return the kinds of fault by part, as words."""
     return {part.name: [kind.value for kind in part.kinds] for part in _ALL}
 
 
 def part_of(name: str) -> Part:
-    """The part of a name, or FaultError."""
+    """Return the part of a name.
+
+    Raises:
+        FaultError: the part does not exist.
+    """
     if name not in PARTS:
         raise FaultError(f"There is no part {name!r}; there are: {', '.join(PARTS)}.")
     return PARTS[name]
 
 
 def kind_of(part: Part, name: str) -> Kind:
-    """The kind of fault of a name that a part can have, or FaultError."""
+    """Return the kind of fault of a name.
+
+    Raises:
+        FaultError: the part cannot have it.
+    """
     for kind in part.kinds:
         if kind.value == name:
             return kind

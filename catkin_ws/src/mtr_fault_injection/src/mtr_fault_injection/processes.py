@@ -1,4 +1,4 @@
-"""Faults of nodes: their processes are stopped, slowed down or killed. No ROS but the master's own words."""
+"""Faults of nodes: stops, slows down or kills their processes. No ROS except the master's API."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import http.client
@@ -11,15 +11,19 @@ from typing import Any, Callable, Iterable
 from .parts import FaultError, Kind
 
 CALLER = "/fault_injection"
-# Of a slow node: it works for one part of each period.
+# Period of a slow node, and share of it in which the node works.
 SLOW_PERIOD_S, SLOW_SHARE = 0.1, 0.2
-# A node that was killed and comes back is killed again within this time.
+# Period in which a node that was killed and restarted is killed again.
 KILL_PERIOD_S = 0.1
 _UNREACHABLE = (OSError, xmlrpc.client.Error, http.client.HTTPException)
 
 
 def process_of(master_uri: str, node: str) -> int:
-    """Id of a node's process on this computer, or FaultError."""
+    """Return the id of a node's process on this computer.
+
+    Raises:
+        FaultError: the node is not running.
+    """
     master: Any = xmlrpc.client.ServerProxy(master_uri)
     try:
         code, problem, uri = master.lookupNode(CALLER, f"/{node.lstrip('/')}")
@@ -32,7 +36,7 @@ def process_of(master_uri: str, node: str) -> int:
 
 
 class ProcessFault:
-    """Signals that some processes get until `end`. find: gives the processes that there are now."""
+    """Signals processes until `end`. find: returns the current processes."""
 
     def __init__(self, kind: Kind, find: Callable[[], Iterable[int]]):
         self._find, self._over = find, threading.Event()
@@ -44,7 +48,7 @@ class ProcessFault:
         self._thread.start()
 
     def end(self) -> None:
-        """Let them go on, and wait until that is so."""
+        """Let the processes continue, and wait for the thread's end."""
         self._over.set()
         self._thread.join()
 
@@ -69,7 +73,7 @@ class ProcessFault:
             self._signal(signal.SIGKILL)
             if self._over.wait(KILL_PERIOD_S):
                 return
-            # The master knows a dead node until another takes its name.
+            # The master keeps a dead node until another one uses its name.
             with contextlib.suppress(FaultError):
                 self._processes = list(self._find())
 

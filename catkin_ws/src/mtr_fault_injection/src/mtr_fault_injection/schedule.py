@@ -1,4 +1,4 @@
-"""Which faults are there now, and until when. No ROS inside."""
+"""Active faults and their ends. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, List, NamedTuple, Optional
 
@@ -10,7 +10,7 @@ MIN_DURATION_S, MAX_DURATION_S = 0.02, 3600.0
 
 
 class Fault(NamedTuple):
-    """One fault of one part. amount: what its kind takes, s or a share, 0 for nothing. until_s: when it is over."""
+    """Fault of one part. amount: parameter of its kind, s, share or degrees; 0: none. until_s: end of the fault."""
 
     part: Part
     kind: Kind
@@ -22,7 +22,11 @@ class Fault(NamedTuple):
 
 
 def fault_of(part: str, kind: str, duration_s: float, amount: float, now_s: float) -> Fault:
-    """The fault that somebody asks for by its names, from now on; amount 0: the usual. FaultError: it cannot be."""
+    """Return the requested fault, starting now. amount 0: default.
+
+    Raises:
+        FaultError: the fault is not possible.
+    """
     found = part_of(part)
     wanted = kind_of(found, kind)
     problem = range_problem("The duration", duration_s, MIN_DURATION_S, MAX_DURATION_S, "s")
@@ -36,34 +40,38 @@ def fault_of(part: str, kind: str, duration_s: float, amount: float, now_s: floa
 
 
 class Schedule:
-    """Faults at a time of a clock that nobody sets; each part has one at most."""
+    """Active faults by a clock that is never set; each part has at most one."""
 
     def __init__(self) -> None:
         self._faults: Dict[str, Fault] = {}
 
     @property
     def active(self) -> List[Fault]:
-        """What is there, oldest first."""
+        """Active faults, oldest first."""
         return list(self._faults.values())
 
     def of(self, part: str) -> Optional[Fault]:
-        """The fault of a part."""
+        """Return the active fault of a part."""
         return self._faults.get(part)
 
     def begin(self, fault: Fault) -> None:
-        """Let a part have a fault, or FaultError while it has another."""
+        """Activate a fault.
+
+        Raises:
+            FaultError: the part has another fault.
+        """
         there = self._faults.get(fault.part.name)
         if there is not None:
             raise FaultError(f"The part {there} already; end that first: inject {there.part.name} none.")
         self._faults[fault.part.name] = fault
 
     def end(self, part: str) -> List[Fault]:
-        """End what a part has; nothing when it has nothing."""
+        """End the fault of a part; return it, or an empty list."""
         fault = self._faults.pop(part_of(part).name, None)
         return [] if fault is None else [fault]
 
     def ended(self, now_s: float) -> List[Fault]:
-        """Faults whose time is over by now; they are there no more."""
+        """Remove and return the expired faults."""
         over = [fault for fault in self._faults.values() if now_s >= fault.until_s]
         for fault in over:
             del self._faults[fault.part.name]

@@ -1,8 +1,8 @@
-/* Preloaded into the robot's processes: their wall clock is the machine's plus what a file says, read anew each time.
+/* Library that is preloaded into the robot's processes: it adds an offset from a shared file to the wall clock.
  *
- * The clock of a machine on which others work cannot be set, and libfaketime reads its file once a second or parses it
- * at each call; here the file is shared memory, so that one write sets the clock of all processes at one instant, and
- * who waits for a time of that clock wakes as the kernel would wake him. Steady clocks are left alone.
+ * The clock of a machine with other users cannot be set. libfaketime reads its file only once a second, or parses it at
+ * each call. Here the file is shared memory, so that one write sets the clock of all processes at the same instant. A
+ * process that waits for a time of this clock wakes as with the kernel's clock. Steady clocks are unchanged.
  * SPDX-License-Identifier: Apache-2.0 */
 #define _GNU_SOURCE
 #include <errno.h>
@@ -18,9 +18,9 @@
 #include <unistd.h>
 
 #define SECOND_NS 1000000000LL
-/* A waiter looks that often whether the clock was set. */
+/* Period in which a waiting thread checks whether the clock was set. */
 #define SLICE_NS 20000000LL
-/* Deadlines before this are of a condition on the steady clock, which counts from the machine's start. */
+/* Earlier deadlines belong to a condition on the steady clock, which counts from the machine's start. */
 #define OLDEST_WALL_S 1000000000LL
 
 static const int64_t zero;

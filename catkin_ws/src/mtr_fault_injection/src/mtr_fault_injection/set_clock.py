@@ -1,4 +1,4 @@
-"""A wall clock of the robot's processes that can be set while they run, without setting the machine's."""
+"""Wall clock of the robot's processes that can be set while they run, without setting the machine's clock."""
 # SPDX-License-Identifier: Apache-2.0
 import mmap
 import pathlib
@@ -14,32 +14,34 @@ S = 1_000_000_000
 
 
 class ClockFile:
-    """What processes that were started with set_clock.so preloaded add to the machine's clock."""
+    """Offset from the machine's clock for processes that were started with set_clock.so preloaded."""
 
     def __init__(self, path: str):
-        """FaultError when there is no such file."""
+        """Raise FaultError if the file does not exist."""
         self._path = pathlib.Path(path)
         if not path or not self._path.is_file():
             raise FaultError("The clock cannot be set: the nodes were not started with set_clock.so preloaded; see "
                              "clock_file.")
 
     def set_by(self, step_s: float) -> None:
-        """Put the clock forward, or back when negative, for all processes at one instant."""
+        """Advance the clock, or set it back if negative, for all processes at the same instant."""
         with self._path.open("r+b") as file, mmap.mmap(file.fileno(), OFFSET.size) as shared:
             shared[:] = OFFSET.pack(OFFSET.unpack(shared[:])[0] + round(step_s * S))
 
 
 class SettableClock:
-    """Attributes:
-        file: through which it is set.
-        variables: of the environment of processes that shall have this clock.
+    """Library and file for setting the clock of new processes.
+
+    Attributes:
+        file: file with the offset.
+        variables: environment variables of processes that use this clock.
     """
 
     def __init__(self, folder: pathlib.Path):
-        """Compile the library into a folder, which is made.
+        """Compile the library into a folder, which is created.
 
         Raises:
-            subprocess.CalledProcessError: the compiler refuses it; it says why on stderr.
+            subprocess.CalledProcessError: the compilation failed; stderr has the reason.
         """
         folder.mkdir(parents=True, exist_ok=True)
         library, self.file = (folder.resolve() / name for name in ("set_clock.so", "offset_ns"))
@@ -47,10 +49,10 @@ class SettableClock:
                         "-o", str(library), str(SOURCE)], check=True)
         self.file.write_bytes(OFFSET.pack(0))
         self._clock = ClockFile(str(self.file))
-        # The dispatcher is started without what is preloaded for the other nodes, see robot.launch.
+        # The dispatcher is started without the other nodes' preloaded libraries, see robot.launch.
         self.variables: Dict[str, str] = {"LD_PRELOAD": str(library), "MTR_DISPATCHER_PRELOAD": str(library),
                                           "MTR_CLOCK_OFFSET_FILE": str(self.file)}
 
     def set_by(self, step_s: float) -> None:
-        """Put the clock forward, or back when negative, for all processes at one instant."""
+        """Advance the clock, or set it back if negative, for all processes at the same instant."""
         self._clock.set_by(step_s)

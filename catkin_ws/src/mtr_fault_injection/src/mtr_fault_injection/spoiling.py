@@ -1,4 +1,4 @@
-"""What a fault does to the messages of a sensor or of the board. No ROS inside."""
+"""Effects of faults on messages of a sensor or of the board. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import copy
@@ -13,18 +13,18 @@ from .tilting import Tilting
 HEADER = "header"
 _BITS = {"uint8": 8, "uint16": 16, "uint32": 32, "uint64": 64}
 _FLOATS = ("float32", "float64")
-# Beside numbers of the usual size: what a broken device or a wrong cast gives.
+# Values that a broken device or a wrong cast gives, in addition to numbers of ordinary size.
 _NONSENSE = (math.nan, math.inf, -math.inf, 1e30, -1e30)
 _USUAL = 1000.0
 _SHARE_OF_NONSENSE = 0.5
 
 
-# Range of each beam of a LiDAR that is covered or dazzled, m.
+# Range of each beam of a covered or dazzled LiDAR, m.
 _SAID = {Kind.EMPTY: math.inf, Kind.SECTOR: math.inf, Kind.DARK: 0.0, Kind.NEAR: 0.05}
 
 
 class Spoiler:
-    """The messages of one topic on their way."""
+    """Applies faults to the messages of one topic."""
 
     def __init__(self, seed: int):
         self._random = random.Random(seed)
@@ -33,7 +33,8 @@ class Spoiler:
         self._tilting: Optional[Tilting] = None
 
     def passed(self, message: Any, fault: Optional[Fault], now_s: float) -> List[Any]:
-        """What arrives instead of a message that was sent now; None: nothing is wrong. now_s: of any steady clock."""
+        """Return the messages that arrive instead of a sent one. fault: None: no fault. now_s: time of any steady
+        clock."""
         kind = fault.kind if fault else None
         if fault and kind is Kind.TILT:
             self._tilting = self._tilting or Tilting()
@@ -58,7 +59,7 @@ class Spoiler:
         return arrived
 
     def _stuck(self, message: Any) -> Any:
-        """What was said last, as if it were new."""
+        """Return the last content with the new header."""
         if self._last is None:
             self._last = message
         again = copy.copy(self._last)
@@ -68,7 +69,7 @@ class Spoiler:
 
 
 def _without_echoes(message: Any, fault: Fault) -> Any:
-    """A scan whose beams, or those of the fault's sector, have no echo, or one from the LiDAR's cap."""
+    """Return a scan whose beams, or those in the fault's sector, have no echo, or an echo from the LiDAR's cap."""
     half_rad = math.radians(fault.amount) if fault.kind is Kind.SECTOR else math.inf
     covered = copy.copy(message)
     covered.ranges = [
@@ -78,7 +79,8 @@ def _without_echoes(message: Any, fault: Fault) -> Any:
 
 
 def garbled(message: Any, source: random.Random) -> Any:
-    """A message of the same type and sizes with numbers that mean nothing; its header stays, so that it is fresh."""
+    """Return a message of the same type and sizes with meaningless numbers; the header stays, so that the message is
+    fresh."""
     spoilt = copy.copy(message)
     for name, kind in zip(message.__slots__, message._slot_types):
         if name != HEADER:

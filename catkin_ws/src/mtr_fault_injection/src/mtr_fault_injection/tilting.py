@@ -1,24 +1,24 @@
-"""Readings of an IMU on a robot that is lifted at its rear: what gyro and accelerometer say then. No ROS inside."""
+"""IMU readings of a robot that is lifted at its rear, for gyro and accelerometer. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import copy
 import math
 from typing import Any, Optional
 
-# As fast as a robot drives onto a ramp.
+# Turning rate of a robot that drives onto a ramp.
 RATE_RADPS = math.radians(10.0)
-# A message that comes later belongs to another motion.
+# A message after a longer gap belongs to another motion.
 LONGEST_STEP_S = 0.1
 
 
 class Tilting:
-    """Pitch of the robot, which turns steadily to the one of the fault and back."""
+    """Pitch of the robot, which changes steadily to the fault's pitch and back."""
 
     def __init__(self) -> None:
         self._pitch_rad = 0.0
         self._said_s: Optional[float] = None
 
     def passed(self, message: Any, wanted_rad: float, now_s: float) -> Any:
-        """The reading at this pitch; the message itself on level ground."""
+        """Return the reading at the current pitch; the message itself on level ground."""
         step_s = 0.0 if self._said_s is None else min(LONGEST_STEP_S, max(0.0, now_s - self._said_s))
         self._said_s = now_s
         most_rad = RATE_RADPS * step_s
@@ -30,7 +30,8 @@ class Tilting:
 
 
 def _pitched(message: Any, pitch_rad: float, rate_radps: float) -> Any:
-    """A copy at this pitch, with which what pointed up points to the rear as well; positive: its nose is down."""
+    """Return a copy at this pitch, in which vectors that pointed up also point to the rear; positive: the nose is
+    down."""
     turned = copy.copy(message)
     turned.angular_velocity, turned.linear_acceleration = (
         copy.copy(message.angular_velocity), copy.copy(message.linear_acceleration))

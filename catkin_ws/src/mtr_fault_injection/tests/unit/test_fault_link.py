@@ -1,4 +1,4 @@
-"""The relay of the link: frames lost, late, twice and in another order, one way only; plain and encrypted."""
+"""Relay of the link: lost, late, duplicate and reordered frames, in one direction only; plain and encrypted."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import socket
@@ -39,7 +39,7 @@ def test_first_bytes_of_a_greeting_are_not_held_back():
 
 
 def passed(kind, amount=0.0, count=6):
-    """What arrives of so many messages between two heartbeats."""
+    """Return the bytes that arrive of `count` messages between two heartbeats."""
     spoiler, there = FrameSpoiler(1), fault(kind, amount)
     sent = [Frame(b"ping", False), *(Frame(b"%d" % number, True) for number in range(count)), Frame(b"ping", False)]
     return b"".join(piece for frame in sent for piece in spoiler.passed(frame, there))
@@ -62,7 +62,7 @@ def free_port():
 
 
 class Line:
-    """A publisher, a relay with faults of one direction, and a subscriber behind it."""
+    """Publisher, relay with faults in one direction, and subscriber behind it."""
 
     def __init__(self, encrypted=False):
         self.context, self.fault = zmq.Context(), None
@@ -80,7 +80,7 @@ class Line:
         self.until(b"there", b"there")
 
     def until(self, wanted, sent):
-        """Messages up to the one that is wanted, which is sent until it comes."""
+        """Return the messages up to the wanted one, which is sent until it arrives."""
         found, end_s = [], time.monotonic() + LIMIT_S
         while not found or found[-1] != wanted:
             assert time.monotonic() < end_s, f"{wanted} has not arrived, only {found}"
@@ -90,7 +90,7 @@ class Line:
         return found
 
     def taken(self):
-        """What has arrived before a mark that is sent now."""
+        """Return the messages that arrived before a mark that is sent now."""
         return [each for each in self.until(b"mark", b"mark") if each not in (b"there", b"mark")]
 
     def send(self, *messages):
@@ -112,7 +112,7 @@ def line(request):
 def test_messages_are_lost_one_way_while_the_connection_stays(line):
     line.fault = fault("lose", 1.0)
     line.send(b"one", b"two")
-    # Until the relay has read them, the fault has to be there.
+    # The fault must last until the relay has read the messages.
     end_s = time.monotonic() + 0.2
     while time.monotonic() < end_s:
         assert not line.subscriber.poll(20) or line.subscriber.recv() == b"there"

@@ -1,4 +1,4 @@
-"""Faults of processes, disk, processor and clock, on this machine, as far as a test may."""
+"""Faults of processes, disk, processor and clock on this machine, as far as a test may inject them."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import struct
@@ -27,7 +27,7 @@ def child():
 
 
 def state_of(process):
-    """T: stopped."""
+    """Return the state of a process; T: stopped."""
     return pathlib.Path(f"/proc/{process.pid}/stat").read_text(encoding="ascii").rpartition(")")[2].split()[0]
 
 

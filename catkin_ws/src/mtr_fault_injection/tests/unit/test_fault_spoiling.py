@@ -1,4 +1,4 @@
-"""What faults do to messages: nothing, the same again, nonsense, or everything late; and when they begin and end."""
+"""Effects of faults on messages: none, repeated, meaningless or late; and the beginning and end of faults."""
 # SPDX-License-Identifier: Apache-2.0
 import io
 import math

@@ -1,2 +1,2 @@
-"""The Operator's link with faults: a relay in front of its ports, and an Operator who should not be there."""
+"""Faults of the Operator's link: a relay in front of its ports, and a foreign Operator."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,5 @@
-"""The bytes of a ZeroMQ connection as frames (ZMTP 3, RFC 23), and what a fault does to them. No sockets inside."""
+"""Splits the bytes of a ZeroMQ connection into frames (ZMTP 3, RFC 23), and applies faults to them. No sockets
+inside."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 from typing import List, NamedTuple, Optional, Tuple
@@ -8,25 +9,26 @@ from ..schedule import Fault
 
 GREETING_BYTES = 64
 _LONG, _COMMAND = 0x02, 0x04
-# On an encrypted connection a message travels within a command of this name (RFC 26).
+# On an encrypted connection a message is sent within a command of this name (RFC 26).
 _ENCRYPTED_MESSAGE = b"\x07MESSAGE"
 
 
 class Frame(NamedTuple):
-    """A piece of a connection. is_message: it carries one; a handshake or a heartbeat does not."""
+    """Piece of a connection. is_message: it contains a message; a handshake or heartbeat does not."""
 
     data: bytes
     is_message: bool
 
 
 class FrameCutter:
-    """One direction of one connection."""
+    """Splits one direction of one connection."""
 
     def __init__(self) -> None:
         self._rest, self._of_greeting = b"", GREETING_BYTES
 
     def feed(self, data: bytes) -> List[Frame]:
-        """Frames that are complete now; of the greeting any piece, for each end waits for the other's first bytes."""
+        """Return the completed frames; pieces of the greeting are returned at once, because each end waits for the
+        other's first bytes."""
         greeting, data = data[:self._of_greeting], data[self._of_greeting:]
         self._of_greeting -= len(greeting)
         self._rest += data
@@ -39,7 +41,7 @@ class FrameCutter:
             frames.append(Frame(piece, _is_message(piece)))
 
     def _size(self) -> Optional[int]:
-        """Of the frame that comes next; None while that is not known."""
+        """Return the size of the next frame; None while it is unknown."""
         if not self._rest:
             return None
         start = _body_at(self._rest[0])
@@ -49,14 +51,14 @@ class FrameCutter:
 
 
 class FrameSpoiler:
-    """What arrives of the frames of one direction."""
+    """Applies a fault to the frames of one direction."""
 
     def __init__(self, seed: int):
         self._random = random.Random(seed)
         self._held: Tuple[bytes, ...] = ()
 
     def passed(self, frame: Frame, fault: Optional[Fault]) -> List[bytes]:
-        """Pieces that go on instead of a frame, in order; a delay is the caller's business."""
+        """Return the pieces to forward instead of a frame, in order; the caller applies delays."""
         kind = fault.kind if fault else None
         if kind is Kind.OFF:
             self._held = ()

@@ -1,4 +1,4 @@
-"""A relay in front of the link's two ports, through which whoever wants to feel the faults of a Wi-Fi connects."""
+"""Relay in front of the link's two ports; applications that connect through it experience faults of a Wi-Fi."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import queue
@@ -15,7 +15,7 @@ from .frames import FrameCutter, FrameSpoiler
 
 CHUNK_BYTES = 65536
 BACKLOG = 16
-# Of what is under way between reader and writer, pieces; then the sender feels it.
+# Capacity of the queue between reader and writer, pieces; when it is full, the sender is blocked.
 QUEUED = 10000
 Current = Callable[[], Optional[Fault]]
 _END = b""
@@ -26,7 +26,7 @@ class RelayError(RobotError):
 
 
 class PortRelay:
-    """One port of the link. to_robot, from_robot: the fault of each direction at the time."""
+    """Relay of one port of the link. to_robot, from_robot: return the current fault of each direction."""
 
     def __init__(self, listen: Tuple[str, int], robot: Tuple[str, int], to_robot: Current, from_robot: Current):
         self._robot, self._to_robot, self._from_robot = robot, to_robot, from_robot
@@ -39,7 +39,7 @@ class PortRelay:
         threading.Thread(target=self._accept, name="relay", daemon=True).start()
 
     def close(self) -> None:
-        """End all connections."""
+        """Close all connections."""
         for each in (self._listener, *self._open):
             _shut(each)
 
@@ -62,7 +62,7 @@ class PortRelay:
 
 
 class _Direction:
-    """A thread that reads and one that writes, so that what is late does not hold up the reader."""
+    """Relays one direction with a reader and a writer thread, so that delayed data does not block the reader."""
 
     def __init__(self, source: socket.socket, target: socket.socket, current: Current, seed: int):
         self._source, self._target, self._current = source, target, current
@@ -70,7 +70,7 @@ class _Direction:
         self._under_way: queue.Queue[Tuple[float, bytes]] = queue.Queue(QUEUED)
 
     def start(self) -> None:
-        """Begin."""
+        """Start both threads."""
         for work in (self._read, self._write):
             threading.Thread(target=work, name="relay", daemon=True).start()
 

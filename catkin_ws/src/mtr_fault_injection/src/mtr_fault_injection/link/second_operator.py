@@ -1,4 +1,4 @@
-"""Another application that sends Commands, or what is none, to a robot that is somebody else's."""
+"""Foreign application that sends Commands or garbage to a robot with another Operator."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 import secrets
@@ -11,20 +11,20 @@ from mtr_proto import robot_link_pb2 as link
 from ..parts import Kind
 
 POLL_MS = 100
-# Of what is no Command: some 200 a second.
+# Period of garbage messages, about 200 per second.
 GARBAGE_PERIOD_S = 0.005
 MAX_GARBAGE_BYTES = 300
 
 
 class SecondOperator:
-    """Speaks from a thread until `end`; on a link that is not encrypted, for it has no key."""
+    """Sends from a thread until `end`; only works on an unencrypted link, because it has no key."""
 
     def __init__(self, kind: Kind, address: str, status_port: int, command_port: int, seed: int):
         self._random, self._over = random.Random(seed), threading.Event()
-        # The context of the process: threads of one for each fault would leave their memory behind.
+        # The context of the process is used, because the threads of one context per fault would leak memory.
         context = zmq.Context.instance()
         self._statuses, self._commands = context.socket(zmq.SUB), context.socket(zmq.PUB)
-        # Who only babbles hears nothing; what he does not read would wait for him.
+        # Without a subscription, unread Statuses do not accumulate while garbage is sent.
         if kind is Kind.CLAIM:
             self._statuses.setsockopt(zmq.SUBSCRIBE, b"")
         self._statuses.connect(f"tcp://{address}:{status_port}")
@@ -34,7 +34,7 @@ class SecondOperator:
         self._thread.start()
 
     def end(self) -> None:
-        """Say no more."""
+        """Stop sending."""
         self._over.set()
         self._thread.join()
         self._statuses.close(linger=0)
