@@ -1,4 +1,4 @@
-"""Catkin reads the Python packages of mtr_simulation from here."""
+"""Python packages of mtr_simulation for catkin."""
 # SPDX-License-Identifier: Apache-2.0
 from distutils.core import setup
 

@@ -1,2 +1,2 @@
-"""The simulated robot, its world and the Car, with a core that knows no ROS."""
+"""Simulated robot, its world and the Car, with a core without ROS."""
 # SPDX-License-Identifier: Apache-2.0

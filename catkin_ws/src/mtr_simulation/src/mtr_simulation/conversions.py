@@ -1,4 +1,5 @@
-"""Readings of the simulated sensors as ROS messages; each is filled anew and sent at once, so one object serves."""
+"""Converts readings of the simulated sensors to ROS messages; a message is sent immediately, so one object is
+reused."""
 # SPDX-License-Identifier: Apache-2.0
 import io
 import math
@@ -26,30 +27,30 @@ from .sensors.readings import ODOMETRY_VARIANCES, BatteryReading, ImuReading, Sc
 from .sim import TICK_S
 from .true_state import TrueState
 
-# Ranges stay a numpy array: 720 floats are copied as bytes.
+# Ranges remain a numpy array: 720 floats are copied as bytes.
 NumpyScan = numpy_msg(LaserScan)
 NO_INTENSITIES = np.zeros(0, dtype=np.float32)
 
 
 def stamp(time_ns: int) -> Time:
-    """Nanoseconds as a ROS time."""
+    """Return nanoseconds as a ROS time."""
     return Time(time_ns // 1_000_000_000, time_ns % 1_000_000_000)
 
 
 def serialized(message: Message) -> bytes:
-    """The message as it goes over a connection."""
+    """Return the serialized message as sent over a connection."""
     buffer = io.BytesIO()
     serialize_message(buffer, 0, message)
     return buffer.getvalue()
 
 
 def clock_message(time_ns: int) -> Clock:
-    """Simulated time."""
+    """Return the message of the simulated time."""
     return Clock(stamp(time_ns))
 
 
 def scan_message(scan: Scan, frame: str) -> LaserScan:
-    """One sweep."""
+    """Return the message of one sweep."""
     message = NumpyScan()
     message.header.stamp, message.header.frame_id = stamp(scan.stamp_ns), frame
     message.angle_min, message.angle_increment = scan.angle_min_rad, scan.angle_increment_rad
@@ -61,7 +62,7 @@ def scan_message(scan: Scan, frame: str) -> LaserScan:
 
 
 class ImuMessage:
-    """Fills one Imu message; the sensor gives no orientation."""
+    """Fills an Imu message; the sensor has no orientation."""
 
     def __init__(self, parameters: ImuParameters):
         self._message = Imu()
@@ -71,7 +72,7 @@ class ImuMessage:
         self._message.linear_acceleration_covariance = _diagonal([parameters.accelerometer_density**2 / TICK_S] * 3)
 
     def fill(self, time_ns: int, reading: ImuReading) -> Imu:
-        """Message for the reading."""
+        """Return the message of a reading."""
         message = self._message
         message.header.stamp = stamp(time_ns)
         rate, force = message.angular_velocity, message.linear_acceleration
@@ -81,7 +82,7 @@ class ImuMessage:
 
 
 class OdometryMessage:
-    """Fills one Odometry message."""
+    """Fills an Odometry message."""
 
     def __init__(self, frame: str, variances: Sequence[float] = ODOMETRY_VARIANCES):
         self._message = Odometry()
@@ -89,7 +90,7 @@ class OdometryMessage:
         self._message.pose.covariance = self._message.twist.covariance = _diagonal(variances)
 
     def fill(self, time_ns: int, reading: WheelOdometry, lateral_mps: float = 0.0) -> Odometry:
-        """Message for the reading."""
+        """Return the message of a reading."""
         message = self._message
         message.header.stamp = stamp(time_ns)
         position, twist = message.pose.pose.position, message.twist.twist
@@ -106,14 +107,14 @@ class TruthMessage:
         self._odometry = OdometryMessage(names.CAR, (0.0,) * 6)
 
     def fill(self, truth: TrueState, offset_ns: int = 0) -> Odometry:
-        """Message for the true state; its stamp is so far ahead of the simulated clock."""
+        """Return the message of the true state; offset_ns is added to its stamp."""
         pose = truth.car_from_base
         reading = WheelOdometry(pose.x, pose.y, pose.heading, truth.linear_mps, truth.angular_radps)
         return self._odometry.fill(truth.time_ns + offset_ns, reading, truth.lateral_mps)
 
 
 def battery_message(time_ns: int, reading: BatteryReading) -> BatteryState:
-    """State of charge."""
+    """Return the message of the state of charge."""
     message = BatteryState(voltage=reading.voltage_v, current=reading.current_a, percentage=reading.charge,
                            design_capacity=CAPACITY_WH / FULL_V, charge=math.nan, capacity=math.nan, present=True,
                            power_supply_status=BatteryState.POWER_SUPPLY_STATUS_DISCHARGING)
@@ -122,12 +123,12 @@ def battery_message(time_ns: int, reading: BatteryReading) -> BatteryState:
 
 
 def firmware_message(state: State) -> FirmwareState:
-    """What the firmware reports."""
+    """Return the message of the firmware's state."""
     return seal(FirmwareState(*state, 0))
 
 
 def inputs_message(state: InputState) -> FirmwareInputs:
-    """What the firmware reports of its inputs and signals."""
+    """Return the message of the firmware's inputs and signals."""
     return seal(FirmwareInputs(*state, 0))
 
 

@@ -1,4 +1,4 @@
-"""The simulator as a ROS node: publishes sensors and /clock, listens to the base's and the firmware's topics."""
+"""Simulator as a ROS node: publishes sensors and /clock, subscribes to the topics of the base and the firmware."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import contextlib
@@ -42,14 +42,14 @@ BATTERY = slot(1000)
 
 
 def loaded_base() -> Optional[BaseParameters]:
-    """The platform by the parameters of its controller, as a real one has them; None without any."""
+    """Return the platform according to its controller's parameters, as on a real one; None without any."""
     where = f"/{CONTROLLER}"
     values = rospy.get_param(where, None)
     return None if values is None else parameters_of(base_controller_of(values, where))
 
 
 class SimulatorNode:
-    """One loop: wait for the holds, do what the nodes ordered, step, publish."""
+    """Loop of the simulator: wait for the holds, execute the nodes' commands, step, publish."""
 
     def __init__(self, parameters: SimulatorParameters):
         firmware = emulated_firmware(parameters.firmware_elf) if parameters.firmware_elf else None
@@ -90,7 +90,7 @@ class SimulatorNode:
         while self._barrier.wait(time_ns + CLOCK_STEP.period_ns):
             while self._received:
                 self._received.popleft()()
-            # Here all nodes hold still, so it does not depend on the machine's speed who listens by now.
+            # All nodes wait here, so that the set of subscribers does not depend on the machine's speed.
             self._world.sim.scans_wanted = self._output.has_scan_listener()
             sensors = self._world.step()
             time_ns = sensors.time_ns
@@ -123,7 +123,7 @@ class SimulatorNode:
         self._holds = rospy.Subscriber(names.SIM_HOLD, Header, self._hold, tcp_nodelay=True)
 
     def _listen(self, topic: str, message_type: Any, handle: Callable[[Any], None]) -> None:
-        """Each message is handled in the loop, before the step that follows its arrival."""
+        """Subscribe; each message is handled in the loop, before the step that follows its arrival."""
         def take(message: Any) -> None:
             self._received.append(lambda: handle(message))
             self._barrier.message(message._connection_header["callerid"])
@@ -144,12 +144,12 @@ class SimulatorNode:
         self._barrier.hold(message.frame_id, message.stamp.to_nsec(), message.seq)
 
     def _has_ended(self, node: str) -> bool:
-        """True when the connection over which its holds came was closed."""
+        """Return True if the connection of the node's holds was closed."""
         connections_now = self._holds.impl.connections if self._holds else []
         return all((each.header or {}).get("callerid") != node for each in connections_now)
 
     def _publish(self, sensors: Sensors, lost_ns: int) -> None:
-        """Readings of a tick, and those of the time that the loop has then lost."""
+        """Publish the readings of a tick, and of the time that the loop has then lost."""
         offset_ns = self._stamps.at(sensors.time_ns)
         self._output.publish(sensors, self._world, offset_ns - lost_ns)
         self._world.firmware.stand(lost_ns)
@@ -174,13 +174,13 @@ class SimulatorNode:
 
 
 class Output:
-    """Publishers, and which of them speak at which tick.
+    """Publishers, and their schedule.
 
-    The loop itself sends, without queues, so that everything of a tick is on its way before the clock.
+    The loop sends without queues, so that all messages of a tick are sent before the clock.
     """
 
     def __init__(self, rear_lidar: bool, further: Iterable[Any] = ()):
-        # Latched: a node that is started while time waits for somebody has to know what time it is.
+        # Latched: a node that starts while simulated time waits must receive the time.
         self._clock = direct_publisher("/clock", Clock, latch=True)
         self._front = direct_publisher(names.FRONT_SCAN, conversions.NumpyScan)
         self._rear = direct_publisher(names.REAR_SCAN, conversions.NumpyScan) if rear_lidar else None
@@ -195,7 +195,7 @@ class Output:
         self._truth_message = conversions.TruthMessage()
 
     def mute(self, node: str) -> None:
-        """Say no more to a node that does not read: its full buffers would stop the loop."""
+        """Stop sending to a node that does not read, because its full buffers would block the loop."""
         for topic in (publisher.impl for publisher in self._publishers):
             with topic.c_lock:
                 silent = [each for each in topic.connections if each.endpoint_id == node]
@@ -203,28 +203,28 @@ class Output:
             self._muted += [(topic, connection) for connection in silent]
 
     def unmute(self, node: str) -> None:
-        """Speak to it again, unless it has connected anew."""
+        """Resume sending to a node, unless it has reconnected."""
         for topic, connection in self._muted:
             with topic.c_lock:
                 if connection.endpoint_id == node and all(each.endpoint_id != node for each in topic.connections):
                     topic.connections = [*topic.connections, connection]
             if topic is self._clock.impl:
-                # Time may wait for this node, which has missed what time it is.
+                # Simulated time may wait for this node, which has missed the current time.
                 self._tell_time(topic.latch, [connection])
         self._muted = [each for each in self._muted if each[1].endpoint_id != node]
 
     def has_scan_listener(self) -> bool:
-        """True when anybody listens to a LiDAR."""
+        """Return True if a LiDAR has a subscriber."""
         return any(each.get_num_connections() for each in (self._front, self._rear) if each)
 
     def clock(self, time_ns: int, asleep: Set[str]) -> None:
-        """The time, for all but the nodes that work later: each message wakes a process."""
+        """Publish the time to all nodes except those that work later, because each message wakes a process."""
         self._tell_time(conversions.clock_message(time_ns),
                         (each for each in self._clock.impl.connections if each.endpoint_id not in asleep))
 
     def _tell_time(self, message: Clock, connections_to: Iterable[Any]) -> None:
         topic, data = self._clock.impl, conversions.serialized(message)
-        # rospy tells the latched time to whoever connects under the same lock, so nobody's time goes back.
+        # rospy sends the latched time to new subscribers under the same lock, so the time never decreases for a node.
         with topic.publock or contextlib.nullcontext():  # None as soon as rospy has closed the topic
             topic.latch = message
             for connection in list(connections_to):
@@ -234,7 +234,7 @@ class Output:
                     topic.remove_connection(connection)
 
     def publish(self, sensors: Sensors, world: World, offset_ns: int) -> None:
-        """Everything of a tick but the clock, which comes last; stamps are so far ahead of the simulated clock."""
+        """Publish all messages of a tick except the clock, which is last; offset_ns is added to the stamps."""
         due_ns, sensors = sensors.time_ns, stamped(sensors, offset_ns)
         for publisher, scan, frame in ((self._front, sensors.front_scan, names.FRONT_LIDAR),
                                        (self._rear, sensors.rear_scan, names.REAR_LIDAR)):
@@ -247,31 +247,31 @@ class Output:
         self.publish_motion(sensors)
 
     def publish_motion(self, sensors: Sensors) -> None:
-        """What IMU and wheels say, as it is stamped."""
+        """Publish the readings of IMU and wheels with their stamps."""
         self._imu.publish(self._imu_message.fill(sensors.time_ns, sensors.imu))
         self._odometry.publish(self._odometry_message.fill(sensors.time_ns, sensors.odometry))
 
 
 class NodeWatcher(Watcher):
-    """Logs, and keeps the output from filling the buffers of a node that does not read."""
+    """Logs events, and prevents the output from filling the buffers of a node that does not read."""
 
     def __init__(self, output: Output):
         self._output = output
 
     def warn(self, sentence: str) -> None:
-        """Log it."""
+        """Log a warning."""
         rospy.logwarn("%s", sentence)
 
     def dropped(self, name: str) -> None:
-        """Say no more to that node."""
+        """Stop sending to the node."""
         self._output.mute(name)
 
     def returned(self, name: str) -> None:
-        """Speak to it again."""
+        """Resume sending to the node."""
         self._output.unmute(name)
 
 
 def main() -> int:
-    """Run the node; its exit status."""
-    # The node makes the time that the others wait for.
+    """Run the node; return its exit status."""
+    # The node creates the time for which the others wait.
     return run_node("simulator", SimulatorParameters, SimulatorNode, disable_rostime=True)

@@ -6,5 +6,5 @@ import numpy as np
 
 
 def stream(seed: int, name: str) -> np.random.Generator:
-    """Generator of the named source for a seed; PCG64 gives the same numbers on every machine."""
+    """Return the generator of a named source for a seed; PCG64 gives the same numbers on every machine."""
     return np.random.Generator(np.random.PCG64(np.random.SeedSequence([seed, zlib.crc32(name.encode())])))

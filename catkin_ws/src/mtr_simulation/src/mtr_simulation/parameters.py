@@ -11,12 +11,12 @@ from .site.scenario_file import chosen_scenario
 
 @dataclass(frozen=True)
 class EquipmentParameters(ParameterSet):
-    """What the peripherals' firmware and the Car are started with.
+    """Parameters of the peripherals' firmware and the Car.
 
     Attributes:
-        seed: of every random number.
-        car: name of a shipped Car or path of a Car's file: how its radio and electronics behave.
-        car_port_link: path at which the Car's CAN adapter appears; empty: there is no Car's electronics.
+        seed: seed of every random number.
+        car: name of a shipped Car or path of a Car's file, which defines its radio and electronics.
+        car_port_link: path of the Car's CAN adapter; empty: the Car has no electronics.
         truth_dir: folder for the true events; empty: they are not written.
     """
 
@@ -32,14 +32,14 @@ class EquipmentParameters(ParameterSet):
 
 @dataclass(frozen=True)
 class SimulatorParameters(EquipmentParameters):
-    """What the simulator is started with.
+    """Parameters of the simulator.
 
     Attributes:
         scenario: name of a test site, or path of a site's YAML file.
         rear_lidar: the rear LiDAR exists.
         real_time_factor: simulated seconds per second; 0: as fast as the control loop allows.
-        hold_for: nodes whose first hold the clock waits for.
-        firmware_elf: firmware for an ATmega2560, to be run on an emulated one; empty: it is simulated.
+        hold_for: nodes for whose first hold the clock waits.
+        firmware_elf: firmware for an emulated ATmega2560; empty: the firmware is simulated.
     """
 
     scenario: str = "lot"

@@ -31,7 +31,7 @@ from .true_state import TrueState
 
 GRAVITY_MPS2 = 9.81
 TICK_S = CLOCK_STEP.period_ns * 1e-9
-# The robot settles on its tyres before the clock starts.
+# Time in which the robot settles on its tyres before the clock starts.
 SETTLING_S = 0.5
 
 
@@ -40,7 +40,7 @@ class SimParameters:
     """Parameters of the robot's parts.
 
     Attributes:
-        timestep_s: of the physics; a whole fraction of 20 ms. Turning and slip are the same from 1 to 5 ms.
+        timestep_s: step of the physics; a whole fraction of 20 ms. Turning and slip are the same from 1 to 5 ms.
         rear_lidar: the rear LiDAR exists.
     """
 
@@ -61,25 +61,25 @@ class SimParameters:
 
 
 class Sim:
-    """The robot's physics and sensors for one seed and scenario.
+    """Robot's physics and sensors for one seed and scenario.
 
     Attributes:
-        scenario: what it was made for.
+        scenario: simulated scenario.
         robot: shape and masses.
         time_ns: simulated time, an exact multiple of the clock step.
-        scans_wanted: False saves the work of the LiDARs, half of everything; a sweep that was not seen whole is not
-            given. Nothing else changes, so a listener more or less does not change a run.
+        scans_wanted: False saves the LiDARs' computation, half of the total; an incomplete sweep is not returned.
+            Nothing else changes, so that the number of subscribers has no effect on a run.
     """
 
     def __init__(self, seed: int, scenario: Scenario, parameters: Optional[SimParameters] = None,
                  robot: Optional[RobotModel] = None):
-        """robot: the one of mtr_description unless another is given."""
+        """robot: default: the robot of mtr_description."""
         parameters, robot = parameters or SimParameters(), robot or shipped_robot()
         self.robot = robot
         self.scenario, self.time_ns, self.scans_wanted = scenario, SIMULATION_START_NS, True
         self._model = mujoco.MjModel.from_xml_string(model_xml(
             scenario, robot, scenario.start_in_world(seed), parameters.timestep_s, parameters.base.max_wheel_torque_nm))
-        # The world is the site's own: a slope is a gravity that pulls aside, and everything else stays level.
+        # The world frame belongs to the site: a slope is an inclined gravity, and everything else stays level.
         self._gravity = scenario.gravity(GRAVITY_MPS2)
         self._model.opt.gravity[:] = self._gravity
         self._data = mujoco.MjData(self._model)
@@ -101,17 +101,17 @@ class Sim:
         self._settle()
 
     def command(self, linear_mps: float, angular_radps: float) -> None:
-        """Velocity command, as on the base's topic."""
+        """Set the velocity command, as on the base's topic."""
         self._wheels.command(linear_mps, angular_radps)
 
     def set_lift(self, height_m: float) -> None:
-        """Height that the lift's firmware has reached; the carriage follows."""
-        # The servo is a spring: what the carriage weighs is added, so that it does not sag.
+        """Set the height that the lift's firmware has reached; the carriage follows."""
+        # The servo is a spring; the carriage's weight is compensated, so that it does not sag.
         weight = (self.robot.carriage_mass_kg + self.robot.key_mass_kg) * GRAVITY_MPS2
         self._data.ctrl[self._lift_servo] = height_m + weight / LIFT_STIFFNESS_NPM
 
     def kidnap(self, world_from_base: Pose2) -> None:
-        """Lift the robot and put it down elsewhere: no time passes and the wheels do not turn."""
+        """Put the robot down elsewhere: no time passes and the wheels do not turn."""
         pose, data = world_from_base, self._data
         data.qpos[0:2] = pose.x, pose.y
         data.qpos[2] = self.robot.base_height_m
@@ -122,7 +122,7 @@ class Sim:
         self._state = None
 
     def step(self) -> Sensors:
-        """Advance one tick of 20 ms; what the sensors say at its end."""
+        """Advance one tick of 20 ms; return the readings at its end."""
         quaternion, velocity = self._data.qpos[3:7].tolist(), self._data.qvel[0:3].tolist()
         self.cast_ahead()
         self._sweep_is_whole = self._has_cast and (self._sweep_is_whole or not self._sweep_step())
@@ -138,9 +138,9 @@ class Sim:
         return self._sense(quaternion, velocity)
 
     def stand(self) -> Sensors:
-        """What the sensors say at the end of 20 ms for which the world has stood still, itself included.
+        """Return the readings at the end of 20 ms in which the world and the robot stopped.
 
-        A sweep that has begun is lost: its beams would belong to two times.
+        A sweep that has begun is lost, because its beams would belong to two times.
         """
         self._sweep_is_whole = False
         force = rotate_back(self._base().rotation, *(-each for each in self._gravity))
@@ -148,13 +148,13 @@ class Sim:
                        battery(self._elapsed_s()), None, None)
 
     def cast_ahead(self) -> None:
-        """Cast the beams of this very instant, which no command can change any more; for the time of waiting."""
+        """Cast the beams of the current instant, which no command can change; uses the waiting time."""
         if self.scans_wanted and not self._has_cast:
             self._has_cast = True
             self._cast(self._base(), 0)
 
     def truth(self) -> TrueState:
-        """Where everything really is now."""
+        """Return the current true state."""
         base = self._base()
         lift = float(self._data.qpos[self._lift_joint])
         key = base.point(*self.robot.key_in_base(lift))
@@ -165,7 +165,8 @@ class Sim:
                          base.angular_velocity[2], base.tilt_rad(self._gravity), lift)
 
     def contacts(self) -> Set[str]:
-        """Names of the bodies that the robot touches now: car, parked_0, person, world (poles, walls, ground)."""
+        """Return the names of the bodies that the robot touches now: car, parked_0, person, world (poles, walls,
+        ground)."""
         touched: Set[str] = set()
         if not self._data.ncon:
             return touched
@@ -175,14 +176,14 @@ class Sim:
         return touched - {"base_link"}
 
     def wheel_loads_n(self) -> List[float]:
-        """Force of the ground on each wheel in the last physics step, upwards."""
+        """Return the upward force of the ground on each wheel in the last physics step."""
         return self._tyres.loads_n()
 
     def _elapsed_s(self) -> float:
         return (self.time_ns - SIMULATION_START_NS) * 1e-9
 
     def _base(self) -> BaseState:
-        """Asked for more often than it changes."""
+        """Return the cached state of the base; it is read more often than it changes."""
         if self._state is None:
             position, speed = self._data.qpos[0:7].tolist(), self._data.qvel[0:6].tolist()
             self._state = base_state(position[:3], position[3:], speed[:3], speed[3:])
@@ -194,7 +195,7 @@ class Sim:
             lidar.cast(base, self._sweep_step() + step)
 
     def _sweep_step(self) -> int:
-        """Physics steps since the sweep began."""
+        """Return the number of physics steps since the sweep began."""
         return (self.time_ns - SIMULATION_START_NS) % LIDAR.period_ns // CLOCK_STEP.period_ns * self._steps
 
     def _physics(self, base: BaseState) -> None:
@@ -213,7 +214,7 @@ class Sim:
         self._data.time = 0.0
 
     def _sense(self, quaternion: List[float], velocity: List[float]) -> Sensors:
-        """Readings for the tick that began with this orientation and velocity."""
+        """Return the readings for the tick that began with this orientation and velocity."""
         base = self._base()
         spin = mean_spin(quaternion, self._data.qpos[3:7].tolist(), TICK_S)
         change = [(new - old) / TICK_S for new, old in zip(base.velocity, velocity)]
@@ -222,7 +223,7 @@ class Sim:
                        battery(self._elapsed_s()), *self._scans())
 
     def _scans(self) -> List[Optional[Scan]]:
-        """Sweeps of front and rear LiDAR when they end at this tick and were seen whole."""
+        """Return the sweeps of front and rear LiDAR if they end at this tick and are complete."""
         if self._sweep_step():
             return [None, None]
         scans = {frame: lidar.scan(self.time_ns - LIDAR.period_ns) for frame, lidar in self._lidars.items()}

@@ -1,4 +1,4 @@
-"""Where robot and key really are; for judging results, never for the robot."""
+"""True state of robot and key, for the evaluation of results and never for the robot."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import NamedTuple, Tuple
 
@@ -19,7 +19,7 @@ class TrueState(NamedTuple):
         linear_mps: speed along base_link x.
         lateral_mps: speed along base_link y.
         angular_radps: turning rate.
-        tilt_rad: between the robot's vertical and that of gravity.
+        tilt_rad: angle between the robot's vertical and gravity.
         lift_height_m: above the lower stop.
     """
 

@@ -16,19 +16,19 @@ from .true_state import TrueState
 
 
 class World:
-    """The firmware moves lift and servos, the key goes where robot and lift carry it, and the Car sees the key.
+    """The firmware moves lift and servos, robot and lift carry the key, and the Car detects the key.
 
     Attributes:
         sim: robot and sensors.
         equipment: the peripherals' firmware and the Car.
         truth: true state after the last step.
-        contacts: what the robot touches after the last step.
+        contacts: bodies that the robot touches after the last step.
     """
 
     def __init__(self, parameters: SimulatorParameters, firmware: Optional[Any] = None,
                  robot: Optional[RobotModel] = None, base: Optional[BaseParameters] = None,
                  port: Optional[CanPort] = None):
-        """port: takes the frames of the Car's bus in place of an adapter."""
+        """port: receives the frames of the Car's bus instead of an adapter."""
         scenario = chosen_scenario(parameters.scenario)
         self._world_from_car = scenario.world_from_car
         self.sim = Sim(parameters.seed, scenario, SimParameters(rear_lidar=parameters.rear_lidar,
@@ -39,7 +39,7 @@ class World:
 
     @property
     def firmware(self) -> Any:
-        """Of the peripherals, simulated in this process or emulated."""
+        """Firmware of the peripherals, simulated in this process or emulated."""
         return self.equipment.firmware
 
     def step(self) -> Sensors:
@@ -54,9 +54,9 @@ class World:
         return sensors
 
     def kidnap(self, car_from_base: Pose2) -> None:
-        """Somebody lifts the robot and puts it down elsewhere, in the Car's frame."""
+        """Put the robot down elsewhere, in the Car's frame."""
         self.sim.kidnap(self._world_from_car @ car_from_base)
 
     def close(self) -> None:
-        """Take the CAN adapter away, end the firmware, and close the truth's file."""
+        """Remove the CAN adapter, end the firmware, and close the truth's file."""
         self.equipment.close()

@@ -1,4 +1,4 @@
-"""Makes the bench of the honest Car importable by the tests beside it; benches, and a wall clock that a test sets."""
+"""Fixtures: import path of `honest_bench`, benches of honest Cars, and a wall clock that a test sets."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys
@@ -10,13 +10,13 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 @pytest.fixture
 def bench(tmp_path):
-    """Makes a Car with some parameters changed."""
+    """Function that makes a bench whose Car has the given parameters changed."""
     from honest_bench import Bench, calm
     return lambda **sections: Bench(tmp_path, calm(**sections))
 
 
 class WallClock:
-    """Wall clock that jumps far ahead at each look when it is in a hurry."""
+    """Wall clock that advances by `hurry_s` each time it is read."""
 
     def __init__(self):
         self.now_s = 0.0
@@ -29,5 +29,5 @@ class WallClock:
 
 @pytest.fixture
 def clock():
-    """It stands until a test sets it."""
+    """Wall clock that stays constant until a test sets it."""
     return WallClock()

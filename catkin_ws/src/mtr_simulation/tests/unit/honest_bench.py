@@ -1,4 +1,4 @@
-"""An honest Car on a bench: without chance in its radio, on a fake port, with a key that a test carries about."""
+"""Test bench of an honest Car: deterministic radio, in-memory CAN port, and a key that the test moves."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import dataclasses
@@ -21,7 +21,7 @@ from mtr_simulation.truth.log import TruthLog
 START_NS = 1_000_000_000
 RELEASED, LOCK_PRESSED, UNLOCK_PRESSED = (1000.0, 1000.0), (2000.0, 1000.0), (1000.0, 2000.0)
 DOOR, BESIDE, FAR = (0.05, 1.2, 1.0), (0.05, 3.0, 1.0), (0.05, 9.0, 1.0)
-# Without chance in the radio, so that a test sees one feature alone.
+# The radio has no random effects, so that each test sees one feature alone.
 CALM = HonestParameters(uhf=UhfParameters(fading_sigma_db=0.0, margin_at_1m_db=80.0),
                         noise=NoiseParameters(sigma_db=0.1, lapse=0.0),
                         key=KeyParameters(pattern_floor_db=0.0, sleep_after_s=0.0, button_needs_db=20.0),
@@ -29,13 +29,13 @@ CALM = HonestParameters(uhf=UhfParameters(fading_sigma_db=0.0, margin_at_1m_db=8
 
 
 def calm(**sections):
-    """The calm Car with some parameters of its sections changed: calm(key={"battery_v": 2.0})."""
+    """Deterministic Car with some parameters of its sections changed, e.g. calm(key={"battery_v": 2.0})."""
     return dataclasses.replace(CALM, **{name: dataclasses.replace(getattr(CALM, name), **values)
                                         for name, values in sections.items()})
 
 
 class Bench:
-    """A Car with a fake port, and the time."""
+    """An honest Car with an in-memory CAN port, a truth log and the simulation time."""
 
     def __init__(self, directory, parameters=CALM, seed=1):
         self.port = MemoryCanPort()
@@ -45,24 +45,24 @@ class Bench:
         self.stays(FAR, 0.3)
 
     def stays(self, key_xyz, seconds, servo_us=RELEASED):
-        """The key at one place for a while; the state of the locks after."""
+        """Keep the key at one place for a while and return the resulting state of the locks."""
         for _ in range(round(seconds * 1e9 / STEP_NS)):
             self.car.step(self.time_ns, key_xyz, servo_us)
             self.time_ns += STEP_NS
         return self.car.locks.state
 
     def presses(self, key_xyz, servo_us):
-        """One press of 0.2 s and a second for the locks; the state after."""
+        """Press for 0.2 s, wait one second for the locks, and return their state."""
         self.stays(key_xyz, 0.2, servo_us)
         return self.stays(key_xyz, 1.0)
 
     def events(self):
-        """Kinds and times in s of the truth's lines so far."""
+        """Kinds and times in s of the true events so far."""
         with open(self.log.path, newline="", encoding="utf-8") as file:
             return [(row["event"], float(row["robot_time_s"])) for row in csv.DictReader(file)]
 
     def accepted(self, kind):
-        """Whether the Car took each of the attempts of a kind."""
+        """Column `accepted` of each attempt of one kind."""
         with open(self.log.path, newline="", encoding="utf-8") as file:
             return [row["accepted"] for row in csv.DictReader(file) if row["event"] == kind]
 

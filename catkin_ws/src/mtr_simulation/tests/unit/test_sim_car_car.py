@@ -1,4 +1,4 @@
-"""The simulated Car as a whole: a key that moves and presses, CAN frames and truth that follow."""
+"""Test of the whole simulated Car: a moving key and button presses produce the right CAN frames and true events."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 
@@ -21,7 +21,7 @@ FAR = (0.0, 9.0, 1.0)
 
 
 class Bench:
-    """A Car with a fake port, and the time."""
+    """A Car with an in-memory CAN port, a truth log and the simulation time."""
 
     def __init__(self, directory, seed=1, parameters=None):
         self.port = MemoryCanPort()
@@ -37,13 +37,13 @@ class Bench:
             self.time_ns += STEP_NS
 
     def drive(self, from_y, to_y, speed_mps=0.3):
-        """Carry the key along the axis of the left side's centre."""
+        """Move the key perpendicular to the left side, through its centre."""
         steps = round(abs(to_y - from_y) / (speed_mps * 0.02))
         for step in range(steps + 1):
             self.run((0.0, from_y + (to_y - from_y) * step / steps, 1.0), RELEASED, 1)
 
     def events(self):
-        """Lines of the truth so far."""
+        """Lines of the truth log so far."""
         with open(self.log.path, newline="", encoding="utf-8") as file:
             return list(csv.DictReader(file))
 

@@ -1,4 +1,4 @@
-"""Cars by their files: the shipped ones, wrong ones, and the gentle Car, which stays as it was to the byte."""
+"""Choice of a Car by its file: shipped files, wrong files, and byte-identical frames of the gentle Car."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import hashlib
@@ -15,12 +15,12 @@ from mtr_simulation.car.honest.parameters import HonestParameters
 from mtr_simulation.parameters import SimulatorParameters
 from mtr_simulation.truth.log import NoTruthLog, TruthLog
 
-# Frames and true events of the course below, written by the simulation before there were honest Cars.
+# Digest of the frames and true events of the course below, from the simulation before honest Cars were added.
 GENTLE_DIGEST = "71a3c3037e507f5ed6453e0e49a692999a15a98683cb17de15898568a4105fa0"
 
 
 def course():
-    """Key's places and servos: to the left door and back, then presses on the way to the front."""
+    """Key positions and servo pulse widths: to the left door and back, then presses on the way to the front."""
     for step in range(400):
         yield (0.2, 4.5 - 0.008 * step, 1.0), (1000, 1000)
     for step in range(400):
@@ -32,7 +32,7 @@ def course():
 
 
 def run(choice, seed, log):
-    """Frames of the course."""
+    """CAN frames of the Car during the course."""
     port = MemoryCanPort()
     car = choice.car(seed, port, log)
     for step, (key_xyz, servo_us) in enumerate(course()):

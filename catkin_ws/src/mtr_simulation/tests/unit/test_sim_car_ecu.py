@@ -23,7 +23,7 @@ def ecu():
 
 @pytest.fixture
 def database():
-    """The Car's own DBC."""
+    """The gentle Car's DBC."""
     return cantools.database.load_file(str(DBC_PATH))
 
 
@@ -64,7 +64,7 @@ def test_passive_entry_commands_nothing_for_a_key_that_was_never_near():
 
 
 def follow(contact, pulses):
-    """What the contact reports for pulse widths 20 ms apart."""
+    """Reports of the contact for pulse widths 20 ms apart."""
     return [contact.update(START + 20 * MS * step, pulse, KEY) for step, pulse in enumerate(pulses)]
 
 

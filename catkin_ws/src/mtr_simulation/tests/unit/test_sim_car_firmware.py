@@ -13,7 +13,7 @@ NONE, PRESSING, DONE, REFUSED = range(4)
 
 
 class Bench:
-    """A firmware that has power, a host that talks each 100 ms, and the time."""
+    """A powered firmware, a host that sends a command every 100 ms, and the simulation time."""
 
     def __init__(self, **arguments):
         self.firmware = SimulatedFirmware(**arguments)
@@ -23,7 +23,7 @@ class Bench:
         self.firmware.step(self.time_ns)
 
     def run(self, milliseconds, height_m=math.nan, silent=False):
-        """Let time pass."""
+        """Advance the simulation; the host sends nothing if `silent`."""
         for _ in range(milliseconds // 20):
             if not silent and self.time_ns % (100 * MS) == 0:
                 self.firmware.command(height_m, 2)
@@ -34,13 +34,13 @@ class Bench:
 
     @property
     def state(self):
-        """What the firmware reports now."""
+        """State that the firmware reports now."""
         return self.firmware.state()
 
 
 @pytest.fixture
 def bench():
-    """A fresh board."""
+    """A bench with newly started firmware."""
     return Bench()
 
 

@@ -16,7 +16,7 @@ DIAGONAL = math.sqrt(0.5)
 
 
 def axes():
-    """Origin and direction of axes 0.8 m apart on each side, and of the corners."""
+    """Origin and direction of axes 0.8 m apart on each side, and of axes at the corners."""
     half_length, half_width = 2.25, 0.90
     for offset in (-1.6, -0.8, 0.0, 0.8, 1.6):
         yield (offset, half_width), (0.0, 1.0)

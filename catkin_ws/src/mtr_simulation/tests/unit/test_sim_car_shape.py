@@ -1,4 +1,4 @@
-"""The outline of each car shape is what its numbers say, and what a LiDAR in its plane sees."""
+"""The outline of each car shape matches its parameters and the LiDAR's measurements in its plane."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -13,12 +13,12 @@ from mtr_simulation.site.car_shape import CAR_SHAPES, CarShape, size_at
 from mtr_simulation.site.scenario import Scenario
 
 ROBOT = shipped_robot()
-# Before the front's left corner, so that the front and the left side are seen.
+# Poses diagonally outside the four corners and facing the Car's centre: each sees one end and one side.
 CORNERS = [Pose2(x, y, math.atan2(-y, -x)) for x, y in ((4.2, 2.8), (-4.2, 2.8), (-4.2, -2.8), (4.2, -2.8))]
 
 
 def seen_from(shape, height_m, start):
-    """Returns in frame car from one place, without noise."""
+    """Returns in frame car from one robot pose, without noise."""
     scenario = Scenario(car=shape, start_in_car=start, start_offset_m=0.0, start_offset_rad=0.0)
     lidar = LidarParameters(noise_m=0.0, height_m=height_m)
     sim = Sim(1, scenario, SimParameters(rear_lidar=False, lidar=lidar))
@@ -32,7 +32,7 @@ def seen_from(shape, height_m, start):
                      y + scan.ranges_m[near] * np.sin(angles[near])], axis=1)
 
 
-# Bumpers that stand back at the LiDARs' height behind the sills, or, where these are higher, behind the tyres.
+# The undercut bumpers lie at the LiDARs' height behind the sills or, with higher sills, behind the tyres.
 SHAPES = {**CAR_SHAPES, "undercut": CarShape(clearance_m=0.15, undercut_m=0.08),
           "undercut, high sills": CarShape(clearance_m=0.15, undercut_m=0.08, sill_rise_m=0.12)}
 
@@ -44,7 +44,7 @@ def test_size_in_the_lidar_s_plane_is_what_a_lidar_sees_from_all_corners(name, h
     points = np.concatenate([seen_from(shape, height_m, corner) for corner in CORNERS])
     length, width = np.ptp(points, axis=0)
     expected = size_at(shape, height_m)
-    # Beams a few millimetres to a few centimetres apart miss the outermost point of a tip or a tread.
+    # Beams are a few millimetres to a few centimetres apart and so miss the outermost point of a tip or tread.
     assert length == pytest.approx(expected.length_m, abs=0.03)
     assert width == pytest.approx(expected.width_m, abs=0.01)
 

@@ -1,4 +1,4 @@
-"""CAN adapter on a pseudo-terminal, read by python-can's own driver and by hand."""
+"""CAN adapter on a pseudo-terminal, read by the driver of python-can and by raw bytes."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import select
@@ -16,12 +16,12 @@ from mtr_simulation.car.parameters import CarParameters
 from mtr_simulation.car.slcan_port import Fault, SlcanPort
 from mtr_simulation.truth.log import TruthLog
 
-PATIENCE_S = 10.0  # only a test that fails waits so long
+PATIENCE_S = 10.0  # reached by failing tests only
 DATA = bytes([1, 2, 3, 4])
 
 
 class Host:
-    """The other end of the terminal, byte by byte."""
+    """The host's end of the terminal, byte by byte."""
 
     def __init__(self, link):
         self._file = os.open(str(link), os.O_RDWR | os.O_NOCTTY)
@@ -31,19 +31,19 @@ class Host:
         os.write(self._file, data)
 
     def read(self, count):
-        """Exactly count bytes, or what came until patience ends."""
+        """Read exactly count bytes, or fewer if the time-out expires."""
         data = b""
         while len(data) < count and select.select([self._file], [], [], PATIENCE_S)[0]:
             data += os.read(self._file, count - len(data))
         return data
 
     def ask(self, command, answer):
-        """Send a command and insist on its answer."""
+        """Send a command and check its answer."""
         self.write(command)
         assert self.read(len(answer)) == answer
 
     def close(self):
-        """Hang up."""
+        """Close the terminal."""
         os.close(self._file)
 
 

@@ -1,4 +1,4 @@
-"""Device side of the serial-line CAN protocol: answers, stamps, garbage from the host."""
+"""Device side of the serial-line CAN protocol: answers, stamps, invalid input from the host."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -8,7 +8,7 @@ OK, ERROR = b"\r", b"\a"
 
 
 def opened(*commands):
-    """An adapter after some commands and the opening of its channel."""
+    """An adapter that has processed some commands and opened its channel."""
     adapter = SlcanAdapter()
     for command in (*commands, b"S6\r", b"O\r"):
         assert adapter.receive(command) == OK

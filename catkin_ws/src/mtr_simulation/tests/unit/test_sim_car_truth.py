@@ -21,7 +21,7 @@ AUTOLOCK_HEADER = (
 )
 HEADER = ["scenario", "line", "event", "true_distance_m", "p50_distance_m", "p95_distance_m", "truth_static_m",
           "true_border_share", "true_coverage"]
-# So many cells of a line are empty without a Car's model.
+# Number of cells of a line that are empty without a model of the Car.
 UNKNOWN = 5 * [""]
 KEY_PRESS_HEADER = "radial,angle_deg,status,distance_m,failed_distance_m,uncertainty_m,attempts,robot_time_s"
 
@@ -38,7 +38,7 @@ def at(x, y, kind="unlocked", time_s=10.0, accepted=False):
 
 @pytest.fixture
 def folder(tmp_path):
-    """A log with an unlocking, a locking and two presses, and a folder for results."""
+    """A folder for results with a truth log of one unlock, one lock and two presses."""
     log = TruthLog(tmp_path)
     log.lock_event("unlocked", 10_000_000_000, (0.5, 2.4, 1.0))
     log.lock_event("locked", 20_000_000_000, (0.5, 3.4, 1.0))
@@ -49,14 +49,14 @@ def folder(tmp_path):
 
 
 def run(folder, results, *more):
-    """Exit status of the comparison of these results."""
+    """Exit status of the comparison for these results."""
     (folder / "results.csv").write_text(results, encoding="utf-8")
     arguments = ["--events", folder / "truth_events.csv", "--results", folder, "--car-length", 4.5, "--car-width", 1.8]
     return main([str(argument) for argument in (*arguments, *more)])
 
 
 def truth(folder):
-    """Lines of truth.csv."""
+    """Rows of truth.csv."""
     with open(folder / "truth.csv", newline="", encoding="utf-8") as file:
         return list(csv.reader(file))
 

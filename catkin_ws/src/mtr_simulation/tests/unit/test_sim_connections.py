@@ -1,4 +1,4 @@
-"""Which connections between nodes a simulation waits for before its clock starts."""
+"""Connections between nodes that a simulation waits for before its clock starts."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_simulation.clock import connections
 

@@ -1,4 +1,4 @@
-"""What moves about on a site: what the LiDARs see of it, and that a touch is known as one."""
+"""Moving figures on a site: what the LiDARs measure of them, and detection of contact."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -17,21 +17,21 @@ from mtr_simulation.site.surroundings import Walk
 
 FAR_AWAY = Pose2(60.0, 0.0, 0.0)
 OPEN = Scenario(world_from_car=FAR_AWAY, start_in_car=FAR_AWAY.inverse(), start_offset_m=0.0, start_offset_rad=0.0)
-# Before the front LiDAR.
+# Distance ahead of the front LiDAR.
 AHEAD_M = 2.0
 
 
 def sim_with(figure, stands_s):
-    """A figure ahead of the robot that stands for a while and then comes straight on."""
+    """A figure ahead of the robot that stands for a while and then walks straight towards it."""
     return Sim(1, dataclasses.replace(OPEN, person=Walk((AHEAD_M, 0.0), (-5.0, 0.0), 1.6, stands_s, figure)))
 
 
 def seen(figure):
-    """Places that the front LiDAR sees, in its frame."""
+    """Points measured by the front LiDAR, in its frame."""
     sim = sim_with(figure, 60.0)
     scan = next(each for each in (sim.step().front_scan for _ in range(8)) if each is not None)
     angles = scan.angle_min_rad + scan.angle_increment_rad * np.arange(len(scan.ranges_m))
-    # Nearer is the robot's own mast, farther the Car.
+    # Nearer returns are the robot's own mast, farther ones the Car.
     is_near = (np.asarray(scan.ranges_m) > 0.6) & (np.asarray(scan.ranges_m) < 4.0)
     return np.stack([scan.ranges_m * np.cos(angles), scan.ranges_m * np.sin(angles)], axis=1)[is_near]
 

@@ -1,4 +1,4 @@
-"""Simulated firmware: stop input, buzzer and beacon, as the real one has them."""
+"""Stop input, buzzer and beacon of the simulated firmware behave as on the real firmware."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -16,7 +16,7 @@ RELEASED = (1000, 1000)
 
 
 class Bench:
-    """A firmware whose host orders a height and signals each 100 ms."""
+    """A firmware whose host commands a height and the signals every 100 ms."""
 
     def __init__(self):
         self.firmware, self.time_ns = SimulatedFirmware(), START_NS
@@ -24,7 +24,7 @@ class Bench:
         self.firmware.step(self.time_ns)
 
     def run(self, milliseconds):
-        """Let time pass; what the board reports then."""
+        """Advance the simulation and return the state that the firmware then reports."""
         for _ in range(milliseconds // 20):
             if self.time_ns % (100 * MS) == 0:
                 if self.signals:

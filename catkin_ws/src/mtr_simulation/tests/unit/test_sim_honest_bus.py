@@ -1,4 +1,4 @@
-"""The honest Car's bus: which frames tell its locks, in which cycle, and what else stands in them."""
+"""Bus of the honest Car: frames that report the state of the locks, their cycle, and their other signals."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 

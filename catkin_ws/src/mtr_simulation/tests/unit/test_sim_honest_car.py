@@ -1,4 +1,4 @@
-"""The honest Car's locks: passive entry, walking away, its timers, and which doors a press opens."""
+"""Locks of the honest Car: passive entry, walk-away lock, timers, and the doors that a press opens."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
@@ -17,7 +17,7 @@ def test_car_is_unknown_while_it_boots_then_locked(tmp_path):
 def test_approach_unlocks_and_walking_away_locks_with_their_cause(bench):
     bench = bench()
     assert bench.stays(DOOR, 2.0) is LockState.UNLOCKED
-    assert bench.stays(BESIDE, 2.0) is LockState.UNLOCKED  # between the two zones nothing happens
+    assert bench.stays(BESIDE, 2.0) is LockState.UNLOCKED  # no reaction between the two zones
     assert bench.stays(FAR, 2.0) is LockState.LOCKED
     assert [kind for kind, _ in bench.events()] == ["unlocked", "locked"]
     assert bench.car.locks.cause is Cause.PASSIVE_ENTRY
@@ -34,7 +34,7 @@ def test_reaction_comes_evenly_within_one_poll_after_the_debounce(tmp_path, peri
         while bench.car.locks.state is LockState.LOCKED:
             bench.stays(DOOR, 0.02)
         delays_s.append(bench.events()[0][1] - arrival_s)
-    # Evenly over (debounce - 1) to debounce periods; the key is seen and the locks are moved at ticks of 20 ms.
+    # Delays are uniform over debounce - 1 to debounce periods; key and locks are updated at ticks of 20 ms.
     first_s, last_s = (debounce - 1) * period_ms * 1e-3, debounce * period_ms * 1e-3
     assert first_s - 0.021 <= min(delays_s) and max(delays_s) <= last_s + 0.041
     assert np.mean(delays_s) == pytest.approx((first_s + last_s) / 2.0, abs=0.021 + 0.1 * period_ms * 1e-3)

@@ -1,4 +1,4 @@
-"""The honest Car's handle and the extender of its field: what a hand, and frames of the host, do to the locks."""
+"""Handle and extender of the honest Car: effects of handle requests and of the host's frames on the locks."""
 # SPDX-License-Identifier: Apache-2.0
 import cantools
 from honest_bench import BESIDE, DOOR, FAR, LOCK_PRESSED
@@ -13,7 +13,7 @@ def test_handle_car_waits_for_a_hand_and_looks_where_the_key_is(bench):
     bench = bench(passive_entry={"unlock_on": "handle"})
     assert bench.stays(DOOR, 3.0) is LockState.LOCKED
     bench.car.request_handle()
-    assert bench.stays(BESIDE, 0.5) is LockState.LOCKED  # too far when the hand comes
+    assert bench.stays(BESIDE, 0.5) is LockState.LOCKED  # too far at the time of the request
     bench.car.request_handle()
     assert bench.stays(DOOR, 0.5) is LockState.UNLOCKED
     assert bench.car.locks.cause is Cause.HANDLE
@@ -34,7 +34,7 @@ def test_actuator_on_the_bus_takes_the_handle_once_each_time(bench):
     assert send("released") is LockState.LOCKED
     assert send("open") is LockState.UNLOCKED and bench.car.locks.cause is Cause.HANDLE
     bench.presses(DOOR, LOCK_PRESSED)
-    assert send("open") is LockState.LOCKED  # it was not released
+    assert send("open") is LockState.LOCKED  # not released in between
     assert send("released") is LockState.LOCKED
     assert send("open") is LockState.UNLOCKED
     assert send("lock") is LockState.LOCKED

@@ -1,4 +1,4 @@
-"""The honest Car from instant to instant does what it does step by step."""
+"""The event-based computation of the honest Car gives the same results as its simulation in steps."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import pathlib
@@ -36,7 +36,7 @@ WEAK = pathlib.Path("weak.yaml")
 
 
 def key_at(time_ns):
-    """In from 4 m beside the Car to 0.4 m, and out again; y in m from the Car's middle."""
+    """Key position: from 4 m outside the Car to 0.4 m and out again; y in m from the Car's centre."""
     way_m = SPEED_MPS * (time_ns - START_NS) * 1e-9
     return (0.05, 0.9 + (4.0 - way_m if way_m < 3.6 else way_m - 3.2), 1.0)
 
@@ -81,7 +81,7 @@ def test_the_relock_timer_moves_the_locks_without_a_poll():
     moved = car.pass_time(START_NS + 10_000_000_000)
     assert [(each.state, each.cause) for each in moved] == [(LockState.UNLOCKED, Cause.KEY_BUTTON),
                                                             (LockState.LOCKED, Cause.RELOCK_TIMER)]
-    # 5 s, and the time of the motor.
+    # 5 s of the relock timer and the actuator's time.
     assert moved[1].time_ns - moved[0].time_ns == 5_100_000_000
 
 

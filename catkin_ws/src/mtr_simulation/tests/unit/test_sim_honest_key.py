@@ -1,4 +1,4 @@
-"""The honest Car's key: its sleep, its battery, its attitude, and presses that get lost."""
+"""Key of the honest Car: sleep, battery, attitude, and randomly lost presses."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
@@ -15,7 +15,7 @@ def test_key_at_rest_falls_asleep_and_a_motion_wakes_it(bench):
     bench.stays(DOOR, 2.0)
     assert bench.car.key.is_awake
     assert bench.car.locks.state is LockState.UNLOCKED
-    # Asleep beside the Car it does not answer, and the Car takes it for gone.
+    # The sleeping key at the door does not answer, so the Car treats it as gone.
     assert bench.stays(DOOR, 5.0) is LockState.LOCKED
     assert bench.stays((DOOR[0] + 0.02, *DOOR[1:]), 2.0) is LockState.UNLOCKED
 

@@ -1,4 +1,4 @@
-"""Margins of the honest Cars' radio are those by which tests were simulated before they were computed more quickly."""
+"""The radio margins of the honest Cars equal the results of the former, slower computation."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ from mtr_simulation.car.honest.radio.key_antenna import Attitude
 PLACES = np.array([[0.05, 1.2, 1.0], [0.05, 2.4, 1.0], [-3.1, 0.4, 0.8], [2.9, -1.7, 1.2], [1.0, -4.5, 0.5],
                    [-0.6, -1.6, 1.1]])
 TURNED = Attitude(0.7)
-# Computed on 2026-11-23, antenna by antenna and with complex numbers.
+# Computed on 2026-11-23, one antenna at a time and with complex numbers.
 FORMER_DB = {
     "honest": {
         "unlock_db": [36.101637032483445, 2.7069114147878213, 13.726336378577523, 0.8821745256297426,

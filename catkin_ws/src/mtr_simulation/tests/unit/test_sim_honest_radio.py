@@ -1,4 +1,4 @@
-"""Radio of the honest Car, effect by effect: nulls, fading in space, noise in time, key's antenna and battery."""
+"""Radio effects of the honest Car: nulls, fading in space, noise in time, antenna and battery of the key."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -21,7 +21,7 @@ STEP_NS = 20_000_000
 
 
 def rays_db(distances_m, frequency_mhz):
-    """Two rays between key and Receiver at the heights of the issue."""
+    """Gain of two rays between key and Receiver at the heights of the issue."""
     heights = (np.full(len(distances_m), KEY_M), RECEIVER_M)
     return two_ray_gain_db(distances_m, heights, wavelength_m(frequency_mhz), 5.0)
 
@@ -49,7 +49,7 @@ def test_ground_reflects_with_turned_sign_and_whole_where_the_wave_grazes_it():
 
 
 def field_of(fields, places):
-    """Values of many fields at places, one row a field."""
+    """Values of many fields at places, one row per field."""
     return np.array([field.at(places) for field in fields])
 
 
@@ -90,7 +90,7 @@ def test_fields_of_one_seed_are_the_same_and_of_another_different():
 
 
 def noise_course(sigma_db, correlation_s, steps, seed=1):
-    """Values of the noise in time, step by step."""
+    """Values of the noise in time, one per step."""
     noise, values = TimeNoise(seed, sigma_db, correlation_s), []
     for step in range(steps):
         noise.step(step * STEP_NS)

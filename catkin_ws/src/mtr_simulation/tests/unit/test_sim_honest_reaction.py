@@ -1,4 +1,4 @@
-"""The honest Car's truth: computed probabilities are the frequencies with which the Car itself reacts."""
+"""The computed reaction probabilities of the honest Car agree with the frequencies of its simulated reactions."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -25,26 +25,26 @@ from mtr_simulation.truth.log import NoTruthLog
 
 RELEASED, UNLOCK_PRESSED = (1000.0, 1000.0), (1000.0, 2000.0)
 AT_THE_DOOR = (0.05, 1.2, 1.0)
-# A computed probability is wrong when so rare a count comes of it; the seeds are fixed, so that the tests are too.
+# A probability is rejected if it makes the observed count this unlikely. Seeds are fixed, so tests are repeatable.
 RARE = 1e-4
 LOCKS = LockParameters(boot_ms=0, actuator_ms=0, relock_s=0.0)
 
 
 def agrees(successes, trials, probability):
-    """The count is within the two-sided binomial bounds."""
+    """Whether the count is within the two-sided binomial bounds."""
     low, high = binom.interval(1.0 - RARE, trials, probability)
     return low <= successes <= high
 
 
 class Trial:
-    """A Car of its own, that differs from the others in noise and phase only."""
+    """A separate Car that differs from the Cars of other trials only in noise and phases."""
 
     def __init__(self, seed, parameters):
         self.car = HonestCar(seed, parameters, MemoryCanPort(), NoTruthLog())
         self.time_ns = 1_000_000_000
 
     def stays(self, key_xyz, steps, servo_us=RELEASED, yaw_rad=0.0):
-        """Steps with the key at one place; the state of the locks after."""
+        """Keep the key at one place for some steps and return the resulting state of the locks."""
         for _ in range(steps):
             self.car.step(self.time_ns, key_xyz, servo_us, yaw_rad)
             self.time_ns += STEP_NS
@@ -52,7 +52,7 @@ class Trial:
 
 
 def places_on_a_radial(first_m, last_m, count, angle_rad):
-    """x, y, z at the height of the key."""
+    """Positions x, y, z along a radial at the key's height."""
     distances_m = np.linspace(first_m, last_m, count)
     return np.stack([distances_m * math.cos(angle_rad), distances_m * math.sin(angle_rad), np.ones(count)], axis=-1)
 
@@ -88,7 +88,7 @@ def test_passive_entry_unlocks_as_often_as_computed_at_many_places(poll_period_m
 def _unlocks(seed, parameters, place):
     trial = Trial(seed, parameters)
     steps = round(parameters.passive_entry.response_s * 1e9 / STEP_NS)
-    # One more: the first step only sets the beginning of the polls; another one lets the locks move.
+    # Two extra steps: the first step only starts the polls, and the last one lets the locks move.
     return trial.stays(place, steps + 2) is LockState.UNLOCKED
 
 
@@ -106,7 +106,7 @@ def _locks(seed, parameters, place):
     trial = Trial(seed, parameters)
     while trial.stays(AT_THE_DOOR, 1) is not LockState.UNLOCKED:
         pass
-    # It leaves at any moment between two polls, not right after the one that unlocked.
+    # The key leaves at any moment between two polls, not immediately after the poll that unlocked.
     trial.stays(AT_THE_DOOR, seed % 15)
     return trial.stays(place, round(1.5e9 / STEP_NS) + 1) is LockState.LOCKED
 
@@ -126,7 +126,7 @@ def test_handle_request_unlocks_as_often_as_computed():
 
 
 def sampled(margin_sigmas, polling, polls, trials=20_000):
-    """Frequency of enough agreeing polls, drawn."""
+    """Monte Carlo frequency of enough agreeing polls in a row."""
     generator = np.random.default_rng(5)
     noise, row = generator.normal(size=trials), np.zeros(trials)
     done = np.zeros(trials, dtype=bool)

@@ -1,4 +1,4 @@
-"""The simulated clock waits for those who work, and not for the dead."""
+"""The simulated clock waits for working nodes, and not for ended or silent ones."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 
@@ -15,7 +15,7 @@ def log():
 
 
 class Diary(Watcher):
-    """Watcher that writes everything down."""
+    """Watcher that records all notifications."""
 
     def __init__(self, log):
         self.warn = log.append
@@ -29,7 +29,7 @@ def barrier(log, clock):
 
 
 def wait_in_thread(barrier, time_ns):
-    """Start a wait; it ends when the test has said what it waits for."""
+    """Start a wait in a thread; it ends when the test has fulfilled its condition."""
     results = []
     thread = threading.Thread(target=lambda: results.append(barrier.wait(time_ns)))
     thread.start()

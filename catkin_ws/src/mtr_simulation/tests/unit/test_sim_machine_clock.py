@@ -20,22 +20,22 @@ from mtr_simulation.site.scenario import named_scenario
 
 
 class Clocks:
-    """The machine's clock, which is set, and the steady one."""
+    """A settable machine clock and a steady clock."""
 
     def __init__(self):
         self.clock_ns, self.steady_ns, self.due_s = 5_000_000_000, 2_000_000_000, 2.0
 
     def read(self) -> Instant:
-        """Both."""
+        """Both clocks."""
         return Instant(self.clock_ns, self.steady_ns)
 
     def pass_by(self, duration_ns: int) -> None:
-        """Let time go on."""
+        """Advance both clocks."""
         self.clock_ns += duration_ns
         self.steady_ns += duration_ns
 
     def offset(self) -> StampOffset:
-        """Of stamps by them."""
+        """Offset of stamps for these clocks."""
         return StampOffset(False, 1.0, lambda: self.due_s, self.read)
 
 
@@ -57,7 +57,7 @@ def test_a_tick_that_comes_late_is_stamped_when_it_was_due():
     stamps = [1_000_000_000 + offset.at(1_000_000_000)]
     clocks.pass_by(80_000_000)
     clocks.due_s += 0.02
-    # The clocks are not read at the very same instant.
+    # The two clocks are not read at exactly the same instant.
     clocks.clock_ns += 300_000
     stamps.append(1_020_000_000 + offset.at(1_020_000_000))
     assert stamps == [5_000_000_000, 5_020_000_000]
@@ -110,7 +110,7 @@ def test_gyro_and_wheels_tell_of_no_turn_for_which_the_world_stood_still(lost_ns
     stamps = [each.time_ns for each in read]
     assert stamps[-1] - stamps[0] == 149 * 20_000_000 + 2 * lost_ns
     assert all(0 < after - before <= 20_000_000 for before, after in zip(stamps, stamps[1:]))
-    # As localization does it: a reading is the mean since the one before.
+    # Same integration as in localization: a reading is the mean since the previous reading.
     turned_rad = sum(after.imu.angular_velocity[2] * (after.time_ns - before.time_ns) * 1e-9
                      for before, after in zip(read, read[1:]))
     assert turned_rad == pytest.approx(sim.truth().world_from_base.heading - start_rad, abs=0.01)

@@ -1,4 +1,4 @@
-"""How fast the simulated clock goes beside the wall's, and what it says of that."""
+"""Speed of the simulated clock relative to the wall clock, and its report."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

@@ -1,4 +1,4 @@
-"""Wrong parameters are refused with parameter, value and what is allowed."""
+"""Wrong parameters are rejected with the parameter, its value and the allowed values."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

@@ -1,4 +1,4 @@
-"""The simulated robot moves as a skid-steered robot with a mast does."""
+"""The simulated robot moves like a skid-steered robot with a mast."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -13,7 +13,7 @@ from mtr_simulation.sim import TICK_S, Sim, SimParameters
 from mtr_simulation.site.scenario import Scenario
 
 ROBOT = shipped_robot()
-# Far from the Car, exactly as placed.
+# Far from the Car and without random offset of the start pose.
 FIELD = Scenario(start_in_car=Pose2(10.0, 0.0, 0.0), start_offset_m=0.0, start_offset_rad=0.0)
 EXACT = BaseParameters(radius_error=0.0)
 FOUR_SLIDING_POINTS = 1.0 + (ROBOT.half_wheelbase_m / ROBOT.half_track_m) ** 2
@@ -45,7 +45,7 @@ def test_tyres_hardly_slip_when_accelerating_at_1_mps2():
     for truth, odometry in drive(sim, 1.5, 0.0, 1.5):
         slips.append(abs(odometry.linear_mps - 0.5 * (before + truth.linear_mps)))
         before = truth.linear_mps
-    # The first half second is the robot's rocking back on its tyres.
+    # During the first half second, the robot rocks back on its tyres.
     assert max(slips[25:]) < 0.003
 
 

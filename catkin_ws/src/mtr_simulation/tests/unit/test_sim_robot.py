@@ -1,4 +1,4 @@
-"""The simulated robot is the one of its URDF."""
+"""The simulated robot agrees with its URDF."""
 # SPDX-License-Identifier: Apache-2.0
 import mujoco
 import pytest

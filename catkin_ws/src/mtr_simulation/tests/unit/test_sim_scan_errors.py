@@ -1,4 +1,4 @@
-"""Errors of a LiDAR beyond white noise are what their parameters say, and nothing when they are off."""
+"""LiDAR errors beyond white noise follow their parameters and are absent when switched off."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -18,7 +18,7 @@ ROBOT = shipped_robot()
 LIDAR_HEIGHT_M = ROBOT.base_height_m + ROBOT.front_lidar.z_m
 BESIDE = Scenario(start_in_car=Pose2(0.0, 2.3, -math.pi / 2.0), start_offset_m=0.0, start_offset_rad=0.0)
 FIELD = dataclasses.replace(BESIDE, start_in_car=Pose2(20.0, 0.0, 0.0))
-# A near wall of 100 beams between two far ones, and sky.
+# A near wall of 100 beams between two far walls, then beams without a return.
 RANGES = np.concatenate([np.full(300, 8.0), np.full(100, 2.0), np.full(300, 8.0), np.full(100, np.inf)])
 EDGES = (299, 399)
 
@@ -28,7 +28,7 @@ def disturbed(**errors):
 
 
 def scans(count, scenario=BESIDE, **lidar):
-    """Front scans of a robot that stands."""
+    """Front scans of a stationary robot."""
     sim = Sim(1, scenario, SimParameters(rear_lidar=False, lidar=LidarParameters(**lidar)))
     return [sim.step() and sim.step().front_scan for _ in range(count)]
 

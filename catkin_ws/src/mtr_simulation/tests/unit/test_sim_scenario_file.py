@@ -1,4 +1,4 @@
-"""A test site from a file: what it may say, what is refused, and that both simulators' solids follow from it."""
+"""A test site from a file: allowed content, rejected content, and the resulting solids of both simulators."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

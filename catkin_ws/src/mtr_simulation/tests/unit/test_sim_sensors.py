@@ -1,4 +1,4 @@
-"""The simulated sensors see what is there, with the errors that they state."""
+"""The simulated sensors measure their environment with the errors of their parameters."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -19,12 +19,12 @@ from mtr_simulation.site.surroundings import Pole, Walk
 
 ROBOT = shipped_robot()
 NO_NOISE = SimParameters(lidar=LidarParameters(noise_m=0.0), imu=ImuParameters(0.0, 0.0, 0.0, 0.0, 0.0, 0.0))
-# At the Car's left side, front to the Car.
+# At the Car's left side, facing the Car.
 BESIDE = Scenario(start_in_car=Pose2(0.0, 2.3, -math.pi / 2.0), start_offset_m=0.0, start_offset_rad=0.0)
 
 
 class Constant:
-    """Controller that always wants the same velocity."""
+    """Controller that always commands the same velocity."""
 
     def __init__(self, linear_mps=0.0, angular_radps=0.0):
         self._command = linear_mps, angular_radps
@@ -41,7 +41,7 @@ def first_scans(sim):
 
 
 def points(scan, mount, base):
-    """Finite returns as points, for a robot that stands at base."""
+    """Finite returns as points, for a stationary robot at base."""
     x, yaw = mount
     lidar = base @ Pose2(x, 0.0, yaw)
     angles = scan.angle_min_rad + scan.angle_increment_rad * np.arange(len(scan.ranges_m)) + lidar.heading
@@ -158,7 +158,7 @@ def test_nothing_in_range_is_infinity_and_too_near_is_minus_infinity():
 
 
 def pole_bearing_rad(angular_radps):
-    """Bearing of a pole at the sweep's last beams, and the true one at the time of the first beam."""
+    """Bearing error in rad of a pole at the sweep's last beams, relative to its true bearing at the first beam."""
     scenario = Scenario(start_in_car=Pose2(20.0, 0.0, 0.0), start_offset_m=0.0, start_offset_rad=0.0)
     base = scenario.world_from_car @ scenario.start_in_car
     around = tuple(Pole(base.x + 3.0 * math.cos(angle), base.y + 3.0 * math.sin(angle), 0.03)

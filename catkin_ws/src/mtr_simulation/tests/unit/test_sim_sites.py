@@ -1,4 +1,4 @@
-"""Sites and grounds: what stands where, how uneven ground tilts the robot, and a robot that is carried away."""
+"""Sites and grounds: positions of objects, tilt of the robot on uneven ground, and a displaced robot."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -17,7 +17,7 @@ NO_NOISE = SimParameters(lidar=LidarParameters(noise_m=0.0), imu=ImuParameters(0
 
 
 def returns_from_the_car_s_centre(name):
-    """Ranges of what surrounds the Car, seen from beside it, farther than the Car itself."""
+    """Finite ranges above 8 m at the site's start pose, i.e. of objects other than the Car."""
     sim = Sim(1, named_scenario(name), NO_NOISE)
     sim.step()
     sensors = sim.step()

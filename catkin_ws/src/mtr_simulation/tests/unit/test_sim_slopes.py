@@ -1,4 +1,4 @@
-"""Slopes, slippery ground and cables: what accelerometer, wheels and body feel of them."""
+"""Slopes, slippery ground and cables: their effects on accelerometer, wheels and body."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -22,7 +22,7 @@ AHEAD, LEFT, BEHIND = 0.0, math.pi / 2.0, math.pi
 
 
 def on_slope(degrees, downhill_rad, **changed):
-    """The robot on a slope, its x axis along that of world."""
+    """Simulation of the robot on a slope, with its x axis along the x axis of world."""
     site = dataclasses.replace(FIELD, ground_slope_rad=math.radians(degrees), ground_slope_direction_rad=downhill_rad,
                                **changed)
     sim = Sim(1, site, NO_NOISE)

@@ -31,7 +31,7 @@ def radial(clockwise_deg=0.0):
 
 
 class Logistic:
-    """A Car that nothing but the distance from its left side matters to."""
+    """Car whose reactions depend on one coordinate of the key only, through a logistic function."""
 
     def press(self, places, attitude):
         return 1.0 / (1.0 + np.exp((places[:, 0] - 5.0) / 0.2))
@@ -100,7 +100,7 @@ def test_gentle_car_s_distances_are_where_its_radio_crosses_the_thresholds():
     assert passive.strength_db((0.4, 0.9 + unlock.static_m, 1.0)) == pytest.approx(0.0, abs=0.05)
     assert passive.strength_db((0.4, 0.9 + lock.static_m, 1.0)) == pytest.approx(-12.0, abs=0.05)
     assert remote.margin_db((press.p50_distance_m, 0.0, 1.0)) == pytest.approx(0.0, abs=0.05)
-    # Many polls within the response time unlock a little farther out than one does in half of all cases.
+    # Many polls within the response time unlock slightly farther out than a single poll does in half of all cases.
     assert 0.0 < unlock.p50_distance_m - unlock.static_m < 0.05
     assert press.p95_distance_m < press.p50_distance_m < press.p95_distance_m + 0.2
 
@@ -118,7 +118,7 @@ def test_honest_car_has_a_range_on_every_line_and_its_transition_is_wide():
 
 
 class FirstEvent(NoTruthLog):
-    """Keeps how far from the left side the key was when the locks moved."""
+    """Truth log that stores the key's distance from the left side when the locks moved."""
 
     def __init__(self):
         self.distance_m = None
@@ -128,7 +128,7 @@ class FirstEvent(NoTruthLog):
 
 
 def unlocked_at(seed, speed_mps):
-    """Distance at which the honest Car unlocks on one approach."""
+    """Distance at which the honest Car unlocks during one approach."""
     log = FirstEvent()
     car = chosen_car("honest").car(seed, MemoryCanPort(), log)
     step = 0
@@ -145,5 +145,5 @@ def test_passes_at_several_speeds_tend_to_the_static_boundary():
     means_m = [np.mean([unlocked_at(seed, speed_mps) for seed in range(30)]) for speed_mps in speeds_mps]
     slope_s, intercept_m = np.polyfit(speeds_mps, means_m, 1)
     assert intercept_m == pytest.approx(static_m, abs=0.06)
-    # Half a poll until the first one in the zone, another for the debounce, and the motors.
+    # Delay: half a poll on average to the first poll in the zone, one poll for the debounce, and the actuator.
     assert -slope_s == pytest.approx(0.15 + 0.3 + 0.1, abs=0.12)

@@ -1,4 +1,4 @@
-"""Intervals of results.csv beside their truth, and the share of them that holds it."""
+"""Intervals of results.csv compared with the truth, and the share of intervals that contain it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -21,7 +21,7 @@ KEY_PRESS = """radial,d50_m,d50_low_m,d50_high_m,d95_m,d95_low_m,d95_high_m
 
 
 def truth(line, event, **distances_m):
-    """What the Car's model says of an event."""
+    """Comparison of an event with the distances expected from the Car's model."""
     return Comparison(MeasuredEvent(line, event, "ok", NAN, NAN, NAN, "", (0.0, 0.0)), None, Expected(**distances_m))
 
 

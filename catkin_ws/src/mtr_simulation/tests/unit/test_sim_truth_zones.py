@@ -34,7 +34,7 @@ def handle(border_m=1.5, height_m=1.2):
 
 
 class HandleCar:
-    """Its zone for a hand at the handle ends lower above the ground."""
+    """Car whose zone for handle requests is smaller at lower heights."""
 
     def handle(self, places, attitude):
         return 1.0 / (1.0 + np.exp((places[:, 1] - 0.9 - 1.5 * places[:, 2]) / 0.1))
@@ -58,12 +58,12 @@ def test_handle_request_of_a_car_that_unlocks_by_approach_is_one_look_for_the_ke
 
 
 def expected_model(name):
-    """Truth of a shipped Car."""
+    """Reaction model of a shipped Car."""
     return chosen_car(name).reactions(1)
 
 
 class Ring:
-    """Presses work within 6 m of the Car's centre, for sure."""
+    """Car on which every press works within 6 m of its centre, and none farther away."""
 
     def press(self, places, attitude):
         return (np.hypot(places[:, 0], places[:, 1]) < 6.0).astype(float)
@@ -88,7 +88,7 @@ def test_zone_of_no_known_side_is_refused():
 
 def test_true_coverage_is_the_part_of_the_area_where_half_of_the_presses_work():
     grid = ZoneGrid(0.5, 9.5, 0.05, 5.0, 0.3)
-    # From 1.4 m to 6 m of 1.4 m to 10.4 m, as squares; radials beside the middle begin a little farther out.
+    # Ratio of ring areas, 1.4 m to 6 m over 1.4 m to 10.4 m; radials off the middle begin slightly farther out.
     by_hand = (6.0 ** 2 - 1.4 ** 2) / (10.4 ** 2 - 1.4 ** 2)
     assert true_coverage(zone(), SIZE, Ring(), grid) == pytest.approx(by_hand, abs=0.02)
     assert true_coverage(zone(), SIZE, Ring(), grid._replace(farthest_m=4.0)) == 1.0
@@ -98,7 +98,7 @@ def test_true_coverage_is_the_part_of_the_area_where_half_of_the_presses_work():
 def test_places_of_a_zone_are_those_at_which_the_application_may_press():
     grid = ZoneGrid(0.5, 2.0, 0.5, 15.0, 0.6)
     places = list(grid.places(zone("front"), SIZE))
-    # Radials at -15, 0 and 15 degrees; the nearest place of each is too near.
+    # Radials at -15, 0 and 15 degrees; the nearest place on each is too near.
     assert len(places) == 3 * 3
     assert {round(math.degrees(outward)) for _, _, outward in places} == {-15, 0, 15}
     assert min(x for x, _, _ in places) == pytest.approx(2.25 + math.cos(math.radians(15.0)) * 1.0)
@@ -106,7 +106,7 @@ def test_places_of_a_zone_are_those_at_which_the_application_may_press():
 
 @pytest.fixture
 def compared(tmp_path, capsys):
-    """What the comparison says of results on the honest Car with a handle: exit status, truth.csv, what it printed."""
+    """Function that compares results on the honest Car with a handle and returns exit status, truth.csv and output."""
     log = TruthLog(tmp_path)
     log.handle(10_000_000_000, (0.0, 2.6, 1.0), True)
     log.handle(12_000_000_000, (0.0, 2.9, 1.0), False)

@@ -27,7 +27,7 @@ def world(tmp_path):
 
 
 def steps(world, count, lift_height_m=math.nan):
-    """Step while the host commands the firmware each 100 ms."""
+    """Step the world while the host commands the firmware every 100 ms."""
     for number in range(count):
         if number % 5 == 0:
             world.firmware.command(lift_height_m, 1)

@@ -1,2 +1,2 @@
-"""The simulated Car: radio, body ECU and CAN adapter."""
+"""Simulated Car: radio, body ECU and CAN adapter."""
 # SPDX-License-Identifier: Apache-2.0

@@ -4,13 +4,13 @@ from typing import NamedTuple, Optional, Tuple
 
 from .parameters import RemoteParameters
 
-# Pulse widths of a hobby servo: released and full travel (contract of FirmwareState.servo_us).
+# Pulse widths of a hobby servo: released, and additional width at full travel (contract of FirmwareState.servo_us).
 RELEASED_US = 1000
 TRAVEL_US = 1000
 
 
 class Closing(NamedTuple):
-    """One closing of the contact: when and where it began, and whether it lasted long enough to count."""
+    """One closing of the contact: time and place of its beginning, and whether it lasted long enough to count."""
 
     time_ns: int
     key_xyz: Tuple[float, float, float]
@@ -18,7 +18,7 @@ class Closing(NamedTuple):
 
 
 class ButtonContact:
-    """Follows a servo's pulse width; a press counts when the contact stays closed for a while."""
+    """Follows a servo's pulse width; a press counts when the contact stays closed for a minimum time."""
 
     def __init__(self, parameters: RemoteParameters):
         self._threshold_us = RELEASED_US + parameters.contact_travel * TRAVEL_US
@@ -27,7 +27,7 @@ class ButtonContact:
         self._reported = False
 
     def update(self, time_ns: int, servo_us: float, key_xyz: Tuple[float, float, float]) -> Optional[Closing]:
-        """The closing whose fate is decided now, if any; each one is reported once."""
+        """Return the closing whose result is decided now, if any; each one is reported once."""
         if servo_us < self._threshold_us:
             bounced = None if self._reported else self._closed
             self._closed, self._reported = None, False

@@ -1,4 +1,4 @@
-"""Interface of the simulated Car's CAN adapter, and the fake that keeps the frames in memory."""
+"""Interface of the simulated Car's CAN adapter, and a fake that stores the frames in memory."""
 # SPDX-License-Identifier: Apache-2.0
 from abc import ABC, abstractmethod
 from typing import List, NamedTuple
@@ -7,35 +7,35 @@ from .frames import Frame
 
 
 class SentFrame(NamedTuple):
-    """One data frame that the host gave to the bus."""
+    """One data frame that the host sent to the bus."""
 
     can_id: int
     data: bytes
 
 
 class CanPort(ABC):
-    """Where the simulated Car's frames go."""
+    """CAN adapter that receives the simulated Car's frames."""
 
     @abstractmethod
     def poll(self) -> None:
-        """Handle what the host asked for; never waits."""
+        """Handle the host's commands; never wait."""
 
     @abstractmethod
     def send(self, can_id: int, data: bytes, time_ns: int) -> None:
-        """Give a frame to the host if it listens; never waits. time_ns is when the frame was on the bus."""
+        """Give a frame to the host if it listens; never wait. time_ns is the time of the frame on the bus."""
 
 
     @abstractmethod
     def taken(self) -> List[SentFrame]:
-        """Data frames that the host has sent since the last call, in order; never waits."""
+        """Return the data frames that the host has sent since the last call, in order; never wait."""
 
 
 class MemoryCanPort(CanPort):
-    """Keeps all frames, for tests and for simulations without an adapter.
+    """Stores all frames, for tests and for simulations without an adapter.
 
     Attributes:
-        frames: everything sent, in order.
-        from_host: what the host is to have sent; taken() empties it.
+        frames: all sent frames, in order.
+        from_host: frames that the host sends; taken() empties it.
     """
 
     def __init__(self) -> None:
@@ -43,10 +43,10 @@ class MemoryCanPort(CanPort):
         self.from_host: List[SentFrame] = []
 
     def poll(self) -> None:
-        """Nobody asks."""
+        """Do nothing, because no host sends commands."""
 
     def send(self, can_id: int, data: bytes, time_ns: int) -> None:
-        """Keep the frame."""
+        """Store the frame."""
         self.frames.append(Frame(can_id, data, time_ns))
 
     def taken(self) -> List[SentFrame]:

@@ -1,4 +1,4 @@
-"""The simulated Car: what its radio and locks do while the key moves, seen on its CAN bus and in the truth log."""
+"""Simulated gentle Car: radio and locks while the key moves, with its CAN bus and the truth log."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional, Tuple
 
@@ -21,8 +21,8 @@ class SimulatedCar:
     """Steps radio, contacts and ECU.
 
     Attributes:
-        ecu: the body ECU, to look at its state.
-        vehicle: ignition and speed that it reports.
+        ecu: the body ECU, for reading its state.
+        vehicle: reported ignition and speed.
     """
 
     def __init__(self, seed: int, parameters: CarParameters, port: CanPort, truth_log: EventLog):
@@ -45,13 +45,13 @@ class SimulatedCar:
         self._transmissions = 0
 
     def request_handle(self, command: Command = Command.UNLOCK) -> None:
-        """Nothing: the gentle Car does not look at its handle."""
+        """Do nothing: the gentle Car has no sensor at its handle."""
 
     def step(self, time_ns: int, key_xyz: Point, servo_us: Tuple[float, float], key_yaw_rad: float = 0.0) -> None:
-        """Advance to time_ns, 20 ms after the step before; key_xyz in m in the true Car frame.
+        """Advance to time_ns, 20 ms after the previous step; key_xyz in m in the true Car frame.
 
-        The frames of those 20 ms carry the state at their beginning; then the Car sees where the key is now. The key's
-        heading does not matter to this Car.
+        The frames of those 20 ms have the state at their beginning; then the Car detects the key's current place. The
+        key's heading has no effect on this Car.
         """
         self._port.poll()
         for frame in self._frames.due(time_ns - STEP_NS, time_ns):
@@ -61,7 +61,7 @@ class SimulatedCar:
             closing = contact.update(time_ns, pulse_us, key_xyz)
             if closing is not None:
                 self._transmit(command, closing, time_ns)
-        # A key that arrives while the ECU boots is noticed afterwards, not missed.
+        # A key that arrives while the ECU boots is detected afterwards.
         if self._passive_enabled and self.ecu.lock_state is not LockState.UNKNOWN:
             self._poll_key(time_ns, key_xyz)
 

@@ -1,4 +1,4 @@
-"""Which Car is simulated: the gentle one or an honest one, chosen by a small file or by the name of a shipped one."""
+"""Selection of the simulated Car: gentle or honest, by a small file or the name of a shipped one."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import pathlib
@@ -33,17 +33,17 @@ class Car(Protocol):
     """A Car in the simulation.
 
     Attributes:
-        vehicle: ignition and speed that it reports.
+        vehicle: reported ignition and speed.
     """
 
     vehicle: Vehicle
 
     def step(self, time_ns: int, key_xyz: Tuple[float, float, float], servo_us: Tuple[float, float],
              key_yaw_rad: float = 0.0) -> None:
-        """Advance to time_ns, 20 ms after the step before."""
+        """Advance to time_ns, 20 ms after the previous step."""
 
     def request_handle(self, command: Command = Command.UNLOCK) -> None:
-        """A hand takes the driver's handle."""
+        """Simulate a hand that pulls the driver's handle."""
 
 
 @dataclass(frozen=True)
@@ -51,9 +51,9 @@ class CarChoice:
     """One Car.
 
     Attributes:
-        name: of its file.
-        profile: of the Operator's application for it.
-        honest: its parameters; None for the gentle Car.
+        name: name of its file.
+        profile: car profile of the Operator's application.
+        honest: parameters of an honest Car; None for the gentle Car.
     """
 
     name: str
@@ -61,28 +61,36 @@ class CarChoice:
     honest: Optional[HonestParameters] = None
 
     def car(self, seed: int, port: CanPort, truth_log: EventLog) -> Car:
-        """The Car itself."""
+        """Return the simulated Car."""
         if self.honest is None:
             return SimulatedCar(seed, CarParameters(), port, truth_log)
         return HonestCar(seed, self.honest, port, truth_log)
 
     def reactions(self, seed: int) -> ReactionModel:
-        """Its truth."""
+        """Return the reaction model, which is its truth."""
         return GentleReactions(seed, CarParameters()) if self.honest is None else HonestReactions(self.honest)
 
 
 def car_names() -> Tuple[str, ...]:
-    """Names of the shipped Cars."""
+    """Return the names of the shipped Cars."""
     return tuple(sorted(path.stem for path in FOLDER.glob("*.yaml")))
 
 
 def chosen_car(name_or_path: str) -> CarChoice:
-    """The Car of a shipped name or of a YAML file; ConfigurationError says what is wrong."""
+    """Return the Car of a shipped name or of a YAML file.
+
+    Raises:
+        ConfigurationError: the name or file is invalid.
+    """
     return car_from(*car_content(name_or_path))
 
 
 def car_content(name_or_path: str) -> Tuple[Dict[str, Any], pathlib.Path]:
-    """What the file of a Car says, and where it lies; ConfigurationError when it cannot be read."""
+    """Return the content of a Car's file and its path.
+
+    Raises:
+        ConfigurationError: the file cannot be read.
+    """
     path = FOLDER / f"{name_or_path}.yaml"
     if name_or_path not in car_names():
         path = pathlib.Path(name_or_path)
@@ -93,7 +101,11 @@ def car_content(name_or_path: str) -> Tuple[Dict[str, Any], pathlib.Path]:
 
 
 def car_from(content: Mapping[str, Any], path: pathlib.Path) -> CarChoice:
-    """The Car of a file's content; ConfigurationError says what is wrong, and names the path."""
+    """Return the Car of a file's content.
+
+    Raises:
+        ConfigurationError: the content is invalid; the text names the path.
+    """
     content = dict(content)
     model, profile = content.pop("model", None), content.pop("profile", None)
     content.pop("description", None)

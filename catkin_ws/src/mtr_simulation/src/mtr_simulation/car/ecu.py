@@ -1,16 +1,16 @@
-"""Body ECU of the simulated Car: central locking that passive entry and key buttons command."""
+"""Body ECU of the simulated Car: central locking, commanded by passive entry and key buttons."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Optional
 
 from .parameters import PassiveEntryParameters
 
-# How long LockStateChanged stays set in the frames after a change.
+# Time for which LockStateChanged stays set in the frames after a change.
 CHANGED_FLAG_NS = 100_000_000
 
 
 class LockState(enum.IntEnum):
-    """Numbers of the DBC's LockState."""
+    """Values of the DBC's LockState."""
 
     LOCKED = 0
     UNLOCKED = 1
@@ -18,14 +18,14 @@ class LockState(enum.IntEnum):
 
 
 class Command(enum.IntEnum):
-    """What the central locking can be commanded to do."""
+    """Commands to the central locking."""
 
     LOCK = 0
     UNLOCK = 1
 
 
 class Source(enum.IntEnum):
-    """Numbers of the DBC's LastCommandSource."""
+    """Values of the DBC's LastCommandSource."""
 
     NONE = 0
     PASSIVE_ENTRY = 1
@@ -40,8 +40,8 @@ class BodyEcu:
 
     Attributes:
         lock_state: UNKNOWN until the ECU has booted.
-        last_source: what gave the last accepted command.
-        command_counter: accepted commands, also those that changed nothing.
+        last_source: source of the last accepted command.
+        command_counter: number of accepted commands, including those without a change.
     """
 
     def __init__(self, boot_ns: int):
@@ -53,14 +53,14 @@ class BodyEcu:
         self._changed_ns: Optional[int] = None
 
     def step(self, time_ns: int) -> None:
-        """Let time pass; the first step switches the ECU on, and it wakes locked."""
+        """Advance the time; the first step switches the ECU on, with locked doors after booting."""
         if self._ready_ns is None:
             self._ready_ns = time_ns + self._boot_ns
         if self.lock_state is LockState.UNKNOWN and time_ns >= self._ready_ns:
             self.lock_state = LockState.LOCKED
 
     def command(self, command: Command, source: Source, time_ns: int) -> bool:
-        """Carry out a command; True when the locks moved. Not booted, it receives nothing."""
+        """Execute a command; return True if the locks moved. Commands are ignored until the ECU has booted."""
         if self.lock_state is LockState.UNKNOWN:
             return False
         self.command_counter += 1
@@ -73,15 +73,15 @@ class BodyEcu:
         return True
 
     def has_just_changed(self, time_ns: int) -> bool:
-        """True within 100 ms after a change of the lock state."""
+        """Return True within 100 ms after a change of the lock state."""
         return self._changed_ns is not None and time_ns - self._changed_ns < CHANGED_FLAG_NS
 
 
 class PassiveEntry:
-    """Turns polled field strengths into commands, once per arrival and once per departure of the key.
+    """Converts polled field strengths to commands, one per arrival and one per departure of the key.
 
-    Between the two thresholds nothing changes. A departure that was no arrival commands nothing, so that a Car that a
-    button unlocked from afar stays unlocked.
+    Between the two thresholds nothing changes. A departure without an arrival gives no command, so that a Car that was
+    unlocked by a button from a distance stays unlocked.
     """
 
     def __init__(self, parameters: PassiveEntryParameters):
@@ -90,7 +90,7 @@ class PassiveEntry:
         self._agreeing_polls = 0
 
     def poll(self, strength_db: float) -> Optional[Command]:
-        """Take one poll; the command that follows from it, if any."""
+        """Process one poll; return the resulting command, if any."""
         p = self._parameters
         departs = self._near and strength_db < p.lock_threshold_db
         arrives = not self._near and strength_db > p.unlock_threshold_db

@@ -1,6 +1,6 @@
 """CAN frames of the simulated Car, encoded with its DBC.
 
-Everything repeats, so each distinct frame goes through cantools once and comes from a cache afterwards.
+Frames repeat, so each distinct one is encoded by cantools once and then read from a cache.
 """
 # SPDX-License-Identifier: Apache-2.0
 import functools
@@ -15,13 +15,14 @@ from .vehicle import Vehicle
 DBC_PATH = pathlib.Path(__file__).with_name("mtr_demo_car.dbc")
 LOCK_MESSAGE = "DoorLockStatus"
 
-# The bus' clock is the ECU's own and not in phase with the robot's 20 ms tick: no stamp coincides with a tick.
+# The bus is not in phase with the robot's 20 ms tick, because the ECU has its own clock: no stamp coincides with a
+# tick.
 PERIOD_NS = 20_000_000
 PHASE_NS = 7_000_000
 
 
 class Frame(NamedTuple):
-    """One data frame; time_ns is when it is on the bus."""
+    """One data frame; time_ns is its time on the bus."""
 
     can_id: int
     data: bytes
@@ -29,10 +30,10 @@ class Frame(NamedTuple):
 
 
 class CarFrames:
-    """Yields the frames that are due, with the state of the ECU."""
+    """Yields due frames with the state of the ECU."""
 
     def __init__(self, ecu: BodyEcu, vehicle: Optional[Vehicle] = None):
-        """vehicle: None for a Car at rest whose ignition is off."""
+        """vehicle: None for a stopped Car with the ignition off."""
         self._ecu, self._vehicle = ecu, vehicle or Vehicle()
         self._database: Any = cantools.database.load_file(str(DBC_PATH))
         self._encode = functools.lru_cache(maxsize=4096)(self._encode_once)
@@ -40,7 +41,7 @@ class CarFrames:
         self._every = sorted((m.frame_id, m.name, m.cycle_time * 1_000_000 // PERIOD_NS) for m in messages)
 
     def due(self, after_ns: int, until_ns: int) -> Iterator[Frame]:
-        """Frames later than after_ns and not later than until_ns, in the order of the bus."""
+        """Yield the frames after after_ns up to until_ns, in the order of the bus."""
         first = (after_ns - PHASE_NS) // PERIOD_NS + 1
         last = (until_ns - PHASE_NS) // PERIOD_NS
         for number in range(first, last + 1):

@@ -1,6 +1,6 @@
 """Repeatable randomness: every value is a function of seed, name of the stream and index.
 
-No generator keeps a state, so that the answer at one place does not depend on where the robot was before.
+No generator has a state, so that the value at one place does not depend on the robot's previous path.
 """
 # SPDX-License-Identifier: Apache-2.0
 import hashlib
@@ -12,20 +12,20 @@ _UINT64 = 2.0**64
 
 
 def uniform_pair(seed: int, stream: str, index: int) -> Tuple[float, float]:
-    """Two independent numbers in [0, 1)."""
+    """Return two independent numbers in [0, 1)."""
     digest = hashlib.blake2b(f"{seed}/{stream}/{index}".encode(), digest_size=16).digest()
     first, second = struct.unpack("<QQ", digest)
     return first / _UINT64, second / _UINT64
 
 
 def gaussian(seed: int, stream: str, index: int) -> float:
-    """A normally distributed number, mean 0, sigma 1."""
+    """Return a normally distributed number, mean 0, sigma 1."""
     first, second = uniform_pair(seed, stream, index)
     return math.sqrt(-2.0 * math.log(1.0 - first)) * math.cos(2.0 * math.pi * second)
 
 
 class ShadowField:
-    """Smooth random field over space in dB, as reflections and bodywork make it.
+    """Smooth random field over space in dB, as caused by reflections and bodywork.
 
     A sum of cosines with normally distributed wave vectors has approximately the correlation exp(-r^2 / (2 l^2)).
     """
@@ -37,7 +37,7 @@ class ShadowField:
         self._waves = [_wave(seed, f"shadow/{name}/{i}", correlation_m) for i in range(self._WAVES)]
 
     def at(self, x: float, y: float, z: float) -> float:
-        """Gain in dB at a place given in m."""
+        """Return the gain in dB at a place in m."""
         cos = math.cos
         return self._amplitude_db * sum(cos(kx * x + ky * y + kz * z + p) for kx, ky, kz, p in self._waves)
 

@@ -1,6 +1,6 @@
 """Parameters of the simulated Car's radio and ECU: antennas, thresholds and times.
 
-Positions are in the true Car frame (origin on the ground under the Car's centre, x to its front, y to its left, z up).
+Positions are in the true Car frame (origin on the ground below the Car's centre, x to its front, y to its left, z up).
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -20,8 +20,8 @@ class LfAntenna:
     y_m: float
     z_m: float
     axis_rad: float  # direction of the rod in the ground plane
-    strength_db: float  # field 1 m beside the rod, over the key's reference
-    lobe_db: float  # the bodywork adds lobe_db towards lobe_rad and takes as much away opposite to it
+    strength_db: float  # field 1 m from the rod's side, above the key's reference
+    lobe_db: float  # the bodywork adds lobe_db towards lobe_rad and subtracts it in the opposite direction
     lobe_rad: float
 
     def __post_init__(self) -> None:
@@ -38,14 +38,15 @@ class Lobe:
     direction_rad: float
 
 
-# Places on a car of 4.5 m x 1.8 m; ranges of a mid-size car, about 1.5 m for unlocking, unlike per side on purpose.
+# Places on a car of 4.5 m x 1.8 m; ranges of a mid-size car, about 1.5 m for unlocking, deliberately different per
+# side.
 DEFAULT_ANTENNAS = (
     LfAntenna("left_door", 0.05, 0.88, 0.75, 0.0, 11.2, 1.0, math.radians(100.0)),
     LfAntenna("right_door", 0.05, -0.88, 0.75, 0.0, 10.6, 1.2, math.radians(-60.0)),
     LfAntenna("boot", -2.15, 0.0, 0.60, math.radians(90.0), 11.8, 1.0, math.radians(150.0)),
     LfAntenna("front", 2.10, 0.0, 0.55, math.radians(90.0), 11.6, 0.8, math.radians(-20.0)),
 )
-# Windscreen and rear window let more through than the doors with their pillars; the rest is asymmetry.
+# Windscreen and rear window attenuate less than the doors with their pillars; the other lobes are asymmetries.
 DEFAULT_REMOTE_LOBES = (
     Lobe(1, 0.6, math.radians(30.0)),
     Lobe(2, 2.6, 0.0),
@@ -56,7 +57,7 @@ DEFAULT_REMOTE_LOBES = (
 
 @dataclass(frozen=True)
 class PassiveEntryParameters(ParameterSet):
-    """Locks that react to the key's vicinity."""
+    """Passive entry, which reacts to the key's vicinity."""
 
     PREFIX: ClassVar[str] = "passive_entry."
 
@@ -88,12 +89,12 @@ class RemoteParameters(ParameterSet):
     path_loss_exponent: float = number(4.0, 1.5, 6.0, "(exponent)")
     lobes: Tuple[Lobe, ...] = DEFAULT_REMOTE_LOBES
     best_height_m: float = 1.0
-    height_3db_m: float = number(0.4, 0.05, 10.0, "m")  # 3 dB less this far above or below the best height
+    height_3db_m: float = number(0.4, 0.05, 10.0, "m")  # 3 dB less at this distance above or below the best height
     height_loss_limit_db: float = 12.0
     shadow_sigma_db: float = number(0.7, 0.0, 10.0, "dB")
     noise_sigma_db: float = number(0.2, 0.0, 10.0, "dB")
     contact_travel: float = number(0.6, 0.0, 1.0, "of the servo's full travel")
-    contact_ms: int = number(80, 0, 2000, "ms")  # a shorter contact is taken for bouncing
+    contact_ms: int = number(80, 0, 2000, "ms")  # a shorter contact counts as bouncing
 
 
 @dataclass(frozen=True)

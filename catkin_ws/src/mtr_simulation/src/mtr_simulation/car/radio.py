@@ -8,7 +8,7 @@ from .parameters import LfAntenna, PassiveEntryParameters, RemoteParameters
 
 Point = Tuple[float, float, float]
 
-# Closer than this the dipole formula means nothing, and the strength is far above every threshold anyway.
+# Smallest distance: the dipole formula is invalid below it, and the strength exceeds every threshold.
 _NEAREST_M = 0.2
 
 
@@ -24,16 +24,16 @@ class PassiveEntryRadio:
         ]
 
     def strength_db(self, key: Point) -> float:
-        """Strongest antenna at a place, without the noise in time."""
+        """Return the strength of the strongest antenna at a place, without the noise in time."""
         return max(_dipole_db(antenna, key) + shadow.at(*key) for antenna, shadow in self._paths)
 
     def poll_db(self, key: Point, poll: int) -> float:
-        """What poll number `poll` measures."""
+        """Return the measured strength of a poll by its number."""
         return self.strength_db(key) + self._noise_sigma_db * gaussian(self._seed, "poll", poll)
 
 
 def _dipole_db(antenna: LfAntenna, key: Point) -> float:
-    """Near field of a magnetic dipole: cubic decay, twice as strong along the rod as beside it."""
+    """Return the near field of a magnetic dipole: cubic decay, twice as strong along the rod as at its side."""
     dx, dy, dz = key[0] - antenna.x_m, key[1] - antenna.y_m, key[2] - antenna.z_m
     distance = max(math.sqrt(dx * dx + dy * dy + dz * dz), _NEAREST_M)
     along = (dx * math.cos(antenna.axis_rad) + dy * math.sin(antenna.axis_rad)) / distance
@@ -51,7 +51,7 @@ class RemoteRadio:
         self._shadow = ShadowField(seed, "remote", parameters.shadow_sigma_db, correlation_m)
 
     def margin_db(self, key: Point) -> float:
-        """Received power over what the Receiver needs, without the noise in time."""
+        """Return the received power above the Receiver's threshold, without the noise in time."""
         p = self._parameters
         dx, dy, dz = (a - b for a, b in zip(key, p.receiver_xyz_m))
         distance = max(math.sqrt(dx * dx + dy * dy + dz * dz), _NEAREST_M)
@@ -63,6 +63,6 @@ class RemoteRadio:
         return gains_db - path_db - min(height_db, p.height_loss_limit_db)
 
     def is_received(self, key: Point, transmission: int) -> bool:
-        """True when transmission number `transmission` gets through."""
+        """Return True if the transmission with this number is received."""
         noise_db = self._parameters.noise_sigma_db * gaussian(self._seed, "transmission", transmission)
         return self.margin_db(key) + noise_db >= 0.0

@@ -1,4 +1,4 @@
-"""CAN adapter of the simulated Car: a pseudo-terminal that speaks the serial-line CAN protocol."""
+"""CAN adapter of the simulated Car: a pseudo-terminal with the serial-line CAN protocol."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import enum
@@ -17,28 +17,27 @@ from mtr_core.errors import ConfigurationError
 from .can_port import CanPort, SentFrame
 from .slcan_protocol import SlcanAdapter
 
-# Answers kept for a host that asks and does not read.
+# Largest size of answers for a host that does not read them.
 _MAX_UNSENT = 4096
 
 
 class Fault(enum.Enum):
-    """What is wrong with the bus or the adapter, on request of a test."""
+    """Fault of the bus or the adapter, requested by a test."""
 
     NONE = "none"
     SILENCE = "silence"  # no frames arrive; the adapter answers
-    GARBAGE = "garbage"  # random bytes in place of each frame
-    BUS_OFF = "bus_off"  # the controller left the bus; the status says so
+    GARBAGE = "garbage"  # random bytes instead of each frame
+    BUS_OFF = "bus_off"  # the controller has left the bus; the status reports it
 
 
 class SlcanPort(CanPort):
-    """Pseudo-terminal with a symbolic link as its lasting name.
+    """Pseudo-terminal with a symbolic link as its permanent name.
 
-    It never waits for the host: what does not fit into the terminal's buffer is dropped and counted, whole lines at a
-    time. A thread answers the host's commands, as an adapter has its own processor: also while the simulation's time
-    stands still.
+    It never waits for the host: lines that do not fit into the terminal's buffer are dropped and counted. A thread
+    answers the host's commands, like the processor of an adapter, also while simulated time stops.
 
     Attributes:
-        dropped: frames lost because the host did not read.
+        dropped: number of frames that were lost because the host did not read.
         adapter: state of the protocol.
     """
 
@@ -50,7 +49,7 @@ class SlcanPort(CanPort):
         self._unsent = b""
         self._lock = threading.Lock()
         self._master, self._slave = _open_terminal()
-        # The slave stays open here too: else the master reports a hang-up between two hosts.
+        # The slave is also kept open here; otherwise the master reports a hang-up between two hosts.
         self._device = os.ttyname(self._slave)
         self._link = pathlib.Path(link_path)
         try:
@@ -64,7 +63,7 @@ class SlcanPort(CanPort):
 
     @property
     def fault(self) -> Fault:
-        """Fault in force; assign to change it."""
+        """Current fault; assign to change it."""
         return self._fault
 
     @fault.setter
@@ -110,7 +109,7 @@ class SlcanPort(CanPort):
         return taken
 
     def close(self) -> None:
-        """Take the adapter away; safe to call twice."""
+        """Remove the adapter; safe to call twice."""
         if self._master < 0:
             return
         os.write(self._wake_write, b"x")
@@ -130,15 +129,15 @@ class SlcanPort(CanPort):
             self.poll()
 
     def _flush(self) -> None:
-        """Write what the terminal takes; the rest of a cut line goes first next time."""
+        """Write as much as the terminal accepts; the rest of a cut line is written first next time."""
         if self._unsent:
             with contextlib.suppress(BlockingIOError):
                 self._unsent = self._unsent[os.write(self._master, self._unsent) :]
 
     def _forget_frames(self) -> None:
-        """Closing ends the talk: the next host shall not read what the last one left."""
+        """Discard pending frames when the channel is closed, because the next host must not read them."""
         self._unsent = b""
-        # Linux keeps what the master wrote in two places, and each flush empties one of them.
+        # Linux stores the master's output in two buffers, and each flush empties one of them.
         termios.tcflush(self._master, termios.TCOFLUSH)
         termios.tcflush(self._slave, termios.TCIFLUSH)
 
@@ -151,7 +150,7 @@ class SlcanPort(CanPort):
 
 
 def _open_terminal() -> Tuple[int, int]:
-    """Master and slave of a raw terminal."""
+    """Return master and slave of a raw terminal."""
     master, slave = pty.openpty()
     tty.setraw(slave)
     os.set_blocking(master, False)
@@ -159,7 +158,7 @@ def _open_terminal() -> Tuple[int, int]:
 
 
 def _link_to(device: str, link: pathlib.Path) -> None:
-    """Make or replace the link in one step, so that a host finds the old terminal or the new one, never none."""
+    """Create or replace the link atomically, so that a host finds the old or the new terminal."""
     if link.exists() and not link.is_symlink():
         raise ConfigurationError(f"The CAN adapter's link {link} is taken by a file that is no link; remove the file.")
     temporary = link.with_name(f".{link.name}.{os.getpid()}")

@@ -1,6 +1,6 @@
-"""Device side of the serial-line CAN protocol (Lawicel CAN232 manual, version 3), as USB adapters speak it.
+"""Device side of the serial-line CAN protocol (Lawicel CAN232 manual, version 3), as in USB adapters.
 
-Only bytes in and bytes out: no device, no clock.
+The module only processes bytes: no device, no clock.
 """
 # SPDX-License-Identifier: Apache-2.0
 import collections
@@ -21,15 +21,15 @@ STATUS_BUS_ERROR = 0x80
 STATUS_BUS_OFF = STATUS_ERROR_WARNING | STATUS_ERROR_PASSIVE | STATUS_BUS_ERROR
 
 _BITRATES = b"012345678"
-# The stamp counts milliseconds and starts again each minute.
+# The stamp counts milliseconds and restarts every minute.
 _STAMP_MODULO_MS = 60_000
-# What a Car that listens to nothing leaves lying.
+# Largest number of received frames that nothing has read.
 _MAX_SENT = 64
 _MAX_LINE = len("Tiiiiiiiildddddddddddddddd")
 
 
 class _Shape(NamedTuple):
-    """Form of a frame command: digits of the identifier, highest identifier, whether data follow, answer."""
+    """Format of a frame command: digits of the identifier, highest identifier, whether data follow, answer."""
 
     id_digits: int
     highest_id: int
@@ -49,12 +49,12 @@ class SlcanAdapter:
     """State of an adapter and its answers to the host.
 
     Attributes:
-        is_open: the host wants frames.
-        stamps: frames carry a time stamp; kept over closing and opening.
-        bus_off: the controller has left the bus: no frames either way, and F says so.
-        overrun: a frame was lost for want of room; the next F says so once.
-        transmitted: frames that the host sent to the bus.
-        sent: the newest of them that carry data, until somebody takes them.
+        is_open: the host receives frames.
+        stamps: frames carry a time stamp; unchanged by closing and opening.
+        bus_off: the controller has left the bus: no frames in either direction, and F reports it.
+        overrun: a frame was lost because a buffer was full; the next F reports it once.
+        transmitted: number of frames that the host sent to the bus.
+        sent: the newest of them with data, until they are read.
     """
 
     def __init__(self) -> None:
@@ -80,11 +80,11 @@ class SlcanAdapter:
         }
 
     def receive(self, data: bytes) -> bytes:
-        """Take bytes from the host; the answers to the lines that they complete."""
+        """Process bytes from the host; return the answers to the completed lines."""
         answers = bytearray()
         for byte in data:
             if byte != OK[0]:
-                # One byte more than the longest line is kept, which makes the line wrong, and no more than that.
+                # Only one byte beyond the longest line is stored, which makes the line invalid.
                 self._line.extend((byte,) if len(self._line) <= _MAX_LINE else ())
                 continue
             line = bytes(self._line)
@@ -93,7 +93,7 @@ class SlcanAdapter:
         return bytes(answers)
 
     def encode(self, can_id: int, data: bytes, time_ns: int) -> bytes:
-        """Line that tells the host of a received data frame; identifiers above 0x7FF are extended."""
+        """Return the line with a received data frame for the host; identifiers above 0x7FF are extended."""
         head = f"t{can_id:03X}" if can_id <= 0x7FF else f"T{can_id:08X}"
         stamp = f"{time_ns // 1_000_000 % _STAMP_MODULO_MS:04X}" if self.stamps else ""
         return f"{head}{len(data)}{data.hex().upper()}{stamp}\r".encode()

@@ -1,16 +1,17 @@
-"""What the simulated Car reports next to its locks: ignition and speed. It stands still whatever it reports."""
+"""Ignition and speed that the simulated Car reports in addition to its locks. The Car is stopped whatever it
+reports."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 
-# Numbers of the DBC's TerminalState.
+# Values of the DBC's TerminalState.
 _OFF, _ON = 0, 2
-# Of the DBC's SpeedKmh, below the end of its range.
+# Limit of the DBC's SpeedKmh, below the end of its range.
 MAX_SPEED_KMH = 650.0
 
 
 @dataclass
 class Vehicle:
-    """State of the rest of the Car; a fault that was ordered, not physics.
+    """Reported state of the rest of the Car, set by a request instead of physics.
 
     Attributes:
         ignition_on: reported by TerminalState.
@@ -22,5 +23,5 @@ class Vehicle:
 
     @property
     def terminal_state(self) -> int:
-        """As the DBC has it."""
+        """Value of TerminalState in the DBC."""
         return _ON if self.ignition_on else _OFF

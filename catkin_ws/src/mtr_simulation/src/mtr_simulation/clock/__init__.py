@@ -1,2 +1,2 @@
-"""What the simulated clock waits for."""
+"""Conditions for which the simulated clock waits."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,20 +1,21 @@
-"""Holds of the control loop's nodes: how far the simulated clock may go, and who keeps it waiting."""
+"""Holds of the control loop's nodes: the limit of the simulated clock, and the nodes for which it waits."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 import time
 from dataclasses import dataclass
 from typing import Callable, Dict, Iterable, List, Optional, Set
 
-# A node that keeps the clock waiting and says nothing for this long (wall time) is taken for dead.
+# A node that blocks the clock and is silent for this wall time counts as dead.
 SILENT_AFTER_WALL_S = 5.0
-# How often it is looked whether one that keeps the clock waiting still exists.
+# Period in which the existence of a blocking node is checked.
 LOOK_WALL_S = 0.1
 STILL_WAITING_WALL_S = 10.0
 
 
 @dataclass
 class _Node:
-    """What is known of one node: its newest hold, messages that arrived from it, and when it was received last."""
+    """State of one node: its newest hold, number of sent and received messages, and the time of its last sign of
+    life."""
 
     stamp_ns: Optional[int] = None
     sent: int = 0
@@ -23,36 +24,36 @@ class _Node:
     dropped: bool = False
 
     def blocks(self, time_ns: int) -> bool:
-        """True while the clock must not reach time_ns."""
+        """Return True while the clock must not reach time_ns."""
         return self.stamp_ns is not None and (self.stamp_ns < time_ns or self.received < self.sent)
 
 
 class Watcher:
-    """Who is told what happens; this one does not care."""
+    """Observer of the barrier; this one ignores all events."""
 
     def warn(self, sentence: str) -> None:
-        """Something is wrong."""
+        """Handle a warning."""
 
     def dropped(self, name: str) -> None:
-        """A node is not waited for any more."""
+        """Handle a node for which the clock no longer waits."""
 
     def returned(self, name: str) -> None:
-        """A node that was dropped speaks again."""
+        """Handle a dropped node that has returned."""
 
 
 class Barrier:
-    """Thread-safe; callbacks report, the simulator's loop waits.
+    """Thread-safe barrier; callbacks report, the simulator's loop waits.
 
-    A repeated hold is a sign of life: a node that has reason to let time stand still says its hold again. One that has
-    ended is not waited for; its next instance is as one that was never heard of.
+    A repeated hold is a sign of life: a node that blocks the time for a reason repeats its hold. The clock does not
+    wait for a node that has ended; its next instance counts as new.
 
     Attributes:
-        waited_s: wall time that the clock waited, by the node that came last.
+        waited_s: wall time for which the clock waited, by the last node.
     """
 
     def __init__(self, expected: Iterable[str], watcher: Watcher, wall_clock: Callable[[], float] = time.monotonic,
                  has_ended: Callable[[str], bool] = lambda name: False, silent_after_s: float = SILENT_AFTER_WALL_S):
-        """has_ended: tells of a node that has said a hold whether its process is gone. silent_after_s: of wall time."""
+        """has_ended: returns whether the process of a node with a hold has ended. silent_after_s: wall time."""
         self.waited_s: Dict[str, float] = {}
         self._expected = sorted(expected)
         self._watcher, self._wall_clock, self._has_ended = watcher, wall_clock, has_ended
@@ -64,43 +65,43 @@ class Barrier:
         self._stopped = False
 
     def hold(self, name: str, stamp_ns: int, sent: int) -> None:
-        """A node works next at stamp_ns and has sent so many messages to the simulator."""
+        """Set a node's hold: it works next at stamp_ns and has sent `sent` messages to the simulator."""
         with self._changed:
             node = self._nodes.setdefault(name, _Node())
             if node.dropped:
                 node.dropped = False
                 self._watcher.returned(name)
             if sent < node.sent:
-                # It counts from 0 again: a new instance, of which nothing can be missing yet.
+                # The node counts from 0 again: it is a new instance without missing messages.
                 node.received = sent
             node.stamp_ns, node.sent, node.received_s = stamp_ns, sent, self._wall_clock()
             self._came(name)
 
     def message(self, name: str) -> None:
-        """A message of a node has arrived at the simulator."""
+        """Count a node's message that has arrived at the simulator."""
         with self._changed:
             self._nodes.setdefault(name, _Node()).received += 1
             self._came(name)
 
     def stop(self) -> None:
-        """Let every wait end at once."""
+        """End every wait immediately."""
         with self._changed:
             self._stopped = True
             self._changed.notify_all()
 
     def missing(self) -> List[str]:
-        """Expected nodes that have not said a hold."""
+        """Return the expected nodes without a hold."""
         return [name for name in self._expected if name not in self._nodes or self._nodes[name].stamp_ns is None]
 
     def wait_for_expected(self) -> None:
-        """Wait for a hold of each expected node; says now and then for whom."""
+        """Wait for a hold of each expected node; warn periodically about missing ones."""
         with self._changed:
             while not self._stopped and self.missing():
                 if not self._changed.wait(STILL_WAITING_WALL_S):
                     self._watcher.warn(f"The clock stands still until it has heard of {', '.join(self.missing())}.")
 
     def wait(self, time_ns: int) -> bool:
-        """Wait until the clock may go to time_ns; False when stopped."""
+        """Wait until the clock may advance to time_ns; return False when stopped."""
         with self._changed:
             begun_s, self._awaited_ns = self._wall_clock(), time_ns
             while not self._stopped:
@@ -121,18 +122,18 @@ class Barrier:
             return False
 
     def asleep(self, time_ns: int) -> Set[str]:
-        """Nodes whose next work is later than time_ns."""
+        """Return the nodes whose next work is later than time_ns."""
         with self._changed:
             return {name for name, node in self._nodes.items() if node.stamp_ns is not None and node.stamp_ns > time_ns}
 
     def longest_waits(self) -> str:
-        """For whom the clock waited longest, for a person."""
+        """Describe for a person the nodes for which the clock waited longest."""
         with self._changed:
             waits = sorted(self.waited_s.items(), key=lambda item: -item[1])[:3]
         return "waited so far for " + (", ".join(f"{name} {seconds:.1f} s" for name, seconds in waits) or "nobody")
 
     def _came(self, name: str) -> None:
-        """Something came from a node; wakes the loop only when it need not wait any longer."""
+        """Register a sign of life of a node; wake the loop only when it no longer needs to wait."""
         self._last = name
         if self._awaited_ns is None or self._blocker(self._awaited_ns) is None:
             self._changed.notify_all()

@@ -1,7 +1,7 @@
-"""Which publishers and subscribers of a ROS graph have not found each other yet.
+"""Publishers and subscribers of a ROS graph that are not connected yet.
 
 A message that is published before its subscriber is connected is lost, and the subscriber of a lock-step topic would
-wait for it; so the clock starts when the graph is complete.
+wait for it. Therefore the clock starts when the graph is complete.
 """
 # SPDX-License-Identifier: Apache-2.0
 import http.client
@@ -10,16 +10,16 @@ import time
 import xmlrpc.client
 from typing import Any, Callable, Iterable, List, NamedTuple, Set, Tuple
 
-# What can go wrong with a call to a node that has just ended.
+# Errors of a call to a node that has just ended.
 CALL_ERRORS = (OSError, xmlrpc.client.Error, http.client.HTTPException)
-# Everybody publishes there and nobody's ticks depend on it.
+# Topics of all nodes on which no tick depends.
 IGNORED_TOPICS = ("/rosout", "/rosout_agg", "/diagnostics")
 CHECK_EVERY_S = 0.05
 LIMIT_S = 20.0
 
 
 class Connection(NamedTuple):
-    """A topic from one node to another."""
+    """Connection of a topic from one node to another."""
 
     topic: str
     publisher: str
@@ -27,7 +27,7 @@ class Connection(NamedTuple):
 
 
 def wanted(system_state: List[List[Tuple[str, List[str]]]]) -> Set[Connection]:
-    """Connections that there should be, from the master's getSystemState."""
+    """Return the connections that should exist, from the master's getSystemState."""
     publishers, subscribers = ({topic: nodes for topic, nodes in side} for side in system_state[:2])
     return {Connection(topic, source, sink) for topic in publishers.keys() & subscribers.keys()
             if topic not in IGNORED_TOPICS for source in publishers[topic] for sink in subscribers[topic]
@@ -35,12 +35,12 @@ def wanted(system_state: List[List[Tuple[str, List[str]]]]) -> Set[Connection]:
 
 
 def outgoing(node: str, bus_info: List[List[Any]]) -> Set[Connection]:
-    """Connections that a node serves, from its getBusInfo."""
+    """Return the connections that a node serves, from its getBusInfo."""
     return {Connection(entry[4], node, entry[1]) for entry in bus_info if entry[2] == "o"}
 
 
 def missing(master_uri: str, caller: str) -> Set[Connection]:
-    """Connections of the running graph that are not there; nodes that have ended without a word are left out."""
+    """Return the missing connections of the running graph; nodes that have ended without unregistering are ignored."""
     master: Any = xmlrpc.client.ServerProxy(master_uri)
     connections = wanted(master.getSystemState(caller)[2])
     alive: Set[str] = set()
@@ -57,12 +57,12 @@ def missing(master_uri: str, caller: str) -> Set[Connection]:
 
 
 def sentence(connections: Iterable[Connection]) -> str:
-    """What is missing, for a person."""
+    """Describe missing connections for a person."""
     return ", ".join(f"{each.topic} from {each.publisher} to {each.subscriber}" for each in sorted(connections))
 
 
 def wait_until_complete(master_uri: str, caller: str, stopped: threading.Event, warn: Callable[[str], None]) -> None:
-    """Return when nothing is missing, when stopped, or after a time limit with a warning."""
+    """Return when no connection is missing, when stopped, or after a time limit with a warning."""
     deadline = time.monotonic() + LIMIT_S
     while not stopped.wait(CHECK_EVERY_S):
         absent = missing(master_uri, caller)

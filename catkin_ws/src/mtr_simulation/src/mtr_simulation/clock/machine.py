@@ -1,7 +1,7 @@
-"""The machine's clock instead of the simulated one: nothing waits, and sensors are stamped when they measured.
+"""Machine's clock instead of the simulated one: nothing waits, and sensors are stamped with their time of measurement.
 
-A car park does not stand still while a computer is busy. Where the simulated one does, its wheels and gyro say that the
-robot stood: a rate that lasted longer than the robot turned would tell of a turn that never was, and no map would fit.
+A car park does not stop while a computer is busy, but the simulated world does. Wheels and gyro then report a stopped
+robot. Otherwise a turning rate would last longer than the robot turned, and no map would fit.
 """
 # SPDX-License-Identifier: Apache-2.0
 import os
@@ -15,22 +15,22 @@ from mtr_core.schedule import CLOCK_STEP
 from ..sensors.readings import Sensors
 
 REAL_TIME = 1.0
-# Time that the loop loses up to this is made up for. More, on a machine that is too slow, and what the robot is told
-# would be so old at all times that it stops.
+# Lost time of the loop that is made up for. With more, on a machine that is too slow, all data would be so old that the
+# robot stops.
 MADE_UP_S = 0.1
-# Who was away for longer, as a machine that was suspended, has sensors that were silent.
+# After a longer pause, for example a suspended machine, the sensors have been silent.
 MAX_STOOD_NS = 2_000_000_000
-# What is simulated is no software of the robot's: it does not wait for other programs where the system permits that.
+# The simulation is not the robot's software, so it runs before other programs if the system permits it.
 NICENESS = -10
-# Linux shares processors out to sessions first (sched(7), autogroup), and a niceness counts within one. roslaunch gives
-# each node a session of its own; whoever has one beside others leaves it as it is.
+# Linux shares processors between sessions first (sched(7), autogroup), and niceness counts only within a session.
+# roslaunch starts each node in its own session; a shared session is left unchanged.
 AUTOGROUP = pathlib.Path("/proc/self/autogroup")
-# Two readings of both clocks differ by less unless one was set; a tick is longer, so that no stamp goes back.
+# Two readings of both clocks differ by less unless one was set. A tick is longer, so that stamps never decrease.
 SET_NS = 5_000_000
 
 
 def take_precedence() -> bool:
-    """Have this process run before others; False where the system does not permit it."""
+    """Run this process before others; return False if the system does not permit it."""
     try:
         os.setpriority(os.PRIO_PROCESS, 0, NICENESS)
         if os.getsid(0) == os.getpid() and AUTOGROUP.exists():
@@ -41,7 +41,7 @@ def take_precedence() -> bool:
 
 
 class StampOffset:
-    """What the stamps are ahead of the simulated clock at its newest tick."""
+    """Offset of the stamps from the simulated clock at its newest tick."""
 
     def __init__(self, is_simulated: bool, real_time_factor: float, due_s: Callable[[], float],
                  reading: Callable[[], Instant]):
@@ -60,7 +60,7 @@ class StampOffset:
         self._set_ns = 0
 
     def at(self, time_ns: int) -> int:
-        """In ns, at a tick of the simulated clock."""
+        """Return the offset in ns, at a tick of the simulated clock."""
         if self._is_simulated:
             return 0
         set_ns = self._reading().offset_ns
@@ -70,11 +70,11 @@ class StampOffset:
 
 
 def stood_offsets(offset_ns: int, lost_ns: int) -> List[int]:
-    """Where stamps lie while the world stands still after a tick, one each 20 ms, up to the newest.
+    """Return the stamps for the time in which the world stopped after a tick, one each 20 ms, up to the newest.
 
     Args:
-        offset_ns: StampOffset.at that tick, the time included that the loop has lost.
-        lost_ns: that time.
+        offset_ns: offset from StampOffset.at that tick, including the loop's lost time.
+        lost_ns: lost time of the loop.
     """
     if not 0 < lost_ns <= MAX_STOOD_NS:
         return []
@@ -83,7 +83,7 @@ def stood_offsets(offset_ns: int, lost_ns: int) -> List[int]:
 
 
 def stamped(sensors: Sensors, offset_ns: int) -> Sensors:
-    """The readings with their stamps so far ahead."""
+    """Return the readings with their stamps advanced by the offset."""
     front, rear = (scan and scan._replace(stamp_ns=scan.stamp_ns + offset_ns)
                    for scan in (sensors.front_scan, sensors.rear_scan))
     return sensors._replace(time_ns=sensors.time_ns + offset_ns, front_scan=front, rear_scan=rear)

@@ -1,4 +1,4 @@
-"""Simulated time against wall time: keeps a wanted factor, and measures the one that was reached."""
+"""Relation of simulated to wall time: keeps a desired factor, and measures the actual one."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 from typing import Callable, Optional
@@ -11,21 +11,21 @@ class Pace:
 
     Attributes:
         due_s: wall time at which the newest simulated time was due.
-        lost_s: wall time that the loop has lost so far and not made up for.
+        lost_s: lost wall time of the loop that was not made up for.
     """
 
     def __init__(self, factor: float, wall_clock: Callable[[], float] = time.monotonic, made_up_s: float = 0.0):
-        """made_up_s: the loop makes up for so much lost wall time, and for no more."""
+        """made_up_s: largest lost wall time for which the loop makes up."""
         self._factor, self._wall_clock, self._made_up_s = factor, wall_clock, made_up_s
         self._start = self._report = (0.0, 0.0)
         self._newest_s = self.due_s = self.lost_s = 0.0
 
     def start(self, simulated_s: float) -> None:
-        """Begin at this simulated time."""
+        """Start at this simulated time."""
         self._newest_s, self.due_s = self._start = self._report = (simulated_s, self._wall_clock())
 
     def delay(self, simulated_s: float) -> float:
-        """Wall time to wait before the simulated time."""
+        """Return the wall time to wait before the simulated time."""
         if not self._factor:
             return 0.0
         now = self._wall_clock()
@@ -35,7 +35,7 @@ class Pace:
         return max(0.0, self.due_s - now)
 
     def report(self, simulated_s: float) -> Optional[str]:
-        """A sentence each 30 simulated seconds."""
+        """Return a sentence every 30 simulated seconds."""
         begun, wall = self._report
         if simulated_s - begun < REPORT_EVERY_S:
             return None
@@ -43,7 +43,7 @@ class Pace:
         return _sentence(simulated_s - begun, self._report[1] - wall)
 
     def total(self, simulated_s: float) -> str:
-        """A sentence for the whole run."""
+        """Return a sentence about the whole run."""
         begun, wall = self._start
         return _sentence(simulated_s - begun, self._wall_clock() - wall)
 

@@ -1,2 +1,2 @@
-"""The peripherals' firmware as a model of what the wire shows of it."""
+"""Model of the peripherals' firmware as seen from the wire."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The firmware's topics, for the one simulated in this process and for the emulated one."""
+"""Topics of the firmware, both for the one simulated in this process and for the emulated one."""
 # SPDX-License-Identifier: Apache-2.0
 import io
 import pathlib
@@ -25,27 +25,29 @@ from .simulated import SimulatedFirmware
 
 MCU = "atmega2560"
 INPUTS = slot(80)
-# Topic, type of its messages, and what handles one.
+# Topic, type of its messages, and their handler.
 Subscription = Tuple[str, Any, Callable[[Any], None]]
 
 
 def emulated_firmware(elf: str) -> EmulatedFirmware:
-    """The firmware in a file, on a microcontroller that is not powered yet."""
-    # Only a developer's machine has it.
+    """Return the firmware in a file on an emulated microcontroller that is not powered yet."""
+    # The emulator is only installed on a developer's machine.
     from mtr_emulator import Emulator
 
     return EmulatedFirmware(Emulator(MCU, stepped=True, elf=pathlib.Path(elf)), md5_of)
 
 
 def firmware_topics(firmware: Union[SimulatedFirmware, EmulatedFirmware]) -> "Union[SimulatedTopics, EmulatedTopics]":
-    """Topics of either."""
+    """Return the topics of either firmware."""
     return EmulatedTopics(firmware) if isinstance(firmware, EmulatedFirmware) else SimulatedTopics(firmware)
 
 
 class SimulatedTopics:
-    """Attributes:
-        subscriptions: what the firmware listens to.
-        publishers: what it says.
+    """Topics of the simulated firmware.
+
+    Attributes:
+        subscriptions: topics that the firmware receives.
+        publishers: topics that the firmware publishes.
     """
 
     def __init__(self, firmware: SimulatedFirmware):
@@ -69,7 +71,7 @@ class SimulatedTopics:
         self._firmware.signals(message.signal, bool(message.beacon), bool(message.stop_input), message.latest_us)
 
     def publish(self, time_ns: int) -> None:
-        """Its reports, when they are due."""
+        """Publish the firmware's reports that are due."""
         if INPUTS.last_at(time_ns) == time_ns:
             self._inputs.publish(inputs_message(self._firmware.input_state()))
         if FIRMWARE.last_at(time_ns) == time_ns:
@@ -77,7 +79,7 @@ class SimulatedTopics:
 
 
 class EmulatedTopics:
-    """As SimulatedTopics, with the messages as they come from the line."""
+    """Topics of the emulated firmware, with messages from the serial line."""
 
     def __init__(self, firmware: EmulatedFirmware):
         self._firmware = firmware
@@ -90,7 +92,7 @@ class EmulatedTopics:
             (names.FIRMWARE_CALIBRATE, FirmwareCalibrate), (names.FIRMWARE_SIGNALS, FirmwareSignals))]
 
     def publish(self, time_ns: int) -> None:
-        """What has come from the firmware in this tick."""
+        """Publish the firmware's messages of this tick."""
         for topic, payload in self._firmware.take_messages():
             publisher = self._by_topic.get(topic)
             if publisher:

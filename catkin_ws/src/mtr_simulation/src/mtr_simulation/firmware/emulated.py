@@ -1,7 +1,7 @@
-"""The flashed firmware on an emulated microcontroller, behind a pseudo-terminal, in step with the simulated time.
+"""Flashed firmware on an emulated microcontroller behind a pseudo-terminal, in step with simulated time.
 
-The host's side of the line is the robot's own session; it runs here and not in a node of its own, so that each byte
-passes at a known simulated time and a run is the same on any machine.
+The host's side of the line is the robot's own session. It runs here and not in a separate node, so that each byte is
+transmitted at a known simulated time and a run is the same on any machine.
 """
 # SPDX-License-Identifier: Apache-2.0
 import select
@@ -15,7 +15,7 @@ from mtr_serial_link.session import SerialSession
 NS_PER_US = 1000
 NS = 1e-9
 TICK_NS = 20_000_000
-# Wall time in which bytes that the emulator has sent must have come through the pseudo-terminal.
+# Limit of wall time in which the emulator's bytes must arrive through the pseudo-terminal.
 ARRIVAL_LIMIT_MS = 2000
 
 
@@ -24,11 +24,11 @@ class EmulationError(RobotError):
 
 
 class EmulatedFirmware:
-    """Same work as SimulatedFirmware, done by the binary.
+    """Same interface as SimulatedFirmware, executed by the binary.
 
     Attributes:
-        lift_height_m: of the emulated lift, above its lower stop.
-        servo_us: pulse widths that the emulated servos get.
+        lift_height_m: height of the emulated lift above its lower stop.
+        servo_us: pulse widths of the emulated servos.
         session: the host's side of the line.
     """
 
@@ -43,7 +43,7 @@ class EmulatedFirmware:
         self.servo_us: Tuple[float, float] = (0.0, 0.0)
 
     def start(self, time_ns: int) -> None:
-        """Power on at time 0, so that its clock is the simulated one, and run to the given time."""
+        """Power on at time 0, so that its clock equals the simulated one, and run to the given time."""
         self._board.start()
         self._port = SerialPort(str(self._board.pty), SerialParameters().baud)
         self.session.start(0.0)
@@ -51,22 +51,22 @@ class EmulatedFirmware:
             self.step(min(time_ns, self._now_ns + TICK_NS))
 
     def send(self, topic: str, payload: bytes) -> None:
-        """A message for the firmware."""
+        """Send a message to the firmware."""
         self.session.send(topic, payload)
 
     def take_messages(self) -> List[Tuple[str, bytes]]:
-        """What the firmware has said since the last call: topics and payloads."""
+        """Return the firmware's messages since the last call: topics and payloads."""
         messages, self._messages = self._messages, []
         return messages
 
     def begin_step(self, time_ns: int) -> None:
-        """Let the microcontroller run to time_ns, beside what the caller does until it calls step."""
+        """Let the microcontroller run to time_ns in parallel until the caller calls step."""
         self._write()
         self._board.begin_step((time_ns - self._now_ns) // NS_PER_US, rx_bytes=self._sent)
         self._now_ns = time_ns
 
     def step(self, time_ns: int) -> None:
-        """Let the microcontroller run to time_ns, if it has not been begun, and take what it says."""
+        """Let the microcontroller run to time_ns, unless begin_step has started it, and read its messages."""
         if self._now_ns != time_ns:
             self.begin_step(time_ns)
         reply = self._board.end_step()
@@ -80,7 +80,7 @@ class EmulatedFirmware:
         self.lift_height_m, self.servo_us = seen.lift_m, seen.servo_us
 
     def stand(self, duration_ns: int) -> None:
-        """The world stands still for so long, and this microcontroller with it: its program sees no time pass."""
+        """Do nothing: while the world stops, this microcontroller stops too, and its program notices no time."""
 
     def close(self) -> None:
         """Power off."""
@@ -101,7 +101,7 @@ class EmulatedFirmware:
             data = data[self._open_port().write(data):]
 
     def _read(self, total: int) -> bytes:
-        """Everything up to that many bytes since the start; a pseudo-terminal delivers a little later."""
+        """Read up to the given number of bytes since the start; a pseudo-terminal delivers with a delay."""
         pieces, port = [], self._open_port()
         while self._received < total:
             if not select.select([port.fd], [], [], ARRIVAL_LIMIT_MS * 1e-3)[0]:

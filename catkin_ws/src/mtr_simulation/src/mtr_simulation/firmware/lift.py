@@ -1,4 +1,4 @@
-"""Lift of the Remote key: moves to a height with a trapezoidal speed."""
+"""Lift of the Remote key: moves to a height with a trapezoidal speed profile."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Optional
@@ -23,7 +23,7 @@ class Lift:
         self._target_m: Optional[float] = None
 
     def order(self, height_m: float) -> bool:
-        """Go to a height; NaN: stop where it is. False, and nothing changes, when it is out of range."""
+        """Set the target height; NaN: stop. Return False without a change if it is out of range."""
         if math.isnan(height_m):
             self._target_m = None
             return True
@@ -40,7 +40,7 @@ class Lift:
         self.height_m = max(0.0, min(HEIGHT_LIMIT_M, self.height_m + self.speed_mps * dt_s))
 
     def _wanted_speed(self, change: float, dt_s: float) -> float:
-        """Highest speed from which steps of -change end exactly on the target."""
+        """Return the highest speed from which steps of -change end exactly at the target."""
         if self._target_m is None:
             return 0.0
         error = self._target_m - self.height_m

@@ -1,18 +1,18 @@
-"""Press of the key's buttons by two servos: travel, hold, and release that never depends on the host."""
+"""Press of the key's buttons by two servos: travel, hold, and a release that does not depend on the host."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import NamedTuple, Optional, Tuple
 
 RELEASED_US = 1000
 TRAVEL_US = 1000  # added at full travel
-TRAVEL_NS = 100_000_000  # a servo's way from one pulse width to another
+TRAVEL_NS = 100_000_000  # travel time of a servo between two pulse widths
 
 MIN_HOLD_MS = 20
 MAX_HOLD_MS = 10_000
 
 
 class PressState(enum.IntEnum):
-    """Numbers of FirmwareState.press_state."""
+    """Values of FirmwareState.press_state."""
 
     NONE = 0
     PRESSING = 1
@@ -21,7 +21,7 @@ class PressState(enum.IntEnum):
 
 
 class PressRequest(NamedTuple):
-    """One press as requested; servos: bit 0 lock, bit 1 unlock."""
+    """One requested press; servos: bit 0 lock, bit 1 unlock."""
 
     id: int
     servos: int
@@ -29,13 +29,13 @@ class PressRequest(NamedTuple):
     hold_ms: int
 
     def is_valid(self) -> bool:
-        """True when the servos can do it; NaN is not valid."""
+        """Return True if the servos can execute it; NaN is invalid."""
         hold_fits = MIN_HOLD_MS <= self.hold_ms <= MAX_HOLD_MS
         return self.servos in (1, 2, 3) and 0.0 <= self.strength <= 1.0 and hold_fits
 
 
 class Presser:
-    """The two servos and the press under way.
+    """The two servos and the current press.
 
     Attributes:
         servo_us: pulse widths of lock and unlock servo.
@@ -55,18 +55,18 @@ class Presser:
 
     @property
     def reached_ns(self) -> int:
-        """When the travel of the last request ends."""
+        """End of the travel of the last request."""
         return self._start_ns + TRAVEL_NS
 
     def start(self, request: PressRequest, time_ns: int) -> None:
-        """Begin a valid request; not while busy."""
+        """Start a valid request; must not be busy."""
         self._request = request
         self._start_ns = time_ns
         self._from_us = self.servo_us
         self._release_ns = None
 
     def step(self, time_ns: int) -> Optional[int]:
-        """Move the servos; the time of the release when it happened in this step."""
+        """Move the servos; return the time of the release if it happened in this step."""
         released_ns = None
         if self._request and time_ns >= self.reached_ns + self._request.hold_ms * 1_000_000:
             released_ns = self.reached_ns + self._request.hold_ms * 1_000_000
@@ -75,7 +75,7 @@ class Presser:
         return released_ns
 
     def abort(self, time_ns: int) -> None:
-        """Release at once."""
+        """Release immediately."""
         if self._request:
             self._release(time_ns)
 

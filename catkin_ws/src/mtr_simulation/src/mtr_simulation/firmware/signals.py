@@ -9,7 +9,7 @@ LAST_SIGNAL = 2
 
 
 class StopState(enum.IntEnum):
-    """Numbers of FirmwareInputs.stop."""
+    """Values of FirmwareInputs.stop."""
 
     UNUSED = 0
     CLOSED = 1
@@ -17,7 +17,7 @@ class StopState(enum.IntEnum):
 
 
 class InputState(NamedTuple):
-    """Fields of mtr_msgs/FirmwareInputs but the check sum."""
+    """Fields of mtr_msgs/FirmwareInputs except the checksum."""
 
     time_us: int
     stop: int
@@ -27,10 +27,10 @@ class InputState(NamedTuple):
 
 
 class Signals:
-    """A contact that opens at once and closes slowly, and signals that end with their orders.
+    """Contact that opens at once and closes slowly, and signals that end with their orders.
 
     Attributes:
-        contact_is_open: the stop chain's contact; closed at first, as of a chain that is fitted and released.
+        contact_is_open: contact of the stop chain; initially closed, as in a fitted and released chain.
     """
 
     def __init__(self) -> None:
@@ -45,7 +45,7 @@ class Signals:
         return self._is_used and self._is_open
 
     def order(self, signal: int, has_beacon: bool, uses_stop_input: bool, now_ns: int) -> bool:
-        """Follow an order; False for a signal that does not exist."""
+        """Execute an order; return False if the signal does not exist."""
         self._is_used = self._is_used or uses_stop_input
         if not 0 <= signal <= LAST_SIGNAL:
             return False
@@ -53,7 +53,7 @@ class Signals:
         return True
 
     def step(self, now_ns: int) -> bool:
-        """Advance to now_ns; True when an input in use has just opened."""
+        """Advance to now_ns; return True if an input in use has just opened."""
         if now_ns - self._ordered_ns > SILENCE_NS:
             self.signal = 0
         if not self.contact_is_open:
@@ -66,6 +66,6 @@ class Signals:
         return has_opened
 
     def state(self, time_us: int) -> InputState:
-        """What the board reports."""
+        """Return the board's report."""
         stop = StopState.UNUSED if not self._is_used else StopState.OPEN if self._is_open else StopState.CLOSED
         return InputState(time_us, int(stop), self._stops % (1 << 16), self.signal, int(self.has_beacon))

@@ -1,4 +1,4 @@
-"""The peripherals' firmware as the host sees it: lift, servos, LEDs, and what it does when the host falls silent."""
+"""Peripherals' firmware as seen by the host: lift, servos, LEDs, and the reaction to a silent host."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import math
@@ -15,17 +15,17 @@ LED_LAST = 10
 LED_SETS_OFF = 10
 SIGNAL_SETS_OFF = 1
 
-# Its clock starts two minutes before it wraps, so that each longer run meets the wrap (each 71 minutes on hardware).
+# Initial clock, two minutes before it wraps, so that every longer run includes the wrap (every 71 minutes on hardware).
 CLOCK_START_US = (1 << 32) - 120_000_000
 CLOCK_WRAP_US = 1 << 32
-# An order that may begin later is one of another clock.
+# An order with a later deadline belongs to another clock.
 MAX_LEAD_US = 5_000_000
-# A host may repeat a request for some time after the next one; these many ids are remembered.
+# Number of remembered ids, because a host may repeat a request for some time after the next one.
 _REMEMBERED_IDS = 16
 
 
 class State(NamedTuple):
-    """Fields of mtr_msgs/FirmwareState but the check sum."""
+    """Fields of mtr_msgs/FirmwareState except the checksum."""
 
     time_us: int
     lift_height_m: float
@@ -42,12 +42,12 @@ class State(NamedTuple):
 
 
 class SimulatedFirmware:
-    """Board without a board: command and press arrive from the host, step lets 20 ms pass.
+    """Simulated board: commands and presses arrive from the host, step advances by 20 ms.
 
     Attributes:
-        refused_commands: commands that asked for what cannot be; the lift ignored them.
-        lift_is_stuck: the lift does not move, and its sensor says so.
-        servos_are_dead: they do not move, and nothing says so.
+        refused_commands: number of impossible commands, which the lift ignored.
+        lift_is_stuck: the lift does not move, and its sensor shows it.
+        servos_are_dead: the servos do not move, and no sensor shows it.
         inputs: stop input, buzzer and beacon.
     """
 
@@ -78,12 +78,12 @@ class SimulatedFirmware:
 
     @property
     def servo_us(self) -> Tuple[float, float]:
-        """Pulse widths of lock and unlock servo, as they press on the key."""
+        """Pulse widths of lock and unlock servo that act on the key."""
         return (RELEASED_US, RELEASED_US) if self.servos_are_dead else self._presser.servo_us
 
     def command(self, lift_height_m: float, led_pattern: int, stop: bool = False,
                 latest_us: Optional[int] = None) -> None:
-        """Take a FirmwareCommand; a height that is out of range leaves the lift's order as it was."""
+        """Execute a FirmwareCommand; a height out of range does not change the lift's order."""
         if self._is_late(latest_us):
             self.refused_commands += 1
             return
@@ -99,14 +99,14 @@ class SimulatedFirmware:
             self._led = led_pattern
 
     def signals(self, signal: int, has_beacon: bool, uses_stop_input: bool, latest_us: Optional[int] = None) -> None:
-        """Take a FirmwareSignals."""
+        """Execute a FirmwareSignals message."""
         if self._is_late(latest_us) or not self.inputs.order(signal, has_beacon, uses_stop_input, self._now_ns):
             self.refused_commands += 1
         elif self.inputs.is_stopped:
             self._hold()
 
     def press(self, id: int, servos: int, strength: float, hold_ms: int, latest_us: Optional[int] = None) -> None:
-        """Take a FirmwarePress. What has been taken once, done or refused, is not taken again."""
+        """Execute a FirmwarePress. A press that was done or refused before is ignored."""
         is_late = self._is_late(latest_us)
         if not (is_late or self._is_receiving()) or id == 0 or id in self._seen_ids:
             return
@@ -124,14 +124,14 @@ class SimulatedFirmware:
         self.step(time_ns)
 
     def close(self) -> None:
-        """Power off; there is nothing to do."""
+        """Power off; nothing to release."""
 
     def stand(self, duration_ns: int) -> None:
-        """The world stands still for so long, and the microcontroller's clock goes on."""
+        """Advance the microcontroller's clock while the world stops."""
         self._clock_start_us += round(duration_ns * 1e-3)
 
     def begin_step(self, time_ns: int) -> None:
-        """Its step takes no time worth sharing; there is nothing to begin."""
+        """Do nothing: a step is too short for parallel execution."""
 
     def step(self, time_ns: int) -> None:
         """Advance to time_ns."""
@@ -150,7 +150,7 @@ class SimulatedFirmware:
             self._report(self._running_id, PressState.DONE, self._presser.reached_ns, released_ns)
 
     def state(self) -> State:
-        """What it reports to the host now."""
+        """Return the current report to the host."""
         lock_us, unlock_us = self._presser.servo_us
         return State(
             time_us=self._clock_us(self._now_ns),
@@ -168,7 +168,7 @@ class SimulatedFirmware:
         )
 
     def input_state(self) -> InputState:
-        """What it reports of its inputs and signals now."""
+        """Return the current report of inputs and signals."""
         return self.inputs.state(self._clock_us(self._now_ns))
 
     def _hold(self) -> None:
@@ -176,7 +176,7 @@ class SimulatedFirmware:
         self._abort_press()
 
     def _is_receiving(self) -> bool:
-        """Note that the host lives; False before the first step, when the board has no power yet."""
+        """Register a sign of life of the host; return False before the first step, while the board has no power."""
         self._received_ns = self._now_ns
         self._fault = 0
         return self._boot_ns is not None
@@ -187,7 +187,7 @@ class SimulatedFirmware:
         self._hold()
 
     def _is_late(self, latest_us: Optional[int]) -> bool:
-        """True for an order that was under way for too long, or meant for another clock; None: it is never late."""
+        """Return True if an order was delayed for too long or belongs to another clock; None: it is never late."""
         if latest_us is None or self._boot_ns is None:
             return False
         return (latest_us - self._clock_us(self._now_ns)) % CLOCK_WRAP_US > MAX_LEAD_US
@@ -195,7 +195,7 @@ class SimulatedFirmware:
     def _abort_press(self) -> None:
         if self._presser.is_busy:
             self._presser.abort(self._now_ns)
-            # A travel that was cut short may have pressed or not: nobody shall rely on it.
+            # An interrupted travel may or may not have pressed, so its result must not be relied on.
             reached_ns = self._presser.reached_ns
             done = self._now_ns >= reached_ns
             self._report(self._running_id, PressState.DONE if done else PressState.REFUSED, reached_ns, self._now_ns)

@@ -1,4 +1,4 @@
-"""The MuJoCo model of one scenario."""
+"""MuJoCo model of one scenario."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.se2 import Pose2
 
@@ -12,7 +12,7 @@ from .robot import RobotModel
 
 def model_xml(scenario: Scenario, robot: RobotModel, world_from_base: Pose2, timestep_s: float,
               max_wheel_torque_nm: float) -> str:
-    """MJCF text with bodies car, base_link and what surrounds them."""
+    """Return MJCF text with bodies car, base_link and their surroundings."""
     bodies = bodies_of(scenario)
     return f"""
 <mujoco model="mobile_testing_robot">

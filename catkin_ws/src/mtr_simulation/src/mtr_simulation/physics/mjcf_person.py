@@ -1,11 +1,11 @@
-"""MJCF of the figures that walk, roll or lie on a site, moved from outside."""
+"""MJCF of figures that walk, roll or lie on a site; their motion is set from outside."""
 # SPDX-License-Identifier: Apache-2.0
 from ..site.figures import Figure, Leg, figure_named
 from .mjcf_site import SOLID
 
 
 def person_bodies(name: str) -> str:
-    """Torso or vehicle, and the legs; a planar LiDAR sees what crosses its plane."""
+    """Return torso or vehicle, and the legs; a planar LiDAR sees the parts in its plane."""
     figure = figure_named(name)
     legs = "".join(_leg(figure, leg) for leg in figure.legs)
     return f'<body name="person" mocap="true">{"".join(map(_geom, figure.geoms))}</body>{legs}'

@@ -10,14 +10,14 @@ from mtr_description.mounts import Mount
 from .robot import WHEELS, Box, RobotModel, Vector
 
 SHELL = 'group="2" contype="0" conaffinity="9" friction="0.3"'
-# A stronger servo, or an implicit integrator, lets the base run faster than its wheels turn.
+# Gain of the wheel servos; with a stronger servo, or an implicit integrator, the base runs faster than its wheels turn.
 WHEEL_SERVO_NMS = 5.0
 WHEEL_ARMATURE_KGM2 = 0.05
 LIFT_STIFFNESS_NPM = 4000.0
 
 
 def robot_body(robot: RobotModel, world_from_base: Pose2) -> str:
-    """Body base_link on a free joint."""
+    """Return body base_link on a free joint."""
     pose, base = world_from_base, robot.base
     return f"""
     <body name="base_link" pos="{pose.x:.9f} {pose.y:.9f} {robot.base_height_m:.6f}" euler="0 0 {pose.heading:.9f}">
@@ -33,7 +33,7 @@ def robot_body(robot: RobotModel, world_from_base: Pose2) -> str:
 
 
 def robot_actuators(max_wheel_torque_nm: float) -> str:
-    """Speed servos of the wheels, then the position servo of the lift."""
+    """Return speed servos of the wheels, then the position servo of the lift."""
     wheels = "".join(f'<velocity name="{name}" joint="{name}" kv="{WHEEL_SERVO_NMS}" '
                      f'forcerange="-{max_wheel_torque_nm} {max_wheel_torque_nm}"/>' for name in WHEELS)
     return f'{wheels}<position name="lift" joint="lift" kp="{LIFT_STIFFNESS_NPM}" forcerange="-300 300"/>'

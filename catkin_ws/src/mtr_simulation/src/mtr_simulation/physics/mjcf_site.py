@@ -1,4 +1,4 @@
-"""MuJoCo model of what stands on the site."""
+"""MuJoCo model of the bodies on the site."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Sequence
 
@@ -6,19 +6,19 @@ from ..site.bodies import SURROUNDINGS
 from ..site.shapes import Body, Box, Cylinder, Hull, Part, Surface
 
 SOLID = 'contype="1" conaffinity="1" group="1" rgba=".25 .3 .6 1"'
-# Group 3: far above the LiDARs' plane, not asked for each beam.
+# Group 3 is far above the LiDAR plane, so it is not tested for each beam.
 SURFACES = {Surface.PAINT: SOLID, Surface.UPPER: SOLID.replace('group="1"', 'group="3"'),
             Surface.RUBBER: 'contype="1" conaffinity="1" group="1" rgba=".1 .1 .1 1"'}
 
 
 def site_meshes(bodies: Sequence[Body]) -> str:
-    """Assets of all convex hulls."""
+    """Return the assets of all convex hulls."""
     hulls = [part.form for body in bodies for part in body.parts if isinstance(part.form, Hull)]
     return "".join(f'<mesh name="{hull.name}" vertex="{_points(hull)}"/>' for hull in hulls)
 
 
 def site_bodies(bodies: Sequence[Body]) -> str:
-    """The bodies; what belongs to the surroundings stands in the world itself."""
+    """Return the bodies; the parts of the surroundings belong to the world body."""
     return "\n    ".join(_geoms(body) if body.name == SURROUNDINGS else _body(body) for body in bodies)
 
 
@@ -33,7 +33,7 @@ def _geoms(body: Body) -> str:
 
 
 def _geom(part: Part) -> str:
-    # A mesh geom is placed at the mesh's own frame: MuJoCo re-centres the vertices and keeps the geom where they were.
+    # A mesh geom is placed at the mesh's own frame: MuJoCo re-centres the vertices and keeps the geom's place.
     roll = "1.5707963268" if part.is_lying else "0"
     place = f'pos="{_numbers(part.centre)}" euler="{roll} 0 {part.yaw_rad:.6f}"'
     return f"<geom {_form(part)} {place} {SURFACES[part.surface]}/>"

@@ -21,7 +21,7 @@ WHEELS = ("front_left", "front_right", "rear_left", "rear_right")
 
 @dataclass(frozen=True)
 class Box:
-    """Shape that collides: middle in its link, and its sides."""
+    """Collision box: centre in its link, and its sides."""
 
     centre: Vector
     size: Vector
@@ -38,16 +38,17 @@ class Masses:
 
 @dataclass(frozen=True)
 class RobotModel:
-    """What the physics has to know of the robot.
+    """Data of the robot for the physics.
 
     Attributes:
         wheel_positions: in the order of WHEELS.
-        wheel_width_m: of the tyres.
-        base_height_m: of base_link above ground.
-        chassis: its boxes, the fenders last.
-        lidars: front, and rear if there is one; a cylinder with the given radius and height each.
-        mast_foot: where the mast stands.
-        carriage_z_m: above the mast's foot, with the lift at its lower stop.
+        wheel_width_m: width of the tyres.
+        base_height_m: height of base_link above ground.
+        chassis: boxes of the chassis, the fenders last.
+        front_lidar, rear_lidar: mounts; rear_lidar is None if there is none.
+        lidar_size: radius and height of a LiDAR's cylinder.
+        mast_foot: position of the mast's foot.
+        carriage_z_m: height above the mast's foot, with the lift at its lower stop.
     """
 
     wheel_radius_m: float
@@ -73,21 +74,25 @@ class RobotModel:
 
     @property
     def half_track_m(self) -> float:
-        """From the middle line to the middle of a wheel."""
+        """Distance from the middle line to the centre of a wheel."""
         return self.wheel_positions[0][1]
 
     @property
     def half_wheelbase_m(self) -> float:
-        """From base_link to an axle."""
+        """Distance from base_link to an axle."""
         return self.wheel_positions[0][0]
 
     def key_in_base(self, lift_m: float) -> Vector:
-        """The key with the lift so far above its lower stop."""
+        """Return the key's position with the lift at a height above its lower stop."""
         return self.key.x_m, self.key.y_m, self.key.min_height_m - self.base_height_m + lift_m
 
 
 def robot_model(geometry: RobotGeometry, needs_rear_lidar: bool = True) -> RobotModel:
-    """The robot of a URDF with the links of mtr_description; ConfigurationError when it lacks one that is needed."""
+    """Return the robot of a URDF with the links of mtr_description.
+
+    Raises:
+        ConfigurationError: a required link is missing.
+    """
     tree, wheels = geometry.tree, geometry.wheels()
     has_rear = needs_rear_lidar or any(link.name == names.REAR_LIDAR for link in tree.links)
     rear = geometry.mount(names.REAR_LIDAR) if has_rear else None
@@ -107,7 +112,7 @@ def robot_model(geometry: RobotGeometry, needs_rear_lidar: bool = True) -> Robot
 
 
 def shipped_robot() -> RobotModel:
-    """The robot of mtr_description."""
+    """Return the robot of mtr_description."""
     return robot_model(shipped_geometry())
 
 
@@ -120,7 +125,7 @@ def _link(tree: UrdfTree, name: str) -> Any:
 
 
 def _shapes(tree: UrdfTree, name: str, kind: str) -> List[Any]:
-    """Collisions of that kind of geometry; at least one."""
+    """Return the collisions with that kind of geometry; at least one."""
     found = [each for each in _link(tree, name).collisions if type(each.geometry).__name__ == kind]
     if not found:
         raise ConfigurationError(f"The collision geometry of {name} in robot_description has no {kind.lower()}; the "

@@ -1,8 +1,9 @@
-"""Tyres on the ground: spring and damper upwards, bristles inside the friction circle along the ground.
+"""Tyres on the ground: spring and damper upwards, bristles within the friction circle along the ground.
 
 A physics engine's contact of a convex wheel with the ground is wrong for a skid-steered robot: the wheels hop, and the
-turning rate depends on the time step. With these forces the ratio of the wheels' to the true turning rate on the spot
-is that of four sliding points, 1 + (half wheelbase / half track)^2 = 1.487, whatever the friction and the time step.
+turning rate depends on the time step. With these forces, the ratio of the wheels' to the true turning rate on the spot
+does not depend on friction and time step. It is 1 + (half wheelbase / half track)^2 = 1.487, as for four sliding
+points.
 """
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
@@ -18,16 +19,16 @@ from ..site.surroundings import Ground
 from .base_state import BaseState, Vector
 from .robot import WHEELS, RobotModel
 
-# Below this spin the rolling resistance fades out, so that a wheel can stand still.
+# Below this spin the rolling resistance fades out, so that a wheel can stop.
 ROLLING_FADE_RADPS = 0.05
 
 
 @dataclass(frozen=True)
 class TyreParameters(ParameterSet):
-    """Values at which neither mast nor friction made the tyres chatter.
+    """Parameters with which neither mast nor friction causes chatter of the tyres.
 
     Attributes:
-        stiffness_npm: upwards; 2e4 N/m lets the robot sink 3 mm.
+        stiffness_npm: upwards; with 2e4 N/m the robot sinks by 3 mm.
         damping_nspm: upwards.
         bristle_stiffness_npm: along the ground.
         bristle_damping_nspm: along the ground while it sticks.
@@ -45,7 +46,7 @@ _NO_CABLE = (0.0, 0.0, 0.0)
 
 
 class Surface(NamedTuple):
-    """What the wheels stand on; without a ground it is level."""
+    """Surface below the wheels; level without a ground."""
 
     friction: float
     ground: Optional[Ground] = None
@@ -53,7 +54,8 @@ class Surface(NamedTuple):
 
 
 class _WheelPlane(NamedTuple):
-    """How all wheels stand, in world: axle, way from a wheel's centre to its lowest point, rolling direction."""
+    """Orientation of all wheels, in world: axle, vector from a wheel's centre to its lowest point, rolling
+    direction."""
 
     axle: Vector
     down: Vector
@@ -80,7 +82,7 @@ def _wheel_plane(base: BaseState, radius_m: float) -> _WheelPlane:
 class Tyres:
     """Writes the ground's forces on the wheels into the physics before each of its steps.
 
-    Uneven ground is so gentle that its forces act upwards and along the level plane all the same.
+    Uneven ground has small slopes, so its forces are approximated as acting upwards and along the level plane.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotModel, surface: Surface,
@@ -95,7 +97,7 @@ class Tyres:
         self._bristles = [[0.0, 0.0] for _ in WHEELS]
 
     def apply(self, base: BaseState) -> None:
-        """Forces and torques on each wheel's centre for the base's motion and the wheels' spin."""
+        """Set forces and torques on each wheel's centre for the base's motion and the wheels' spin."""
         (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = base.rotation
         plane = _wheel_plane(base, self._radius_m)
         dx, dy, dz = plane.down
@@ -112,11 +114,11 @@ class Tyres:
                 self._forces[self._bodies[index]] = 0.0
 
     def loads_n(self) -> List[float]:
-        """Force of the ground on each wheel, upwards; 0 in the air."""
+        """Return the upward force of the ground on each wheel; 0 in the air."""
         return [float(self._forces[body][2]) for body in self._bodies]
 
     def lift_off(self) -> None:
-        """The robot has been lifted: nothing is bent any more."""
+        """Relax the bristles of a robot that was lifted."""
         self._bristles = [[0.0, 0.0] for _ in WHEELS]
 
     def _ground_height(self, base: BaseState, arm: Vector) -> float:
@@ -124,14 +126,14 @@ class Tyres:
         return ground.height_m(base.position[0] + arm[0], base.position[1] + arm[1]) if ground else 0.0
 
     def _cable(self, base: BaseState, arm: Vector) -> Vector:
-        """Height of a cable below a wheel, and its slopes along x and y."""
+        """Return the height of a cable below a wheel, and its slopes along x and y."""
         cables = self._surface.cables
         return cables.at(base.position[0] + arm[0], base.position[1] + arm[1]) if cables else _NO_CABLE
 
     def _wrench(self, index: int, base: BaseState, plane: _WheelPlane, foot: _Foot) -> Tuple[float, ...]:
-        """Force and torque at a wheel's centre, in world.
+        """Return force and torque at a wheel's centre, in world.
 
-        A cable pushes along the line from its axis to the wheel's, so not upwards only, and without a torque.
+        A cable pushes along the line from its axis to the wheel's axis: not only upwards, and without a torque.
         """
         parameters, (arm, depth, rise) = self._parameters, foot
         (vx, vy, vz), (ox, oy, oz) = base.velocity, base.angular_velocity
@@ -150,7 +152,7 @@ class Tyres:
                 hz * fx - hx * load + resistance * ay, hx * fy - hy * fx + resistance * az)
 
     def _friction_force(self, index: int, slip: float, side_slip: float, load: float) -> List[float]:
-        """Force along and across the rolling direction for the slip speeds in m/s."""
+        """Return the force along and across the rolling direction for the slip speeds in m/s."""
         parameters, bristle = self._parameters, self._bristles[index]
         limit = self._surface.friction * load
         along, across = bristle[0] + slip * self._step_s, bristle[1] + side_slip * self._step_s

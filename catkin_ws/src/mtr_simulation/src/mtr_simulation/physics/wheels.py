@@ -1,7 +1,7 @@
-"""The base's own controller: velocity command to wheel speeds, and odometry from the wheels.
+"""Base controller: converts velocity commands to wheel speeds, and wheel angles to odometry.
 
-Like the diff_drive_controller of a Jackal: it limits speed and acceleration, stops when no command comes, and widens
-the track by a multiplier because a skid-steered robot turns slower than its wheels say.
+It works like the diff_drive_controller of a Jackal. It limits speed and acceleration, and stops without commands. A
+multiplier widens the track, because a skid-steered robot turns slower than its wheels indicate.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -25,17 +25,17 @@ BASE = shipped_base()
 
 @dataclass(frozen=True)
 class BaseParameters(ParameterSet):
-    """Limits of the platform: those of mtr_description's jackal_base.yaml unless others are loaded, as on a real robot.
+    """Limits of the platform: mtr_description's jackal_base.yaml unless others are loaded, as on a real robot.
 
     Attributes:
-        max_linear_mps, max_angular_radps: of the commanded velocity.
-        max_linear_mps2: of starts and stops; a bare Jackal's 20 would tip one with a mast.
-        max_angular_radps2: the same; a bare Jackal has 25.
-        command_timeout_s: stops this long after the last command.
-        separation_multiplier: true by assumed turning rate; a Jackal's is 1.5.
-        radius_error: relative error of the wheel radius that the base believes in.
+        max_linear_mps, max_angular_radps: limits of the commanded velocity.
+        max_linear_mps2: limit of starts and stops; the 20 of a bare Jackal would tip a robot with a mast.
+        max_angular_radps2: limit of the angular acceleration; a bare Jackal has 25.
+        command_timeout_s: time after the last command at which the base stops.
+        separation_multiplier: factor by which the track is widened; a Jackal's is 1.5.
+        radius_error: relative error of the wheel radius that the base assumes.
         encoder_ticks_per_m: a Jackal's is 78000.
-        max_wheel_torque_nm: of each wheel.
+        max_wheel_torque_nm: limit of each wheel.
     """
 
     max_linear_mps: float = number(BASE.max_linear_mps, 0.1, 3.0, "m/s")
@@ -50,7 +50,11 @@ class BaseParameters(ParameterSet):
 
 
 def parameters_of(base: BaseController) -> BaseParameters:
-    """The platform whose controller is configured like this; ConfigurationError when it is none that is simulated."""
+    """Return the platform with this controller configuration.
+
+    Raises:
+        ConfigurationError: such a platform cannot be simulated.
+    """
     return BaseParameters(base.max_linear_mps, base.max_angular_radps, base.linear_acceleration_mps2,
                           base.angular_acceleration_radps2, base.command_timeout_s)
 
@@ -74,7 +78,7 @@ class Wheels:
         self._pose = (0.0, 0.0, 0.0)
 
     def command(self, linear_mps: float, angular_radps: float) -> None:
-        """Take a new velocity command; one that is not finite is ignored."""
+        """Set a new velocity command; a non-finite one is ignored."""
         if math.isfinite(linear_mps) and math.isfinite(angular_radps):
             limits = self._parameters
             self._wanted = (_clip(linear_mps, limits.max_linear_mps), _clip(angular_radps, limits.max_angular_radps))
@@ -96,7 +100,7 @@ class Wheels:
             control[self._servos[index]] = target + integrals[index]
 
     def odometry(self, period_s: float) -> WheelOdometry:
-        """Odometry for the period since the last call."""
+        """Return the odometry of the period since the last call."""
         ticks = self._count()
         per_m = self._parameters.encoder_ticks_per_m
         left, right = ((new - old) / per_m for new, old in zip(ticks, self._ticks))
@@ -108,7 +112,7 @@ class Wheels:
         return WheelOdometry(x, y, heading + turn, distance / period_s, turn / period_s)
 
     def _count(self) -> List[float]:
-        """Encoder ticks of the left and the right side, in metres as the base believes them."""
+        """Return the encoder ticks of the left and the right side, scaled by the assumed wheel radius."""
         angles = [float(self._data.qpos[index]) for index in self._angles]
         scale = self._radius_m * self._parameters.encoder_ticks_per_m
         return [math.floor(0.5 * (angles[side] + angles[side + 2]) * scale) for side in (0, 1)]

@@ -1,2 +1,2 @@
-"""What the robot's sensors say of its true state, with their errors."""
+"""Sensors of the robot: readings of its true state, with errors."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""An inertial measurement unit with white noise, a constant bias and one that wanders slowly."""
+"""Inertial measurement unit with white noise, a constant bias and a slowly wandering bias."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -18,7 +18,7 @@ class ImuParameters(ParameterSet):
     Attributes:
         gyro_density, accelerometer_density: white noise.
         gyro_bias_radps, accelerometer_bias_mps2: 1 sigma of the constant bias.
-        gyro_bias_walk, accelerometer_bias_walk: how the bias wanders, 1 sigma after 1 s.
+        gyro_bias_walk, accelerometer_bias_walk: random walk of the bias, 1 sigma after 1 s.
         gyro_scale_error: relative error of all angular velocities.
     """
 
@@ -43,7 +43,7 @@ class Imu:
             [parameters.gyro_bias_radps, parameters.accelerometer_bias_mps2], 3)
 
     def read(self, angular_velocity: Vector, acceleration: Vector) -> ImuReading:
-        """Reading for the true mean angular velocity and specific force in frame imu."""
+        """Return the reading for the true mean angular velocity and specific force in frame imu."""
         white, walk = self._noise.standard_normal((2, 6))
         self._bias += self._walk * walk
         error = (self._bias + self._white * white).tolist()

@@ -1,4 +1,4 @@
-"""A planar LiDAR that turns while the robot moves: each part of a sweep is seen from where the robot was then."""
+"""Planar LiDAR that rotates while the robot moves: each part of a sweep is cast from the robot's pose at its time."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, field
@@ -18,26 +18,26 @@ from ..physics.base_state import BaseState
 from .readings import Scan
 from .scan_errors import ScanErrors, with_errors
 
-# Not the robot itself (group 2), nor what is far above the LiDARs' plane (group 3).
+# Excluded groups: the robot itself (2), and parts far above the LiDAR plane (3).
 SEEN_GROUPS = np.array([1, 1, 0, 0, 1, 1], dtype=np.uint8)
-# Beams within this time are cast together from one place, each in its own direction: at 1 m/s and 1 rad/s the place
-# is 5 mm off at most, the direction not at all.
+# Beams within this time are cast together from one place, each in its own direction. At 1 m/s and 1 rad/s the place is
+# off by at most 5 mm, and the direction is exact.
 SLICE_S = 0.01
 
 
 @dataclass(frozen=True)
 class LidarParameters(ParameterSet):
-    """A sensor of the class of a Hokuyo UST or SICK TiM at 25 Hz.
+    """Sensor of the class of a Hokuyo UST or SICK TiM at 25 Hz.
 
     Attributes:
-        beams: of one sweep.
+        beams: number of beams of one sweep.
         field_of_view_rad: centred on the LiDAR's x axis.
         rotation_s: one turn; the period of the scans.
-        range_min_m, range_max_m: nearest and farthest that is seen.
+        range_min_m, range_max_m: smallest and largest measured range.
         noise_m: 1 sigma of each range.
-        height_m: of its plane above the ground; None: where its mount is.
-        roll_rad, pitch_rad: of its mounting, which nobody knows of; positive pitch looks down ahead.
-        errors: beyond white noise.
+        height_m: height of its plane above the ground; None: the height of its mount.
+        roll_rad, pitch_rad: errors of its mounting, unknown to the robot; positive pitch looks down ahead.
+        errors: errors in addition to white noise.
     """
 
     beams: int = number(720, 2, 4000, "beams")
@@ -65,7 +65,7 @@ class LidarParameters(ParameterSet):
 class Lidar:
     """One LiDAR.
 
-    A sweep is cast in slices; each is cast in the physics step that is nearest in time to its middle.
+    A sweep is cast in slices, each in the physics step nearest to the time of its middle.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, mount: Mount, parameters: LidarParameters,
@@ -76,12 +76,12 @@ class Lidar:
         self._place, self._is_rear = mount.position, mount.frame == names.REAR_LIDAR
         self._rays = _rays(parameters, mount)
         slices, delays = _slices(parameters, model.opt.timestep)
-        # How a ray turns by the time of its beam for each rad/s that the robot turns.
+        # Change of a ray until the time of its beam, per rad/s of the robot's turning rate.
         turns = delays[:, np.newaxis] * np.stack(
             [-self._rays[:, 1], self._rays[:, 0], np.zeros(parameters.beams)], axis=1)
         self._distances = np.zeros(parameters.beams)
         geoms = np.zeros(parameters.beams, dtype=np.int32)
-        # By the physics step that casts them: rays, how they turn, and where geoms and distances go.
+        # By the physics step that casts them: rays, their changes, and buffers of geoms and distances.
         self._slices = {step: tuple(each[first:last] for each in (self._rays, turns, geoms, self._distances))
                         for step, (first, last) in slices.items()}
         self._excluded = model.body("base_link").id
@@ -98,7 +98,7 @@ class Lidar:
                            self._excluded, geoms, distances, len(distances), self._parameters.range_max_m)
 
     def scan(self, stamp_ns: int) -> Scan:
-        """The completed sweep that began at stamp_ns."""
+        """Return the completed sweep that began at stamp_ns."""
         parameters, seen = self._parameters, self._distances
         noisy = np.where(seen < 0.0, math.inf, seen)
         noisy = with_errors(noisy, parameters.errors, self._error_noise, self._is_rear)
@@ -111,7 +111,7 @@ class Lidar:
 
 
 def _rays(parameters: LidarParameters, mount: Mount) -> FloatArray:
-    """Unit vectors of all beams in base_link; the mounting is turned by yaw, then pitch, then roll."""
+    """Return unit vectors of all beams in base_link; the mounting is rotated by yaw, then pitch, then roll."""
     angles = parameters.angle_increment_rad * np.arange(parameters.beams) - parameters.field_of_view_rad / 2.0
     x, y = np.cos(angles), np.sin(angles)
     roll, pitch = mount.roll_rad + parameters.roll_rad, mount.pitch_rad + parameters.pitch_rad
@@ -122,7 +122,7 @@ def _rays(parameters: LidarParameters, mount: Mount) -> FloatArray:
 
 
 def _slices(parameters: LidarParameters, step_s: float) -> Tuple[Dict[int, Tuple[int, int]], FloatArray]:
-    """Half-open range of beams by the physics step that casts them, and each beam's time after that step."""
+    """Return half-open ranges of beams by the physics step that casts them, and each beam's time after that step."""
     times = np.arange(parameters.beams) * parameters.time_increment_s
     steps_per_slice = max(1, round(SLICE_S / step_s))
     steps = np.rint(times / (step_s * steps_per_slice)).astype(int) * steps_per_slice

@@ -1,4 +1,4 @@
-"""What the simulated sensors say, in plain types; times are integer ns of the simulated clock."""
+"""Readings of the simulated sensors in plain types; times are integer ns of the simulated clock."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import NamedTuple, Optional, Tuple
 
@@ -7,14 +7,14 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 
 Vector = Tuple[float, float, float]
-# As a Jackal's controller states them with its odometry: x, y, z, roll, pitch, yaw.
+# Variances of a Jackal's odometry: x, y, z, roll, pitch, yaw.
 ODOMETRY_VARIANCES = (0.001, 0.001, 1e6, 1e6, 1e6, 0.03)
 
 
 class Scan(NamedTuple):
     """One sweep of a LiDAR; stamp_ns is the time of the first beam, angles in the LiDAR's own frame.
 
-    ranges_m is float32; +inf: nothing within range_max_m, -inf: something nearer than range_min_m (REP-117).
+    ranges_m is float32; +inf: nothing within range_max_m, -inf: an obstacle nearer than range_min_m (REP-117).
     """
 
     stamp_ns: int
@@ -35,7 +35,7 @@ class ImuReading(NamedTuple):
 
 
 class WheelOdometry(NamedTuple):
-    """What the base works out from its wheels: mean speed over the last period, and the pose summed up from it."""
+    """Odometry that the base computes from its wheels: mean speed over the last period, and the integrated pose."""
 
     x_m: float
     y_m: float
@@ -53,7 +53,7 @@ class BatteryReading(NamedTuple):
 
 
 class Sensors(NamedTuple):
-    """Everything that is new at one tick; a LiDAR that has completed no sweep, or is switched off, says None."""
+    """New readings of one tick; a scan is None if no sweep was completed or the LiDAR is switched off."""
 
     time_ns: int
     imu: ImuReading
@@ -63,7 +63,7 @@ class Sensors(NamedTuple):
     rear_scan: Optional[Scan]
 
     def to_bytes(self) -> bytes:
-        """All readings as bytes, so that two runs can be compared by a hash."""
+        """Return all readings as bytes, so that two runs can be compared by a hash."""
         numbers = (self.time_ns, *self.imu.angular_velocity, *self.imu.acceleration, *self.odometry, *self.battery)
         scans = (scan.ranges_m.tobytes() for scan in (self.front_scan, self.rear_scan) if scan)
         return np.array(numbers, dtype=np.float64).tobytes() + b"".join(scans)

@@ -1,4 +1,4 @@
-"""What a real LiDAR does wrong beyond white noise: constant offset, mixed pixels, dropouts, drops of rain."""
+"""Errors of a real LiDAR in addition to white noise: constant offset, mixed pixels, dropouts and raindrops."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 
@@ -8,22 +8,22 @@ from mtr_core import sensor_figures as figures
 from mtr_core.arrays import FloatArray
 from mtr_core.parameters import ParameterSet, number
 
-# A step from one beam to the next beyond this is the edge of something.
+# Smallest step between neighbouring beams that counts as an edge.
 EDGE_M = 0.1
-# Rain and spray return a beam from near; farther drops are too faint.
+# Range of echoes from rain and spray; drops at larger distances are too faint.
 ECHO_NEAREST_M, ECHO_FARTHEST_M = 0.3, 6.0
 
 
 @dataclass(frozen=True)
 class ScanErrors(ParameterSet):
-    """Each is off by default.
+    """Errors of a scan; each is off by default.
 
     Attributes:
         range_bias_m: added to every range.
-        opposed_bias_m: added to every range of the front LiDAR and taken off those of the rear one.
-        mixed_pixel_share: of the beams at an edge, that return a range between both sides.
-        dropout_share: of all beams, that see nothing (black paint, glass).
-        echo_share: of all beams, that return from a drop in the air: isolated points that are there for one sweep.
+        opposed_bias_m: added to every range of the front LiDAR and subtracted from the rear LiDAR's ranges.
+        mixed_pixel_share: share of the beams at an edge that return a range between both sides.
+        dropout_share: share of all beams without a return (black paint, glass).
+        echo_share: share of all beams that return from a raindrop: isolated points that exist for one sweep.
     """
 
     range_bias_m: float = number(*figures.SIMULATED_RANGE_BIAS_M)
@@ -35,7 +35,7 @@ class ScanErrors(ParameterSet):
 
 def with_errors(ranges_m: FloatArray, errors: ScanErrors, noise: np.random.Generator,
                 is_rear: bool = False) -> FloatArray:
-    """Ranges of one sweep with these errors; infinity is a beam that sees nothing."""
+    """Return the ranges of one sweep with these errors; infinity is a beam without a return."""
     seen = ranges_m + errors.range_bias_m + (-1.0 if is_rear else 1.0) * errors.opposed_bias_m
     if errors.mixed_pixel_share:
         seen = _mixed(seen, errors.mixed_pixel_share, noise)
@@ -49,7 +49,7 @@ def with_errors(ranges_m: FloatArray, errors: ScanErrors, noise: np.random.Gener
 
 
 def _mixed(ranges_m: FloatArray, share: float, noise: np.random.Generator) -> FloatArray:
-    """Some of the beams at an edge fall on both sides of it and return what is between."""
+    """Return the ranges with mixed pixels: some beams at an edge cover both sides and return a range between them."""
     after = np.append(ranges_m[1:], ranges_m[-1])
     both = np.isfinite(ranges_m) & np.isfinite(after)
     step = np.where(both, after, 0.0) - np.where(both, ranges_m, 0.0)

@@ -1,4 +1,4 @@
-"""Everything that stands on a site, as solids: what each physics engine builds its world from."""
+"""All bodies on a site as solids, from which each physics engine builds its world."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List
@@ -12,12 +12,12 @@ from .surroundings import Cone, Pole, Wall
 
 POLE_HEIGHT_M, WALL_HEIGHT_M, CONE_HEIGHT_M = 1.2, 2.0, 0.75
 CONE_CORNERS = 16
-# Of the poles, cones and walls together.
+# Body name of the poles, cones and walls together.
 SURROUNDINGS = "surroundings"
 
 
 def bodies_of(scenario: Scenario) -> List[Body]:
-    """The Car, parked cars, and the surroundings, whose parts are placed in world; people are not among them."""
+    """Return the Car, parked cars, and the surroundings with parts placed in world; people are not included."""
     things = (*map(_pole, scenario.poles), *(_cone(index, cone) for index, cone in enumerate(scenario.cones)),
               *map(_wall, scenario.walls))
     return [car_body("car", scenario.car, scenario.world_from_car),

@@ -1,4 +1,4 @@
-"""Cables on the ground, as a rigid wheel feels them."""
+"""Cables on the ground and their effect on a rigid wheel."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ from mtr_core.se2 import Pose2
 
 @dataclass(frozen=True)
 class Cable:
-    """Straight round cable along the x axis of its pose in world, its middle there."""
+    """Straight round cable along the x axis of its pose in world; the pose is at its middle."""
 
     pose: Pose2
     diameter_m: float = 0.015
@@ -19,7 +19,7 @@ class Cable:
 class Cables:
     """Height of the lowest point of a rigid wheel above level ground while it rolls over cables.
 
-    The wheel touches a cable ahead of its own lowest point, so the height is that of a circle on a circle.
+    The wheel touches a cable ahead of its own lowest point, so the height follows from a circle on a circle.
     """
 
     def __init__(self, cables: Sequence[Cable], wheel_radius_m: float):
@@ -28,7 +28,7 @@ class Cables:
         self._wheel_m = wheel_radius_m
 
     def at(self, x_m: float, y_m: float) -> Tuple[float, float, float]:
-        """Height at a place in world, and how steeply it rises along x and y there."""
+        """Return the height at a place in world, and its slopes along x and y."""
         for from_world, half_m, radius_m in self._cables:
             along, across = from_world.apply(x_m, y_m)
             reach_m = 2.0 * math.sqrt(self._wheel_m * radius_m)

@@ -18,7 +18,7 @@ FRONT_TOP_M, REAR_TOP_M, SHOULDER_TOP_M, CABIN_FOOT_M = 0.78, 0.90, 0.80, 0.75
 TUNNEL_HALF_WIDTH_M = 0.55
 MIRROR_X_M, MIRROR_Z_M = 0.75, 1.0
 MIRROR_HALF = (0.06, 0.10, 0.07)
-# Of what a shape may have besides: a bar of 6 cm, what stands out between 0.16 and 0.40 m, a plate; each begins inside.
+# Optional parts of a shape: a bar of 6 cm, parts between 0.16 and 0.40 m, and a plate; each begins inside the body.
 ROOT_M = 0.1
 TOW_BAR_Z_M, TOW_BAR_HALF_WIDTH_M, TOW_BAR_HALF_HEIGHT_M = 0.38, 0.03, 0.1
 LOW_MIRROR_X_M, LOW_MIRROR_Z_M, LOW_MIRROR_HALF_LENGTH_M, LOW_MIRROR_HALF_HEIGHT_M = 0.65, 0.28, 0.08, 0.12
@@ -26,27 +26,27 @@ TAILGATE_Z_M, TAILGATE_SIDE_M, TAILGATE_HALF_HEIGHT_M = 0.65, 0.2, 0.03
 
 
 def car_body(name: str, shape: CarShape, world_from_car: Pose2) -> Body:
-    """Body with frame car: origin on the ground below the Car's centre."""
+    """Return the body with frame car: origin on the ground below the Car's centre."""
     return Body(name, world_from_car, (
         _bumper(f"{name}_front", shape, 1.0, FRONT_TOP_M), _bumper(f"{name}_rear", shape, -1.0, REAR_TOP_M),
         *_lower_body(shape), *_wheels(shape), *_cabin(shape), *_fittings(shape)))
 
 
 def parked_car_body(name: str, shape: CarShape, world_from_car: Pose2) -> Body:
-    """A car far away: its outline as a box, which costs a beam less than bumpers and wheels."""
+    """Return a distant car: its outline as a box, which costs less per beam than bumpers and wheels."""
     middle, half = _between(0.0, SHOULDER_TOP_M)
     outline = Part(Box((shape.length_m / 2.0, shape.width_m / 2.0, half)), (0.0, 0.0, middle))
     return Body(name, world_from_car, (outline, *_cabin(shape)))
 
 
 def _bumper(name: str, shape: CarShape, end: float, top_m: float) -> Part:
-    """Convex hull of the bumper's plans at its lower edge, at the top of the undercut and at its upper edge."""
+    """Return the convex hull of the bumper's plans at its lower edge, the top of the undercut, and its upper edge."""
     heights = sorted({shape.clearance_m, max(shape.clearance_m, UNDERCUT_TOP_M), top_m})
     return Part(Hull(name, tuple((x, y, z) for z in heights for x, y in shape.bumper_plan(end, z))))
 
 
 def _between(low: float, high: float) -> Tuple[float, float]:
-    """Centre and half height of a box between two heights."""
+    """Return centre and half height of a box between two heights."""
     return (low + high) / 2.0, (high - low) / 2.0
 
 

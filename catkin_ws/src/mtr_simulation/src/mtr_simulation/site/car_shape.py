@@ -1,4 +1,4 @@
-"""Body of a car: the numbers that describe it, and its outline at any height."""
+"""Body of a car: its dimensions, and its outline at any height."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, List, NamedTuple, Tuple
@@ -8,7 +8,7 @@ from mtr_core.parameters import ParameterSet, number
 
 Point = Tuple[float, float]
 
-# Half the length of a wheel arch; bumpers begin, and sills end, there.
+# Half the length of a wheel arch, where bumpers begin and sills end.
 ARCH_HALF_LENGTH_M = 0.40
 SILL_INSET_M = 0.02
 TYRE_WIDTH_M = 0.21
@@ -20,18 +20,18 @@ CORNER_POINTS = 7
 
 @dataclass(frozen=True)
 class CarShape(ParameterSet):
-    """Body of a car; length and width without mirrors are those that the robot is to find.
+    """Body of a car; the robot must find length and width without mirrors.
 
     Attributes:
         wheelbase_m: distance of the axles, less than length_m - 1.
         clearance_m: gap between ground and body; a LiDAR below it sees only the wheels.
         sill_rise_m: how much higher the sills between the wheels begin than the bumpers.
-        front_exponent: of the superellipse that is the front bumper's plan; 2 is round, 6 nearly a box.
-        rear_exponent: the same of the rear bumper.
-        undercut_m: how far the bumpers' lower edge stands back.
-        tow_bar_m: how far a tow bar stands out behind; 0: none.
-        low_mirrors_m: how far mirrors of a low car, or steps, stand out on both sides at a LiDAR's height; 0: none.
-        tailgate_m: how far a lowered tailgate stands out behind, above the LiDARs' planes; 0: none.
+        front_exponent: exponent of the superellipse of the front bumper's plan; 2 is round, 6 nearly a box.
+        rear_exponent: exponent of the rear bumper's plan.
+        undercut_m: how far the bumpers' lower edge is set back.
+        tow_bar_m: protrusion of a tow bar at the rear; 0: none.
+        low_mirrors_m: protrusion of a low car's mirrors, or of steps, on both sides at a LiDAR's height; 0: none.
+        tailgate_m: protrusion of a lowered tailgate at the rear, above the LiDAR plane; 0: none.
     """
 
     length_m: float = number(4.5, 3.0, 6.0, "m")
@@ -53,12 +53,12 @@ class CarShape(ParameterSet):
         check_range("wheelbase_m", self.wheelbase_m, 1.5, self.length_m - 1.0, "m")
 
     def inset_m(self, height_m: float) -> float:
-        """How far the bumpers stand back at a height, against the Car's length."""
+        """Return how far the bumpers are set back at a height, relative to the Car's length."""
         depth = UNDERCUT_TOP_M - self.clearance_m
         return self.undercut_m * min(1.0, max(0.0, UNDERCUT_TOP_M - height_m) / depth) if depth > 0.0 else 0.0
 
     def bumper_plan(self, end: float, height_m: float) -> List[Point]:
-        """Corners of the front (end 1) or rear (-1) bumper at a height, from its left to its right."""
+        """Return the corners of the front (end 1) or rear (-1) bumper at a height, from its left to its right."""
         exponent = self.front_exponent if end > 0.0 else self.rear_exponent
         depth = 0.5 * (self.length_m - self.wheelbase_m) - ARCH_HALF_LENGTH_M
         inset = self.inset_m(height_m)
@@ -68,7 +68,7 @@ class CarShape(ParameterSet):
 
 
 class Size(NamedTuple):
-    """Length and width in m of what a horizontal plane meets of the Car."""
+    """Length and width in m of the section of the Car with a horizontal plane."""
 
     length_m: float
     width_m: float
@@ -76,7 +76,8 @@ class Size(NamedTuple):
 
 
 def size_at(shape: CarShape, height_m: float) -> Size:
-    """What a LiDAR in that plane can find at best: bumpers that are undercut stand back behind sills and tyres."""
+    """Return the size that a LiDAR in that plane can find at best; undercut bumpers are set back behind sills and
+    tyres."""
     if height_m >= shape.clearance_m:
         inset = shape.inset_m(height_m)
         beside = [SILL_INSET_M] if height_m >= shape.clearance_m + shape.sill_rise_m else []
@@ -87,13 +88,14 @@ def size_at(shape: CarShape, height_m: float) -> Size:
 
 
 def _quarter(exponent: float) -> List[Point]:
-    """Superellipse from its side to its tip: (share of the depth back from the tip, share of the half width)."""
+    """Return a superellipse from its side to its tip: (share of the depth back from the tip, share of the half
+    width)."""
     shares = [1.0 - (step / CORNER_POINTS) ** 2 for step in range(CORNER_POINTS + 1)]
     return [(1.0 - (1.0 - share**exponent) ** (1.0 / exponent), share) for share in shares]
 
 
-# Sizes of common cars of each class; the LiDAR's plane at 0.2 m meets the hatchback's body and the others' wheels, at
-# 0.3 m all bumpers but not the van's sills.
+# Sizes of common cars of each class. The LiDAR plane at 0.2 m meets the hatchback's body and the others' wheels. At 0.3
+# m it meets all bumpers, but not the van's sills.
 CAR_SHAPES: Dict[str, CarShape] = {
     "default": CarShape(),
     "hatchback": CarShape(4.28, 1.79, 1.46, 2.63, 0.316, 0.17, 0.0, 2.6, 3.5, 0.02),

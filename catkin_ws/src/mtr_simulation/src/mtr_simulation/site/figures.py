@@ -1,4 +1,4 @@
-"""What may move about on a site: persons, one alone or two, wheelchair, pram, child, and a lying test body."""
+"""Figures that move on a site: one or two persons, wheelchair, pram, child, and a lying test body."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, NamedTuple, Set, Tuple
@@ -7,7 +7,7 @@ from mtr_core.errors import ConfigurationError
 
 
 class Leg(NamedTuple):
-    """One leg: name of its body, place to the left of the walk's line, and sense of its swing."""
+    """One leg: name of its body, offset to the left of the walk's line, and sense of its swing."""
 
     name: str
     side_m: float
@@ -16,14 +16,14 @@ class Leg(NamedTuple):
 
 @dataclass(frozen=True)
 class Figure:
-    """Shape of what moves; x ahead, y left, z up from the ground.
+    """Shape of a figure; x ahead, y left, z up from the ground.
 
     Attributes:
         geoms: MJCF attributes of the parts that do not swing.
-        legs: that swing about the hip.
-        hip_height_m: above ground.
+        legs: legs that swing about the hip.
+        hip_height_m: height above ground.
         leg_length_m: from the hip to the middle of the foot.
-        leg_radius_m: of a leg.
+        leg_radius_m: radius of a leg.
         stride_m: length of two steps.
     """
 
@@ -36,12 +36,12 @@ class Figure:
 
 
 def _adult(side_m: float) -> Tuple[str, ...]:
-    """Torso and head."""
+    """Return torso and head."""
     return (f'type="capsule" fromto="0 {side_m} 0.95 0 {side_m} 1.45" size="0.18"',
             f'type="sphere" pos="0 {side_m} 1.68" size="0.12"')
 
 
-# Half the distance between two persons who walk side by side, and of the legs of one.
+# Half the distance between two persons side by side, and between the legs of an adult and of a child.
 _HALF_PAIR_M, _HALF_HIP_M, _HALF_CHILD_HIP_M = 0.30, 0.1, 0.06
 FIGURES: Dict[str, Figure] = {
     "person": Figure(_adult(0.0), (Leg("left_leg", _HALF_HIP_M, 1.0), Leg("right_leg", -_HALF_HIP_M, -1.0))),
@@ -66,7 +66,7 @@ BODIES: Set[str] = {"person", *(leg.name for figure in FIGURES.values() for leg 
 
 
 def figure_named(name: str) -> Figure:
-    """The figure of this name."""
+    """Return the figure of this name."""
     if name not in FIGURES:
         raise ConfigurationError(f"Parameter figure is '{name}'; allowed is {', '.join(FIGURES)}.")
     return FIGURES[name]

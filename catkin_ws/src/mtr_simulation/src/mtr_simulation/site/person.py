@@ -1,4 +1,4 @@
-"""A person who stands, then walks to and fro; the robot pushes nobody away, so a contact counts as a collision."""
+"""Person who waits, then walks to and fro; the robot does not push persons away, so a contact counts as a collision."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Tuple
@@ -12,7 +12,7 @@ LEG_SWING_RAD = 0.35
 
 
 class Person:
-    """Moves the bodies of torso and legs, or whatever figure it is, along the walk."""
+    """Moves the bodies of torso and legs, or of another figure, along the walk."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, walk: Walk):
         self._data, self._walk, self._figure = data, walk, figure_named(walk.figure)
@@ -23,7 +23,7 @@ class Person:
         self._direction = ((x2 - x1) / self._length_m, (y2 - y1) / self._length_m)
 
     def move(self, elapsed_s: float) -> None:
-        """Put the person where it is after that time."""
+        """Move the person to its place after that time."""
         walked = self._walk.speed_mps * max(0.0, elapsed_s - self._walk.stands_s)
         along = walked % (2.0 * self._length_m)
         along = min(along, 2.0 * self._length_m - along)
@@ -37,7 +37,7 @@ class Person:
                       leg.sense * half_swing)
 
     def _put(self, body: int, place: Tuple[float, float, float], half_yaw: float, half_swing: float) -> None:
-        """Yaw, then pitch about the hip."""
+        """Place a body with yaw, then pitch about the hip."""
         self._data.mocap_pos[body] = place
         self._data.mocap_quat[body] = (
             math.cos(half_yaw) * math.cos(half_swing), -math.sin(half_yaw) * math.sin(half_swing),

@@ -1,4 +1,4 @@
-"""What stands around the robot: the Car, its surroundings, the ground, and where the robot starts."""
+"""Test sites: the Car, its surroundings, the ground, and the robot's start."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -20,15 +20,15 @@ class Scenario(ParameterSet):
 
     Attributes:
         car: shape of the Car under test.
-        world_from_car: pose of the Car; neither at the origin nor aligned, so that no code gets away with that.
+        world_from_car: pose of the Car; neither at the origin nor aligned, so that errors of frames show.
         start_in_car: nominal pose of base_link in frame car.
-        start_offset_m: the seed moves the start by up to this in x and y.
-        start_offset_rad: and turns it by up to this.
-        friction: of tyres on the ground; 0.5 as in the Jackal's description.
+        start_offset_m: largest random displacement of the start in x and y.
+        start_offset_rad: largest random rotation of the start.
+        friction: friction of tyres on the ground; 0.5 as in the Jackal's description.
         ground_tilt_rad: root mean square of the slope of uneven ground; 0: flat.
         ground_slope_rad: slope of the whole site.
-        ground_slope_direction_rad: direction in world that is downhill.
-        cables: across the way of the wheels.
+        ground_slope_direction_rad: downhill direction in world.
+        cables: cables on the path of the wheels.
     """
 
     car: CarShape = CarShape()
@@ -48,13 +48,13 @@ class Scenario(ParameterSet):
     cables: Tuple[Cable, ...] = ()
 
     def gravity(self, size_mps2: float) -> Tuple[float, float, float]:
-        """Gravity along x, y, z of world, whose z axis stands upright on the ground."""
+        """Return gravity along x, y, z of world, whose z axis is perpendicular to the ground."""
         along = size_mps2 * math.sin(self.ground_slope_rad)
         return (along * math.cos(self.ground_slope_direction_rad), along * math.sin(self.ground_slope_direction_rad),
                 -size_mps2 * math.cos(self.ground_slope_rad))
 
     def start_in_world(self, seed: int) -> Pose2:
-        """Pose of base_link in world at the start, moved by the seed."""
+        """Return the pose of base_link in world at the start, displaced by the seed."""
         x, y, turn = stream(seed, "start").uniform(-1.0, 1.0, 3)
         nominal = self.start_in_car
         return self.world_from_car @ Pose2(nominal.x + self.start_offset_m * x / math.sqrt(2.0),
@@ -62,7 +62,7 @@ class Scenario(ParameterSet):
                                            nominal.heading + self.start_offset_rad * turn)
 
 
-# The test needs about 7 m around the Car's centre; everything in the lot is farther away than 8.5 m.
+# The test needs about 7 m around the Car's centre; everything in the lot is more than 8.5 m away.
 _LOT = Scenario(
     poles=tuple(Pole(1.3 + 9.5 * math.cos(angle), -0.7 + 9.0 * math.sin(angle))
                 for angle in (0.2, 0.9, 1.7, 2.4, 3.3, 4.1, 4.8, 5.7)),
@@ -70,14 +70,14 @@ _LOT = Scenario(
            Wall(Pose2(14.0, 0.0, math.pi / 2.0), 18.0)),
     parked_cars=(ParkedCar(Pose2(-10.5, 2.5, math.pi / 2.0)), ParkedCar(Pose2(-10.6, -3.5, -math.pi / 2.0))),
 )
-# Nothing but the Car within 20 m of its centre, and a few things in the LiDAR's range of 30 m beyond.
+# Only the Car within 20 m of its centre, and a few objects beyond, in the LiDAR's range of 30 m.
 _FAR = Scenario(
     poles=tuple(Pole(1.3 + 22.0 * math.cos(angle), -0.7 + 22.0 * math.sin(angle), 0.12)
                 for angle in (0.5, 2.2, 3.9, 5.2)),
     walls=(Wall(Pose2(3.0, 23.5, 0.05), 24.0), Wall(Pose2(-23.0, -3.0, math.pi / 2.0 - 0.1), 14.0)),
     parked_cars=(ParkedCar(Pose2(23.0, -9.0, 1.4)),),
 )
-# As an Operator would put them down: outside of the radials' 10 m, between the directions of sides and corners.
+# Places of an Operator's cones: outside of the radials' 10 m, between the directions of sides and corners.
 _CONES = Scenario(cones=tuple(
     Cone(*Scenario.world_from_car.apply(distance * math.cos(angle), distance * math.sin(angle)))
     for distance, angle in ((12.5, 0.38), (11.8, 1.97), (12.2, 3.53), (12.0, 5.08))))
@@ -92,7 +92,7 @@ SCENARIOS: Dict[str, Scenario] = {
 
 
 def named_scenario(name: str) -> Scenario:
-    """The scenario of that name."""
+    """Return the scenario of that name."""
     if name not in SCENARIOS:
         raise ConfigurationError(f"Parameter scenario is '{name}'; allowed is {', '.join(SCENARIOS)}.")
     return SCENARIOS[name]

@@ -1,6 +1,6 @@
-"""A test site from a YAML file: what stands around the Car, for any simulator.
+"""Test site from a YAML file, for any simulator.
 
-Poses are lists [x in m, y in m, heading in deg] in world, but start_in_car, which is in frame car.
+Poses are lists [x in m, y in m, heading in deg] in world, except start_in_car, which is in frame car.
 """
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
@@ -24,7 +24,11 @@ SUFFIXES = (".yaml", ".yml")
 
 
 def chosen_scenario(name_or_path: str) -> Scenario:
-    """The site of a shipped name or of a YAML file; ConfigurationError says what is wrong."""
+    """Return the site of a shipped name or of a YAML file.
+
+    Raises:
+        ConfigurationError: the name or file is invalid.
+    """
     if name_or_path in SCENARIOS:
         return SCENARIOS[name_or_path]
     path = pathlib.Path(name_or_path)
@@ -39,7 +43,7 @@ def chosen_scenario(name_or_path: str) -> Scenario:
 
 
 def scenario_from(content: Mapping[str, Any]) -> Scenario:
-    """The site that a table describes; what it leaves out is that of the shipped site open."""
+    """Return the site that a table describes; missing entries equal the shipped site `open`."""
     allowed = [item.name for item in dataclasses.fields(Scenario)]
     unknown = sorted(set(content) - set(allowed))
     if unknown:
@@ -55,7 +59,7 @@ def _pose(name: str, value: Any) -> Pose2:
 
 
 def _figures(name: str, value: Any, fewest: int, most: int) -> Tuple[float, ...]:
-    """So many finite numbers."""
+    """Return the given number of finite numbers."""
     right = isinstance(value, list) and fewest <= len(value) <= most and all(
         isinstance(each, (int, float)) and not isinstance(each, bool) and math.isfinite(each) for each in value)
     if not right:

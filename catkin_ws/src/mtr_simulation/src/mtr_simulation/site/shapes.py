@@ -1,4 +1,4 @@
-"""What a physics engine has to know of a thing on the site: solids of simple form, and where they stand."""
+"""Bodies on the site for a physics engine: simple solids and their places."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import NamedTuple, Tuple, Union
@@ -9,7 +9,7 @@ Vector = Tuple[float, float, float]
 
 
 class Surface(enum.Enum):
-    """Of a solid; what is upper stands far above the LiDARs' plane."""
+    """Surface of a solid; upper parts are far above the LiDAR plane."""
 
     PAINT = "paint"
     UPPER = "upper"
@@ -30,7 +30,7 @@ class Cylinder(NamedTuple):
 
 
 class Hull(NamedTuple):
-    """Convex hull of points in m; the name is its own on the whole site."""
+    """Convex hull of points in m; the name is unique on the site."""
 
     name: str
     points: Tuple[Vector, ...]
@@ -40,9 +40,9 @@ class Part(NamedTuple):
     """One solid of a body.
 
     Attributes:
-        centre: of its frame in the body, in m.
-        yaw_rad: of its frame in the body.
-        is_lying: its z axis is the body's y axis: a wheel.
+        centre: position of its frame in the body, in m.
+        yaw_rad: yaw of its frame in the body.
+        is_lying: its z axis is the body's y axis, as for a wheel.
     """
 
     form: Union[Box, Cylinder, Hull]
@@ -53,7 +53,7 @@ class Part(NamedTuple):
 
 
 class Body(NamedTuple):
-    """What does not move in itself; pose of its frame, on the ground, in world."""
+    """Rigid body; pose of its frame, on the ground, in world."""
 
     name: str
     pose: Pose2

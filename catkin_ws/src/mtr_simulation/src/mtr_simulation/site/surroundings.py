@@ -1,4 +1,4 @@
-"""What may stand or walk around the Car, and the ground below."""
+"""Objects and persons around the Car, and the ground below."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ class Pole:
 
 @dataclass(frozen=True)
 class Cone:
-    """Traffic cone, 0.75 m high, that narrows upwards; x, y in world."""
+    """Traffic cone, 0.75 m high, narrowing upwards; x, y in world."""
 
     x_m: float
     y_m: float
@@ -48,7 +48,7 @@ class ParkedCar:
 
 @dataclass(frozen=True)
 class Walk:
-    """A person who stands for a while and then walks to and fro between two points in world."""
+    """Person who waits for a while and then walks to and fro between two points in world."""
 
     start: Tuple[float, float]
     end: Tuple[float, float]
@@ -58,23 +58,23 @@ class Walk:
     figure: str = "person"
 
 
-# Lengths of the ground's waves: long against the wheelbase of 0.26 m, so that the robot tilts as the ground does.
+# Lengths of the ground's waves: long compared with the wheelbase of 0.26 m, so that the robot tilts with the ground.
 WAVE_LENGTHS_M = (2.5, 3.5, 5.0, 7.0)
 
 
 class Ground:
-    """Height of uneven ground as a sum of waves in directions that the seed decides."""
+    """Height of uneven ground as a sum of waves in directions given by the seed."""
 
     def __init__(self, waves: List[Tuple[float, float, float, float]]):
         self._waves = waves
 
     def height_m(self, x_m: float, y_m: float) -> float:
-        """Height at a place in world."""
+        """Return the height at a place in world."""
         return sum(amplitude * math.sin(a * x_m + b * y_m + phase) for amplitude, a, b, phase in self._waves)
 
 
 def uneven_ground(seed: int, tilt_rad: float) -> Ground:
-    """Ground whose steepest slope is tilt_rad in the root mean square over all places."""
+    """Return ground whose steepest slope has a root mean square of tilt_rad over all places."""
     noise = stream(seed, "ground")
     waves = []
     for length_m in WAVE_LENGTHS_M:

@@ -1,4 +1,4 @@
-"""Decisions of handle requests at the nominal border beside the share of them that is truly inside."""
+"""Decisions of handle requests at the nominal border, compared with the true probability of a decision inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -9,7 +9,8 @@ from .results import optional_number, rows_of
 
 
 def border_table(path: pathlib.Path, comparisons: Iterable[Comparison]) -> List[str]:
-    """A line of each axis with requests at its nominal border; empty without one, or without the Car's model."""
+    """Return a line for each axis with requests at its nominal border; empty without one, or without the Car's
+    model."""
     shares = {each.measured.line: each.expected.border_share for each in comparisons}
     lines = []
     for row in rows_of(path):

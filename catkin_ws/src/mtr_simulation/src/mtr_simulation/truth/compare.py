@@ -2,8 +2,9 @@
 
 Usage: python -m mtr_simulation.truth.compare --events FILE --results DIR --car-length M --car-width M
        [--car NAME --seed N] [--max-error M] [--max-sigmas N]
-The exit status is 0 when each line that is `ok` has its true event and is as near to it as is asked for, 1 when one has
-none or is farther, or when a limit is given and no distance is `ok`, 2 when a file is unusable.
+
+The exit status is 0 if each line that is `ok` has its true event and is within the given limits. It is 1 if a line has
+none or exceeds a limit, or if a limit is given and no distance is `ok`. It is 2 if a file is unusable.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -45,14 +46,14 @@ TRUTH_HEADER = ("scenario", "line", "event", "true_distance_m", "p50_distance_m"
 AUTOLOCK, KEY_PRESS, ZONE_MAP, HANDLE_REQUEST = "autolock", "key_press", "zone_map", "handle_request"
 _READERS = {AUTOLOCK: read_autolock, KEY_PRESS: read_key_press, ZONE_MAP: read_zone_map,
             HANDLE_REQUEST: read_handle_request}
-# Axes have two scenarios: the second is told by what no other has.
+# Column that identifies the scenario; two scenarios have axes, and the second one has a unique column.
 _TOLD_BY = {HANDLE_REQUEST: "requests", **{name: FIRST_COLUMN[name] for name in (AUTOLOCK, KEY_PRESS, ZONE_MAP)}}
-# Found from many presses, so that none of them is its event.
+# Scenarios whose distance results from many presses, so that none of them is its event.
 _WITHOUT_EVENT = (ZONE_MAP,)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Command line; the exit status."""
+    """Run the command line; return the exit status."""
     options = _parse(arguments)
     try:
         size = CarSize(
@@ -80,7 +81,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def problems(comparisons: List[Comparison], max_error_m: Optional[float], max_sigmas: Optional[float]) -> List[str]:
-    """A sentence for each distance that is ok without a true event, or farther from it than allowed; None: no limit."""
+    """Return a sentence for each ok distance without a true event, or with a too large error; None: no limit."""
     good = [c for c in comparisons if c.measured.status == "ok"]
     found = [f"Line {c.measured.line}: no true event for its {c.measured.event} at {c.measured.time_s:.3f} s."
              for c in good if c.true_distance_m is None]
@@ -93,14 +94,14 @@ def problems(comparisons: List[Comparison], max_error_m: Optional[float], max_si
 
 
 def is_near(comparison: Comparison, max_error_m: Optional[float], max_sigmas: Optional[float]) -> bool:
-    """True when the error is within both limits; an error or a sigma that is no number is within none."""
+    """Return True if the error is within both limits; NaN is within none."""
     error_m = abs(comparison.error_m)
     return ((max_error_m is None or error_m <= max_error_m)
             and (max_sigmas is None or error_m <= max_sigmas * comparison.measured.uncertainty_m))
 
 
 def guess_scenario(results: pathlib.Path) -> str:
-    """The scenario whose first column the header has."""
+    """Return the scenario whose column the header has."""
     names = column_names(results)
     for scenario, column in _TOLD_BY.items():
         if column in names:
@@ -110,9 +111,9 @@ def guess_scenario(results: pathlib.Path) -> str:
 
 def with_expected(comparisons: List[Comparison], size: CarSize, model: ReactionModel,
                   results: pathlib.Path) -> List[Comparison]:
-    """With what a perfect measurement of each line would say."""
+    """Add the results that a perfect measurement of each line would have."""
     height_m = key_height_m(results)
-    # Only zones have a grid: radials of other scenarios may lie farther apart than a zone is wide.
+    # Only zones have a grid: radials of other scenarios may be farther apart than the width of a zone.
     grid = ZoneGrid.of_results(results) if any(each.measured.event == "reach" for each in comparisons) else None
 
     def of_line(measured: MeasuredEvent) -> Expected:
@@ -125,10 +126,9 @@ def with_expected(comparisons: List[Comparison], size: CarSize, model: ReactionM
 
 
 def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]) -> None:
-    """Write truth.csv, whole or not at all.
+    """Write truth.csv atomically.
 
-    An event that never happened has a line only when the Car's model says where it would have been expected; its true
-    distance is empty.
+    An event that did not happen has a line only if the Car's model expects it; its true distance is empty.
     """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
@@ -147,7 +147,7 @@ def write_truth(path: pathlib.Path, scenario: str, comparisons: List[Comparison]
 
 
 def table(comparisons: List[Comparison]) -> List[str]:
-    """Lines with measured and true distance of each event."""
+    """Return lines with measured and true distance of each event."""
     lines = ["line event  side        status        measured m   true m  error m  sigma m    p50 m    p95 m"]
     for comparison in comparisons:
         m = comparison.measured
@@ -161,8 +161,10 @@ def table(comparisons: List[Comparison]) -> List[str]:
 
 
 def summary(scenario: str, comparisons: List[Comparison]) -> List[str]:
-    """Median, 95th percentile and largest of the absolute errors of lines that are ok, and their size in sigma; empty
-    where a line has no event of its own."""
+    """Return median, 95th percentile and maximum of the absolute errors of ok lines, and their size in sigma.
+
+    The result is empty if a line has no event of its own.
+    """
     if scenario in _WITHOUT_EVENT:
         return []
     good = [c for c in comparisons if c.measured.status == "ok" and math.isfinite(c.error_m)]
@@ -182,7 +184,7 @@ def summary(scenario: str, comparisons: List[Comparison]) -> List[str]:
 
 
 def percentile(ordered: List[float], share: float) -> float:
-    """Linear interpolation between the two nearest of the ordered values."""
+    """Return the linear interpolation between the two nearest of the ordered values."""
     position = share * (len(ordered) - 1)
     low = math.floor(position)
     high = min(low + 1, len(ordered) - 1)

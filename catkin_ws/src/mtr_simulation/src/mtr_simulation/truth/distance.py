@@ -1,4 +1,4 @@
-"""True distances of measured events: which true event belongs to it, and how far the Remote key truly was."""
+"""True distances of measured events: the matching true event, and the true distance of the Remote key."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Iterable, NamedTuple, Optional, Tuple
@@ -9,14 +9,14 @@ from .results import MeasuredEvent, ResultsError, TrueEvent
 MATCH_WINDOW_S = 0.5
 
 _KINDS = {"unlock": "unlocked", "lock": "locked", "press": "press", "handle": "handle"}
-# Of these the Car takes some and others not.
+# Kinds of events that the Car may accept or not.
 _ATTEMPTS = ("press", "handle")
 _NORMALS = {"front": (1.0, 0.0), "rear": (-1.0, 0.0), "left": (0.0, 1.0), "right": (0.0, -1.0)}
 _CORNERS = {"front_left": (1, 1), "front_right": (1, -1), "rear_left": (-1, 1), "rear_right": (-1, -1)}
 # Zones clockwise from the front, each an eighth of the circle.
 ZONE_SIDES = ("front", "front_right", "right", "rear_right", "rear", "rear_left", "left", "front_left")
 
-# Smaller components of a direction are rounding.
+# Smaller components of a direction are rounding errors.
 _PARALLEL = 1e-9
 
 Vector = Tuple[float, float]
@@ -30,14 +30,14 @@ class CarSize(NamedTuple):
 
 
 class Expected(NamedTuple):
-    """What a perfect measurement of a line would say, from the Car's model; distances in m, NaN where there is none.
+    """Results of a perfect measurement of a line, from the Car's model; distances in m, NaN if there are none.
 
     Attributes:
-        p50_distance_m: the Car reacts in half of all trials.
-        p95_distance_m: in 95 % of them.
-        static_m: boundary of passive entry for a key that moves infinitely slowly; NaN for all but unlock and lock.
-        border_share: share of handle requests at the nominal border that work; NaN for all others.
-        coverage: part of a zone's area where at least half of the presses work; NaN for all others.
+        p50_distance_m: distance at which the Car reacts in half of all trials.
+        p95_distance_m: distance at which it reacts in 95 % of them.
+        static_m: boundary of passive entry for a key that moves infinitely slowly; NaN except for unlock and lock.
+        border_share: share of handle requests at the nominal border that work; NaN for other events.
+        coverage: part of a zone's area where at least half of the presses work; NaN for other events.
     """
 
     p50_distance_m: float = math.nan
@@ -48,7 +48,7 @@ class Expected(NamedTuple):
 
 
 class Comparison(NamedTuple):
-    """A measured event beside the truth; true_distance_m is None when nothing of the kind happened."""
+    """Measured event with its truth; true_distance_m is None without a matching true event."""
 
     measured: MeasuredEvent
     true_distance_m: Optional[float]
@@ -61,7 +61,7 @@ class Comparison(NamedTuple):
 
 
 def compare(measured: Iterable[MeasuredEvent], truth: Iterable[TrueEvent], size: CarSize) -> Iterable[Comparison]:
-    """A comparison for each measured event, in order."""
+    """Yield a comparison for each measured event, in order."""
     truth = list(truth)
     for event in measured:
         true_event = find_true(event, truth)
@@ -69,16 +69,16 @@ def compare(measured: Iterable[MeasuredEvent], truth: Iterable[TrueEvent], size:
 
 
 def find_true(measured: MeasuredEvent, truth: Iterable[TrueEvent]) -> Optional[TrueEvent]:
-    """The nearest true event of the kind; of presses and handle requests only those that the Car accepted."""
+    """Return the nearest true event of the kind; only accepted presses and handle requests count."""
     kind = _KINDS.get(measured.event)
     candidates = [e for e in truth if e.kind == kind and (e.accepted or kind not in _ATTEMPTS)]
     nearest = min(candidates, key=lambda e: abs(e.time_s - measured.time_s), default=None)
-    # Written so that a measurement without a time (NaN) finds nothing.
+    # The comparison is false for a measurement without a time (NaN).
     return nearest if nearest and abs(nearest.time_s - measured.time_s) <= MATCH_WINDOW_S else None
 
 
 def true_distance_m(measured: MeasuredEvent, event: TrueEvent, size: CarSize) -> float:
-    """From the Car's true side or corner along the axis, or from its centre for a press."""
+    """Return the distance from the Car's true side or corner along the axis, or from its centre for a press."""
     if measured.event == "press":
         return math.hypot(event.key_x_m, event.key_y_m)
     if measured.side in _NORMALS:
@@ -90,7 +90,8 @@ def true_distance_m(measured: MeasuredEvent, event: TrueEvent, size: CarSize) ->
 
 
 def start_and_direction(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector, Vector]:
-    """Point of the true Car at which the line's distance is 0, and unit vector along the line, both in frame car."""
+    """Return the point of the true Car with distance 0 on the line, and the unit vector along the line, both in frame
+    car."""
     if measured.event == "press":
         return (0.0, 0.0), (math.cos(measured.clockwise_rad), -math.sin(measured.clockwise_rad))
     if measured.event == "reach":
@@ -105,14 +106,14 @@ def start_and_direction(measured: MeasuredEvent, size: CarSize) -> Tuple[Vector,
 
 
 def zone_middle_rad(measured: MeasuredEvent) -> float:
-    """Direction of the middle of a zone, clockwise from the Car's front."""
+    """Return the direction of the middle of a zone, clockwise from the Car's front."""
     if measured.side not in ZONE_SIDES:
         raise ResultsError(f"Zone {measured.line} has side {measured.side!r}; allowed are {', '.join(ZONE_SIDES)}.")
     return ZONE_SIDES.index(measured.side) * 2.0 * math.pi / len(ZONE_SIDES)
 
 
 def from_outline(clockwise_rad: float, size: CarSize) -> Tuple[Vector, Vector]:
-    """Point of the Car's outline on a radial from its centre, and the radial's unit vector."""
+    """Return the point of the Car's outline on a radial from its centre, and the radial's unit vector."""
     direction = (math.cos(clockwise_rad), -math.sin(clockwise_rad))
     along_m = min(whole_m / 2.0 / abs(part) for whole_m, part in zip(size, direction) if abs(part) > _PARALLEL)
     return (along_m * direction[0], along_m * direction[1]), direction

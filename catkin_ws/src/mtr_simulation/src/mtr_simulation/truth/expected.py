@@ -1,4 +1,4 @@
-"""What a perfect measurement of a line would say, from the Car's model: distances at 50 and 95 %, static boundary."""
+"""Results of a perfect measurement of a line, from the Car's model: distances at 50 and 95 %, static boundary."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Callable, Tuple
@@ -13,14 +13,14 @@ from .distance import CarSize, Expected, start_and_direction
 from .monotone import falls_below
 from .results import MeasuredEvent
 
-# Where and how finely p is looked at along a line: passive entry ends within 10 m, buttons work farther.
+# Range and step of the evaluation of p along a line: passive entry ends within 10 m, buttons work farther away.
 _NEAREST_M = 0.1
 _STEP_M = 0.02
 _FARTHEST_M = {"unlock": 10.0, "lock": 10.0, "handle": 10.0, "press": 60.0, "reach": 60.0}
 
 
 class Line:
-    """Places of the key along a line, as the robot carries it: ahead of itself, towards the Car."""
+    """Places of the key along a line, carried by the robot ahead of itself towards the Car."""
 
     def __init__(self, event: MeasuredEvent, size: CarSize, key_height_m: float):
         (start_x, start_y), (along_x, along_y) = start_and_direction(event, size)
@@ -29,12 +29,12 @@ class Line:
         self.attitude = Attitude(math.atan2(-along_y, -along_x))
 
     def probability(self, reaction: Callable[[FloatArray, Attitude], FloatArray]) -> Tuple[FloatArray, FloatArray]:
-        """Distances, and the probability of the reaction at each."""
+        """Return distances, and the probability of the reaction at each."""
         return self.distances_m, reaction(self.places, self.attitude)
 
 
 def expected(event: MeasuredEvent, size: CarSize, model: ReactionModel, key_height_m: float) -> Expected:
-    """Of one line and event, at its own height or else at key_height_m."""
+    """Return the expected results of one line and event, at the event's own height or else at key_height_m."""
     line = Line(event, size, key_height_m if math.isnan(event.key_height_m) else event.key_height_m)
     if event.event in ("press", "reach"):
         distances_m, p = line.probability(model.press)
@@ -47,7 +47,7 @@ def expected(event: MeasuredEvent, size: CarSize, model: ReactionModel, key_heig
         distances_m, p = line.probability(model.unlock)
         static_m = falls_below(*line.probability(model.unlock_poll), 0.5)
         return Expected(falls_below(distances_m, p, 0.5), falls_below(distances_m, p, 0.95), static_m)
-    # Locking becomes surer with the distance: its complement falls.
+    # The probability of locking rises with the distance, so its complement falls.
     distances_m, p = line.probability(model.lock)
     _, polled = line.probability(model.lock_poll)
     static_m = falls_below(distances_m, 1.0 - polled, 0.5)

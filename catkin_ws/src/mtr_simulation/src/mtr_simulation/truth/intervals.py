@@ -1,4 +1,4 @@
-"""Intervals of results.csv beside the truth that they have to hold: static boundary, distances at 50 and 95 %."""
+"""Intervals of results.csv compared with the truth: static boundary, distances at 50 and 95 %."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -15,7 +15,7 @@ def _distance(name: str) -> Tuple[str, str, str]:
     return f"{name}_m", f"{name}_low_m", f"{name}_high_m"
 
 
-# Of each scenario and event: what is told, its columns (value, low and high end), its truth in Expected, and the unit.
+# By scenario and event: name of the figure, its columns (value, low and high end), its truth in Expected, and unit.
 _TOLD = {
     "autolock": (("unlock", "static", _distance("unlock_static"), "static_m", _METRES),
                  ("lock", "static", _distance("lock_static"), "static_m", _METRES)),
@@ -29,9 +29,9 @@ _TOLD = {
 
 
 class Told(NamedTuple):
-    """A figure of a line with its 95 % interval and its truth; an end is infinite where the line has none.
+    """Figure of a line with its 95 % interval and its truth; a missing end is infinite.
 
-    unit: m of a distance, empty of the part of an area.
+    unit: m for a distance, empty for a part of an area.
     """
 
     line: str
@@ -45,12 +45,12 @@ class Told(NamedTuple):
 
     @property
     def holds(self) -> bool:
-        """The truth lies within."""
+        """True if the interval contains the truth."""
         return self.low <= self.true <= self.high
 
 
 def read_intervals(path: pathlib.Path, scenario: str, comparisons: Iterable[Comparison]) -> List[Told]:
-    """Intervals of all lines whose truth is known; none of a file that has no such columns."""
+    """Return the intervals of all lines with a known truth; empty if the file has no such columns."""
     expected = {(each.measured.line, each.measured.event): each.expected for each in comparisons}
     told = []
     for row in rows_of(path):
@@ -65,7 +65,7 @@ def read_intervals(path: pathlib.Path, scenario: str, comparisons: Iterable[Comp
 
 
 def interval_table(told: List[Told]) -> List[str]:
-    """A line of each interval, those of distances first."""
+    """Return a line for each interval, distances first."""
     return [line for unit in (_METRES, _PART) for line in _table([each for each in told if each.unit == unit], unit)]
 
 
@@ -82,7 +82,7 @@ def _table(told: List[Told], unit: str) -> List[str]:
 
 
 def coverage(scenario: str, told: List[Told]) -> List[str]:
-    """Share of the intervals that hold the truth, by event and what they tell."""
+    """Return the share of the intervals that contain the truth, by event and figure."""
     groups: Dict[Tuple[str, str], List[Told]] = {}
     for each in told:
         groups.setdefault((each.event, each.what), []).append(each)

@@ -1,4 +1,4 @@
-"""Writes down what truly happened at the simulated Car: one line per event, complete on disk at once."""
+"""Logs the true events of the simulated Car: one line per event, written to disk at once."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import pathlib
@@ -13,49 +13,49 @@ Point = Tuple[float, float, float]
 
 
 class EventLog(Protocol):
-    """Takes the true events."""
+    """Receives the true events."""
 
     def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
-        """The locks moved; event is unlocked or locked."""
+        """Log a movement of the locks; event is unlocked or locked."""
 
     def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """A button's contact closed at time_ns."""
+        """Log a closing of a button's contact at time_ns."""
 
     def handle(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """A hand took the driver's handle."""
+        """Log a hand that pulled the driver's handle."""
 
     def close(self) -> None:
-        """No more comes."""
+        """Close the log."""
 
 
 class NoTruthLog:
-    """Takes true events and writes them nowhere."""
+    """Discards true events."""
 
     def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def handle(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """Nothing."""
+        """Do nothing."""
 
     def close(self) -> None:
-        """Nothing."""
+        """Do nothing."""
 
 
 class TruthLog:
-    """Appends events to truth_events.csv in a directory, which is made when it is missing.
+    """Appends events to truth_events.csv in a directory, which is created if necessary.
 
-    robot_time_s is the simulation's time of the event, key_* the Remote key in the true Car frame in m, accepted (0 or
-    1, presses and handle requests only) whether the Car received it, or found the key in its zone.
+    robot_time_s is the simulated time of the event, key_* the Remote key in the true Car frame in m. accepted (0 or 1,
+    presses and handle requests only) is whether the Car received it, or found the key in its zone.
     """
 
     def __init__(self, directory: Union[str, pathlib.Path]):
         self.path = pathlib.Path(directory) / FILE_NAME
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            # Line-buffered: a simulation that is killed leaves every event before its death.
+            # Line-buffered: a simulation that is killed leaves every earlier event.
             self._file = open(self.path, "w", newline="", encoding="utf-8", buffering=1)  # noqa: SIM115
         except OSError as error:
             raise ConfigurationError(f"The truth cannot be written to {self.path}: {error.strerror}.") from error
@@ -63,15 +63,15 @@ class TruthLog:
         self._writer.writerow(HEADER)
 
     def lock_event(self, event: str, time_ns: int, key_xyz: Point) -> None:
-        """The locks moved; event is unlocked or locked."""
+        """Log a movement of the locks; event is unlocked or locked."""
         self._write(event, time_ns, key_xyz, "")
 
     def press(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """A button's contact closed at time_ns."""
+        """Log a closing of a button's contact at time_ns."""
         self._write("press", time_ns, key_xyz, int(accepted))
 
     def handle(self, time_ns: int, key_xyz: Point, accepted: bool) -> None:
-        """A hand took the driver's handle."""
+        """Log a hand that pulled the driver's handle."""
         self._write("handle", time_ns, key_xyz, int(accepted))
 
     def close(self) -> None:

@@ -1,8 +1,8 @@
-"""The range that a probability along a line amounts to, also where fading and nulls tear holes into it.
+"""Range of a probability along a line, also with holes caused by fading and nulls.
 
-p(d) of a real Car neither falls steadily nor crosses 50 % once. Its range is that of the falling curve which is nearest
-to it in the sense of least squares over equal steps of distance (antitonic regression, by pooling adjacent violators:
-Barlow et al., Statistical Inference under Order Restrictions, 1972). Where p falls steadily, that is p itself.
+p(d) of a real Car neither falls steadily nor crosses 50 % only once. Its range is defined by the non-increasing curve
+with the least squared distance from it, over equal steps of distance. This is antitonic regression by pooling adjacent
+violators (Barlow et al., Statistical Inference under Order Restrictions, 1972). If p falls steadily, the curve is p.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -14,7 +14,7 @@ from mtr_core.arrays import FloatArray
 
 
 def falling(values: FloatArray) -> FloatArray:
-    """The curve that never rises and is nearest to the values."""
+    """Return the non-increasing curve that is nearest to the values."""
     blocks: List[Tuple[float, int]] = []
     for value in values.tolist():
         mean, count = value, 1
@@ -27,7 +27,8 @@ def falling(values: FloatArray) -> FloatArray:
 
 
 def falls_below(distances_m: FloatArray, values: FloatArray, level: float) -> float:
-    """Where the falling curve passes the level; NaN when it is below from the start, or above to the end."""
+    """Return the distance at which the non-increasing curve passes the level; NaN if it is always below or always
+    above."""
     curve = falling(values)
     below = np.flatnonzero(curve < level)
     if len(below) == 0 or below[0] == 0:

@@ -1,4 +1,4 @@
-"""Reads results.csv of all scenarios and truth_events.csv into lines of plain types."""
+"""Reads results.csv of all scenarios and truth_events.csv into plain types."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
 import math
@@ -11,14 +11,14 @@ from mtr_core.errors import RobotError
 DEFAULT_KEY_HEIGHT_M = 1.0
 
 
-# Of each scenario, the column that numbers its lines; the header of results.csv tells by it whose it is.
+# Column of each scenario that numbers its lines; it identifies the scenario of a results.csv.
 FIRST_COLUMN = {"autolock": "axis", "key_press": "radial", "zone_map": "zone", "handle_request": "axis"}
 # Columns of an axis.
 _AXIS = ("axis", "side", "origin_x_m", "origin_y_m", "direction_x", "direction_y")
 
 
 class ResultsError(RobotError):
-    """A file is missing, foreign or broken."""
+    """A file is missing, of another kind, or corrupt."""
 
 
 class TrueEvent(NamedTuple):
@@ -32,12 +32,12 @@ class TrueEvent(NamedTuple):
 
 
 class MeasuredEvent(NamedTuple):
-    """One measurement of results.csv. Times and distances are NaN where the cell is empty.
+    """One measurement of results.csv. Times and distances are NaN if the cell is empty.
 
-    event is unlock, lock, press, handle or reach; side, direction and origin are those of the axis, empty and 0 for a
-    radial, whose angle is clockwise_rad from the Car's front. A zone (reach) has a side only, and no event at a time.
-    key_height_m is that of the line; NaN where all lines have the height of the metadata. border_m is the nominal
-    border of handle requests.
+    event is unlock, lock, press, handle or reach. side, direction and origin belong to the axis; for a radial they are
+    empty and 0, and its angle is clockwise_rad from the Car's front. A zone (reach) has only a side, and no event at a
+    time. key_height_m is the height of the line; NaN if all lines have the height of the metadata. border_m is the
+    nominal border of handle requests.
     """
 
     line: str
@@ -55,12 +55,12 @@ class MeasuredEvent(NamedTuple):
 
 
 def column_names(path: pathlib.Path) -> List[str]:
-    """The header of a file."""
+    """Return the header of a file."""
     return list(_reader(path).fieldnames or ())
 
 
 def read_events(path: pathlib.Path) -> List[TrueEvent]:
-    """All lines of truth_events.csv."""
+    """Return all lines of truth_events.csv."""
     rows = _rows(path, ("event", "robot_time_s", "key_x_m", "key_y_m", "accepted"))
     return [
         TrueEvent(
@@ -75,7 +75,7 @@ def read_events(path: pathlib.Path) -> List[TrueEvent]:
 
 
 def read_autolock(path: pathlib.Path) -> List[MeasuredEvent]:
-    """Two events, unlock and lock, for each axis."""
+    """Return two events, unlock and lock, for each axis."""
     names = ("status", "distance_m", "uncertainty_m", "robot_time_s")
     columns = [f"{event}_{name}" for event in ("unlock", "lock") for name in names]
     return [_on_axis(_measured(row, path, row["axis"], event, f"{event}_"), row, path)
@@ -83,14 +83,14 @@ def read_autolock(path: pathlib.Path) -> List[MeasuredEvent]:
 
 
 def read_key_press(path: pathlib.Path) -> List[MeasuredEvent]:
-    """One event, press, for each radial."""
+    """Return one event, press, for each radial."""
     rows = _rows(path, ("radial", "status", "distance_m", "uncertainty_m", "robot_time_s", "angle_deg"))
     return [_measured(row, path, row["radial"], "press", "")._replace(
         clockwise_rad=math.radians(_number(row, "angle_deg", path))) for row in rows]
 
 
 def read_handle_request(path: pathlib.Path) -> List[MeasuredEvent]:
-    """One event, handle, for each axis: the farthest request that unlocked the Car."""
+    """Return one event, handle, for each axis: the request at the largest distance that unlocked the Car."""
     names = ("status", "distance_m", "uncertainty_m", "robot_time_s", "key_height_m", "border_m")
     return [_on_axis(_measured(row, path, row["axis"], "handle", ""), row, path)._replace(
         key_height_m=_number(row, "key_height_m", path), border_m=_number(row, "border_m", path))
@@ -98,7 +98,7 @@ def read_handle_request(path: pathlib.Path) -> List[MeasuredEvent]:
 
 
 def read_zone_map(path: pathlib.Path) -> List[MeasuredEvent]:
-    """Where each zone ends, reach; it is found from many presses, and none of them is its event."""
+    """Return the end of each zone, reach; it results from many presses, and none of them is its event."""
     return [MeasuredEvent(row["zone"], "reach", row["status"], math.nan, _number(row, "distance_m", path),
                           _number(row, "uncertainty_m", path), row["side"], (0.0, 0.0),
                           key_height_m=_number(row, "height_m", path))
@@ -106,23 +106,23 @@ def read_zone_map(path: pathlib.Path) -> List[MeasuredEvent]:
 
 
 def key_height_m(path: pathlib.Path) -> float:
-    """The height of the Remote key that the metadata tell, else the scenarios' default."""
+    """Return the height of the Remote key in the metadata, else the scenarios' default."""
     return parameter(path, "key_height_m", DEFAULT_KEY_HEIGHT_M)
 
 
 def parameter(path: pathlib.Path, name: str, default: float) -> float:
-    """A parameter of the test that is a number, from the metadata."""
+    """Return a numeric parameter of the test from the metadata."""
     found = re.search(rf"^# parameter {name}: ([0-9.]+)(?: \S+)?$", _text(path), re.MULTILINE)
     return float(found.group(1)) if found else default
 
 
 def rows_of(path: pathlib.Path) -> Iterator[Dict[str, str]]:
-    """All lines below the metadata."""
+    """Return all lines below the metadata."""
     return _rows(path, ())
 
 
 def optional_number(row: Dict[str, str], column: str, path: pathlib.Path) -> float:
-    """NaN for an empty cell, and for a column that the file does not have."""
+    """Return NaN for an empty cell, and for a column that the file does not have."""
     return _number(row, column, path) if column in row else math.nan
 
 
@@ -134,13 +134,13 @@ def _measured(row: Dict[str, str], path: pathlib.Path, line: str, event: str, pr
 
 
 def _on_axis(event: MeasuredEvent, row: Dict[str, str], path: pathlib.Path) -> MeasuredEvent:
-    """With where the axis lies."""
+    """Add the position of the axis."""
     return event._replace(direction=(_number(row, "direction_x", path), _number(row, "direction_y", path)),
                           origin=(_number(row, "origin_x_m", path), _number(row, "origin_y_m", path)))
 
 
 def _rows(path: pathlib.Path, columns: Iterable[str]) -> Iterator[Dict[str, str]]:
-    """Lines below the metadata; every wanted column must exist, and every line must be whole."""
+    """Yield the lines below the metadata; every wanted column must exist, and every line must be complete."""
     reader = _reader(path)
     missing = [name for name in columns if name not in (reader.fieldnames or ())]
     if missing:

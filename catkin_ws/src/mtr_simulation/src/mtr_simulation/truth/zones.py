@@ -1,4 +1,4 @@
-"""What part of a zone is truly covered, on the places at which the application may press there."""
+"""True coverage of a zone, on the places at which the application may press there."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -17,7 +17,7 @@ _COVERED = 0.5
 
 
 class ZoneGrid(NamedTuple):
-    """Parameters of a zone map: places on radials from the Car's outline on, from near to far, in m and degrees."""
+    """Parameters of a zone map: places on radials from the Car's outline outwards, in m and degrees."""
 
     nearest_m: float
     farthest_m: float
@@ -27,7 +27,7 @@ class ZoneGrid(NamedTuple):
 
     @classmethod
     def of_results(cls, path: pathlib.Path) -> "ZoneGrid":
-        """From the metadata; the scenario's defaults where they say nothing."""
+        """Return the parameters from the metadata; missing ones have the scenario's defaults."""
         return cls(parameter(path, "minimum_distance_m", 0.5), parameter(path, "maximum_distance_m", 6.0),
                    check_range("spacing_m", parameter(path, "spacing_m", 0.5), 0.05, 10.0, "m"),
                    check_range("angle_between_radials_deg", parameter(path, "angle_between_radials_deg", 15.0), 1.0,
@@ -35,7 +35,7 @@ class ZoneGrid(NamedTuple):
                    parameter(path, "clearance_m", 0.3))
 
     def places(self, zone: MeasuredEvent, size: CarSize) -> Iterator[Tuple[float, float, float]]:
-        """x and y of each place of a zone in the true Car's frame, and the direction of its radial in rad."""
+        """Yield x and y of each place of a zone in the true Car's frame, and the direction of its radial in rad."""
         distances_m = np.arange(self.nearest_m, self.farthest_m + 1e-9, self.spacing_m)
         for number in range(math.ceil(360.0 / self.angle_deg - 1e-9)):
             clockwise_deg = number * self.angle_deg
@@ -49,11 +49,11 @@ class ZoneGrid(NamedTuple):
 
 
 def true_coverage(zone: MeasuredEvent, size: CarSize, model: ReactionModel, grid: ZoneGrid) -> float:
-    """Part of a zone's area where at least half of the presses work; NaN for a zone without a place."""
+    """Return the part of a zone's area where at least half of the presses work; NaN for a zone without a place."""
     covered_m, whole_m = 0.0, 0.0
     for x, y, outward_rad in grid.places(zone, size):
         works = float(model.press(np.array([[x, y, zone.key_height_m]]), Attitude(outward_rad + math.pi))[0])
-        # A place stands for a piece of a ring, whose area goes with its radius.
+        # A place represents a piece of a ring, whose area is proportional to its radius.
         radius_m = math.hypot(x, y)
         whole_m += radius_m
         covered_m += radius_m if works >= _COVERED else 0.0
@@ -61,5 +61,5 @@ def true_coverage(zone: MeasuredEvent, size: CarSize, model: ReactionModel, grid
 
 
 def _gap_m(x: float, y: float, size: CarSize) -> float:
-    """Distance from the Car's outline."""
+    """Return the distance from the Car's outline."""
     return math.hypot(max(abs(x) - size.length_m / 2.0, 0.0), max(abs(y) - size.width_m / 2.0, 0.0))

@@ -1,2 +1,2 @@
-"""The honest Car: it fades, polls, lapses, sleeps and talks on its bus as real cars do."""
+"""Honest Car: fading, polling, random misses, key sleep and bus cycles as in real cars."""
 # SPDX-License-Identifier: Apache-2.0

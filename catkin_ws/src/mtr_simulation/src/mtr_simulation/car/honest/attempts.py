@@ -1,4 +1,4 @@
-"""One attempt of the radio, as it happens: margin at the place, noise of the moment, and a lapse for no reason."""
+"""One attempt of the radio: margin at the place, noise at the time, and random misses ("lapses")."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Tuple
 
@@ -15,7 +15,7 @@ Point = Tuple[float, float, float]
 
 
 class Attempts:
-    """Draws what the Car receives; the same seed and course give the same."""
+    """Draws the success of attempts; the same seed and motion give the same results."""
 
     def __init__(self, seed: int, parameters: HonestParameters):
         self._seed = seed
@@ -25,21 +25,22 @@ class Attempts:
         self._number = 0
 
     def step(self, time_ns: int) -> None:
-        """Let the noise go on."""
+        """Advance the noise."""
         self._noise.step(time_ns)
 
     def press(self, key_xyz: Point, attitude: Attitude) -> bool:
-        """A press of a button is received."""
+        """Return True if a press of a button is received."""
         return not self._lapses() and self._works(float(self._margins.button_db(np.array(key_xyz), attitude)))
 
     def poll(self, key_xyz: Point, attitude: Attitude, extended_db: float = 0.0) -> Poll:
-        """What a poll finds. extended_db: what an extender adds to the field that comes to the key."""
+        """Return the result of a poll. extended_db: gain of an extender on the field at the key."""
         place = np.array(key_xyz)
         return self.judge_poll(float(self._margins.field_db(place)) + extended_db,
                                lambda: float(self._margins.answer_db(place, attitude)))
 
     def judge_poll(self, field_db: float, answer_db: Callable[[], float]) -> Poll:
-        """The same where the field's margin at the place is known; that of the answer is asked for where it counts."""
+        """Return the result of a poll with a known margin of the field; the answer's margin is computed only if
+        necessary."""
         if self._lapses() or not (self._works(field_db) and self._works(answer_db())):
             return Poll.GONE
         return Poll.IN_UNLOCK_ZONE if self._works(field_db - self._margins.between_db) else Poll.BETWEEN

@@ -1,4 +1,4 @@
-"""The honest Car: what its radio, key and locks do while the key moves, seen on its CAN bus and in the truth log."""
+"""Simulated honest Car: radio, key and locks while the key moves, with its CAN bus and the truth log."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 from typing import Deque, Optional, Tuple
@@ -23,7 +23,7 @@ from .radio.key_antenna import Attitude
 
 Point = Tuple[float, float, float]
 
-# Hands that come while nobody looks (the ECU boots, passive entry is off) are not all remembered.
+# Largest number of pending handle requests, while the ECU boots or passive entry is off.
 _MAX_REQUESTS = 4
 
 
@@ -31,9 +31,9 @@ class HonestCar:
     """Steps radio, key, contacts and locks.
 
     Attributes:
-        locks: to look at their state.
-        key: to look at whether it sleeps.
-        vehicle: ignition and speed that it reports.
+        locks: state of the locks.
+        key: state of the key, for example whether it sleeps.
+        vehicle: reported ignition and speed.
     """
 
     def __init__(self, seed: int, parameters: HonestParameters, port: CanPort, truth_log: EventLog):
@@ -56,13 +56,14 @@ class HonestCar:
         self._contacts = ((Command.LOCK, ButtonContact(contact)), (Command.UNLOCK, ButtonContact(contact)))
 
     def request_handle(self, command: Command = Command.UNLOCK) -> None:
-        """A hand takes the driver's handle, to open or to lock; answered at the next step."""
+        """Simulate a hand that pulls the driver's handle, to open or to lock; it is handled in the next step."""
         self._handle_requests.append(command)
 
     def step(self, time_ns: int, key_xyz: Point, servo_us: Tuple[float, float], key_yaw_rad: float = 0.0) -> None:
-        """Advance to time_ns, 20 ms after the step before; the key's place in m in the true Car frame, and its heading.
+        """Advance to time_ns, 20 ms after the previous step; place of the key in m in the true Car frame, and its
+        heading.
 
-        The frames of those 20 ms carry the state at their beginning; then the Car sees where the key is now.
+        The frames of those 20 ms have the state at their beginning; then the Car detects the key's current place.
         """
         self._port.poll()
         self._follow_actuator()
@@ -116,7 +117,8 @@ class HonestCar:
             else Poll.GONE
 
     def _log(self, before: LockState, after: Optional[LockState], time_ns: int, key_xyz: Point) -> None:
-        """The truth tells of locked and unlocked; that the other doors follow the driver's is no event of its own."""
+        """Log changes between locked and unlocked; the unlocking of the other doors after the driver's is not an
+        event."""
         if after is LockState.LOCKED:
             self._truth_log.lock_event("locked", time_ns, key_xyz)
         elif after is not None and before is LockState.LOCKED:
@@ -124,7 +126,7 @@ class HonestCar:
 
 
 class _Period:
-    """Says when a period has passed; its phase is the seed's."""
+    """Signals the end of each period; the seed determines the phase."""
 
     def __init__(self, seed: int, name: str, period_ns: int):
         self._period_ns = period_ns
@@ -132,7 +134,7 @@ class _Period:
         self._number: Optional[int] = None
 
     def has_come(self, time_ns: int) -> bool:
-        """Once in each period; never for a period of 0. The first look only sets the beginning."""
+        """Return True once per period; never for a period of 0. The first call only initializes it."""
         if self._period_ns == 0:
             return False
         number = (time_ns - self._phase_ns) // self._period_ns

@@ -1,4 +1,4 @@
-"""An extender between Car and key, a relay attack: it carries the Car's low-frequency field to a far key."""
+"""Extender between Car and key (a relay attack): transmits the Car's low-frequency field to a distant key."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any
 
@@ -11,9 +11,9 @@ _SIGNAL = "ExtenderOn"
 
 
 class Extender:
-    """Off until the message of the output switches it on.
+    """Extender that is off until the test's output message switches it on.
 
-    gain_db: by how much the key receives the field stronger while it is on.
+    gain_db: gain of the field at the key while it is on.
     """
 
     def __init__(self, database: Any, gain_db: float):
@@ -22,7 +22,7 @@ class Extender:
         self.is_on = False
 
     def follow(self, frame: SentFrame) -> None:
-        """Do what a frame of the host asks for; another message, or a damaged one, changes nothing."""
+        """Follow a frame of the host; other messages and damaged ones are ignored."""
         if frame.can_id != self._message.frame_id:
             return
         try:
@@ -32,5 +32,5 @@ class Extender:
 
     @property
     def now_db(self) -> float:
-        """What it adds to the field now."""
+        """Current gain of the field."""
         return self._gain_db if self.is_on else 0.0

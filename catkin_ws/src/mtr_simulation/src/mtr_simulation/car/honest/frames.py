@@ -1,4 +1,5 @@
-"""CAN frames of the honest Car: slow cycles, perhaps a frame on change, the cause in the same message or in another."""
+"""CAN frames of the honest Car: slow cycles, optional frames on change, and the cause in the same or another
+message."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import pathlib
@@ -19,13 +20,13 @@ DBC_PATH = pathlib.Path(__file__).with_name("mtr_honest_car.dbc")
 OF_THE_TEST = (HANDLE_MESSAGE, EXTENDER_MESSAGE)
 LOCK_MESSAGE = "LockStatus"
 CAUSE_MESSAGE = "LockCauseStatus"
-# The ECU writes the frame of a change so long after it.
+# Delay of the frame that is sent on a change.
 ON_CHANGE_NS = 3_000_000
 _MS = 1_000_000
 
 
 class HonestFrames:
-    """Yields the frames that are due, with the state of the locks."""
+    """Yields due frames with the state of the locks."""
 
     def __init__(self, seed: int, locks: Locks, bus: BusParameters, vehicle: Vehicle):
         self._locks, self._vehicle = locks, vehicle
@@ -38,7 +39,7 @@ class HonestFrames:
         self._told_ns: Optional[int] = None
 
     def due(self, after_ns: int, until_ns: int) -> Iterator[Frame]:
-        """Frames later than after_ns and not later than until_ns, in the order of the bus."""
+        """Yield the frames after after_ns up to until_ns, in the order of the bus."""
         times = []
         for name, cycle_ns, phase_ns in self._cycles:
             first, last = (after_ns - phase_ns) // cycle_ns, (until_ns - phase_ns) // cycle_ns
@@ -65,7 +66,7 @@ class HonestFrames:
         return [(time_ns, self._ids[name], name) for name in names]
 
     def _values(self, name: str) -> Tuple[float, ...]:
-        """In the order of the message's signals."""
+        """Return the values in the order of the message's signals."""
         self._sent[name] = alive = (self._sent.get(name, -1) + 1) % 16
         locks = self._locks
         counter = locks.events % 256 if self._bus.event_counter else 0
@@ -83,11 +84,11 @@ class HonestFrames:
 
 
 def phase_ns(seed: int, name: str, cycle_ns: int) -> int:
-    """When the first frame of a cyclic message comes."""
+    """Return the time of the first frame of a cyclic message."""
     return round(uniform_pair(seed, f"bus/{name}", 0)[0] * cycle_ns)
 
 
 @functools.lru_cache(maxsize=1)
 def database() -> Any:
-    """All messages on the honest Car's bus."""
+    """Return the database of all messages on the honest Car's bus."""
     return cantools.database.load_file(str(DBC_PATH))

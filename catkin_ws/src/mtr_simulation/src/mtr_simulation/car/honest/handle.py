@@ -1,4 +1,4 @@
-"""An output of the test on the Car's bus that takes the driver's handle, as an actuator at a real one would."""
+"""Output of the test on the Car's bus that pulls the driver's handle, like an actuator at a real handle."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Any, Optional
@@ -13,7 +13,7 @@ _SIGNAL = "HandleRequest"
 
 
 class HandleOrder(enum.IntEnum):
-    """Numbers of HandleRequest in the honest Car's DBC."""
+    """Values of HandleRequest in the honest Car's DBC."""
 
     RELEASED = 0
     OPEN = 1
@@ -24,14 +24,14 @@ _COMMANDS = {HandleOrder.OPEN: Command.UNLOCK, HandleOrder.LOCK: Command.LOCK}
 
 
 class HandleActuator:
-    """Follows the message of the output: each change from released to taken is one request."""
+    """Follows the output message: each change from released to pulled is one request."""
 
     def __init__(self, database: Any):
         self._message = database.get_message_by_name(HANDLE_MESSAGE)
         self._order = HandleOrder.RELEASED
 
     def request(self, frame: SentFrame) -> Optional[Command]:
-        """What a frame of the host has the hand do now; None for another message and for one that changes nothing."""
+        """Return the command of a frame from the host; None for other messages and for frames without a change."""
         if frame.can_id != self._message.frame_id:
             return None
         try:

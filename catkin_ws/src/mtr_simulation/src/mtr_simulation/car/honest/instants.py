@@ -1,5 +1,5 @@
-"""The honest Car followed from instant to instant, without bus and contacts: what is left of it where only the radio
-matters, hundreds of times quicker than step by step."""
+"""Event-based simulation of the honest Car without bus and contacts, for studies of the radio; hundreds of times
+faster."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, List, NamedTuple, Optional, Tuple
 
@@ -16,16 +16,16 @@ from .radio.key_antenna import Attitude
 
 Point = Tuple[float, float, float]
 
-# The Car's own steps: whatever happens, happens at one of them.
+# Step of the Car; all events occur at a step.
 STEP_NS = 20_000_000
 _MS = 1_000_000
 
 
 class Moved(NamedTuple):
-    """The locks moved, and the lock message told it.
+    """Movement of the locks that the lock message has reported.
 
     Attributes:
-        told_ns: first frame with the new state. before_ns: last frame with the old one; the same for a message that is
+        told_ns: first frame with the new state. before_ns: last frame with the old one; equal for a message that is
             sent on change.
     """
 
@@ -37,11 +37,11 @@ class Moved(NamedTuple):
 
 
 class HonestInstants:
-    """Instants have to come in order of time, on the grid of the Car's steps.
+    """Honest Car that is evaluated at instants, which must be in order of time on the grid of the Car's steps.
 
     Attributes:
-        margins: of the radio at any place.
-        contact_ns: a button has to be held so long.
+        margins: radio margins at any place.
+        contact_ns: minimum duration of a button press.
     """
 
     def __init__(self, seed: int, parameters: HonestParameters):
@@ -62,31 +62,31 @@ class HonestInstants:
 
     @property
     def due_ns(self) -> Optional[int]:
-        """When the locks do something by themselves; None when they will not."""
+        """Time of the next event of the locks; None without one."""
         return self._due()
 
     def polls_ns(self, after_ns: int, until_ns: int) -> List[int]:
-        """When it looks for its key, later than one instant and not later than another."""
+        """Return the times of the polls after after_ns up to until_ns."""
         if not self._is_polling:
             return []
         first, last = self._polls_until(after_ns) + 1, self._polls_until(until_ns)
         return [_on_grid(number * self._poll_ns + self._poll_phase_ns) for number in range(first, last + 1)]
 
     def next_poll_ns(self, after_ns: int) -> Optional[int]:
-        """The first one later than an instant; None where it never looks."""
+        """Return the first poll after an instant; None if the Car never polls."""
         if not self._is_polling:
             return None
         return _on_grid((self._polls_until(after_ns) + 1) * self._poll_ns + self._poll_phase_ns)
 
     def next_polls_ns(self, after_ns: int, count: int) -> List[int]:
-        """The first ones; none where it never looks."""
+        """Return the first polls after an instant; empty if the Car never polls."""
         if not self._is_polling:
             return []
         first_ns = (self._polls_until(after_ns) + 1) * self._poll_ns + self._poll_phase_ns
         return [_on_grid(first_ns + number * self._poll_ns) for number in range(count)]
 
     def poll(self, time_ns: int, key_xyz: Point, field_db: float, answer_db: Callable[[], float]) -> None:
-        """It looks for its key at a place of these margins: see Margins."""
+        """Poll the key at a place with these margins, see Margins."""
         if not self._advance(time_ns, key_xyz):
             return
         answer = self._attempts.judge_poll(field_db, answer_db) if self._key.is_awake else Poll.GONE
@@ -95,7 +95,7 @@ class HonestInstants:
             self._locks.command(command, Cause.PASSIVE_ENTRY, time_ns)
 
     def press(self, time_ns: int, command: Command, key_xyz: Point, attitude: Attitude) -> bool:
-        """A button is pressed; True when the press is received."""
+        """Press a button; return True if the press is received."""
         is_ready = self._advance(time_ns, key_xyz)
         accepted = is_ready and self._key.buttons_work and self._attempts.press(key_xyz, attitude)
         if accepted:
@@ -103,7 +103,7 @@ class HonestInstants:
         return accepted
 
     def take_handle(self, time_ns: int, key_xyz: Point, attitude: Attitude) -> bool:
-        """A hand takes the driver's handle; True when the key is found and the Car unlocks."""
+        """Pull the driver's handle; return True if the key is found and the Car unlocks."""
         if not (self._advance(time_ns, key_xyz) and self._is_polling and self._key.is_awake):
             return False
         accepted = self._attempts.poll(key_xyz, attitude) is Poll.IN_UNLOCK_ZONE
@@ -112,7 +112,7 @@ class HonestInstants:
         return accepted
 
     def pass_time(self, time_ns: int) -> List[Moved]:
-        """Let the locks move up to an instant; what they did since the last call."""
+        """Let the locks move up to an instant; return their movements since the last call."""
         due_ns = self._due()
         while due_ns is not None and due_ns <= time_ns:
             state = self._locks.step(due_ns)
@@ -125,11 +125,11 @@ class HonestInstants:
         return moved
 
     def _polls_until(self, time_ns: int) -> int:
-        """Number of the last poll not later. One that is put off to the next step is later than the step before."""
+        """Return the number of the last poll up to a time. A poll that is delayed to the next step counts as later."""
         return (time_ns - time_ns % STEP_NS - self._poll_phase_ns) // self._poll_ns
 
     def _advance(self, time_ns: int, key_xyz: Point) -> bool:
-        """To an instant; True when the ECU has booted."""
+        """Advance to an instant; return True if the ECU has booted."""
         self._moved = self.pass_time(time_ns)
         self._locks.step(time_ns)
         self._attempts.step(time_ns)
@@ -141,7 +141,8 @@ class HonestInstants:
         return None if due_ns is None else _on_grid(due_ns)
 
     def _told(self, time_ns: int, state: LockState) -> Moved:
-        """Frames carry the state at the beginning of their step, so that the step of the change tells the old one."""
+        """Return the reported movement. Frames have the state at the beginning of their step, so a change shows in a
+        later one."""
         number = (time_ns - self._bus_phase_ns) // self._cycle_ns
         before_ns = number * self._cycle_ns + self._bus_phase_ns
         told_ns = before_ns + self._cycle_ns
@@ -151,5 +152,5 @@ class HonestInstants:
 
 
 def _on_grid(time_ns: int) -> int:
-    """The Car's first step not earlier."""
+    """Return the Car's first step that is not earlier."""
     return -(-time_ns // STEP_NS) * STEP_NS

@@ -1,4 +1,4 @@
-"""The Remote key as a device: its motion sensor lets it sleep when it is at rest."""
+"""Remote key as a device: its motion sensor switches it to sleep at rest."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Optional, Tuple
@@ -9,10 +9,10 @@ Point = Tuple[float, float, float]
 
 
 class RemoteKey:
-    """Follows where the key is.
+    """Follows the key's place.
 
     Attributes:
-        is_awake: it answers polls; false after sleep_after_s without a motion of wake_move_m.
+        is_awake: the key answers polls; false after sleep_after_s without a motion of wake_move_m.
     """
 
     def __init__(self, parameters: KeyParameters):
@@ -22,7 +22,7 @@ class RemoteKey:
         self.is_awake = True
 
     def step(self, time_ns: int, key_xyz: Point) -> None:
-        """See where it is now."""
+        """Update the key's place."""
         p = self._parameters
         if self._rest is None or math.dist(self._rest, key_xyz) >= p.wake_move_m:
             self._rest, self._moved_ns = key_xyz, time_ns
@@ -30,5 +30,5 @@ class RemoteKey:
 
     @property
     def buttons_work(self) -> bool:
-        """A press is sent."""
+        """True if a press is transmitted."""
         return self.is_awake or self._parameters.buttons_wake

@@ -1,4 +1,4 @@
-"""Central locking: doors, causes, the time that motors take, the relock timer, and the key that was left inside."""
+"""Central locking: doors, causes, motor times, the relock timer, and a key that was left inside."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import NamedTuple, Optional
@@ -8,7 +8,7 @@ from .parameters import LockParameters
 
 
 class LockState(enum.IntEnum):
-    """Numbers of LockState in the honest Car's DBC."""
+    """Values of LockState in the honest Car's DBC."""
 
     LOCKED = 0
     DRIVER_UNLOCKED = 1
@@ -17,7 +17,7 @@ class LockState(enum.IntEnum):
 
 
 class Cause(enum.IntEnum):
-    """Numbers of LockCause in the honest Car's DBC."""
+    """Values of LockCause in the honest Car's DBC."""
 
     NONE = 0
     PASSIVE_ENTRY = 1
@@ -26,7 +26,7 @@ class Cause(enum.IntEnum):
     HANDLE = 4
 
 
-# Who presses a button means it; everything else is what a second key inside stops.
+# Causes that a second key inside prevents from locking; a button press is intentional and is executed.
 _STOPPED_BY_SECOND_KEY = (Cause.PASSIVE_ENTRY, Cause.RELOCK_TIMER, Cause.HANDLE)
 
 
@@ -41,8 +41,8 @@ class Locks:
 
     Attributes:
         state: UNKNOWN until the ECU has booted, then locked.
-        cause: of the last change.
-        events: changes of the state so far.
+        cause: cause of the last change.
+        events: number of changes of the state.
         changed_ns: time of the last change; None before the first.
     """
 
@@ -58,12 +58,12 @@ class Locks:
 
     @property
     def is_ready(self) -> bool:
-        """The ECU has booted."""
+        """True if the ECU has booted."""
         return self.state is not LockState.UNKNOWN
 
     @property
     def due_ns(self) -> Optional[int]:
-        """When something happens by itself; None when nothing will. Known from the first step on."""
+        """Time of the next autonomous change; None without one. Known from the first step on."""
         if not self.is_ready:
             return self._ready_ns
         ordered, relock_ns = self._ordered, self._relock_ns
@@ -72,7 +72,7 @@ class Locks:
         return ordered.due_ns
 
     def command(self, command: Command, cause: Cause, time_ns: int) -> bool:
-        """Order the locks to move; False when they refuse or need not."""
+        """Command the locks; return False if the command is rejected or changes nothing."""
         after = self._after(command, cause)
         ahead = self.state if self._ordered is None else self._ordered.state
         if not self.is_ready or after is None or after is ahead:
@@ -81,7 +81,7 @@ class Locks:
         return True
 
     def step(self, time_ns: int) -> Optional[LockState]:
-        """Let time pass; the state that the locks have just moved to, if they moved."""
+        """Advance the time; return the state to which the locks have moved in this step, if any."""
         if self._ready_ns is None:
             self._ready_ns = time_ns + self._parameters.boot_ms * 1_000_000
         if not self.is_ready:
@@ -104,12 +104,12 @@ class Locks:
         return self.state
 
     def _after(self, command: Command, cause: Cause) -> Optional[LockState]:
-        """The state that a command leads to; None when it is refused."""
+        """Return the state after a command; None if it is rejected."""
         if command is Command.LOCK:
             refused = self._parameters.second_key_inside and cause in _STOPPED_BY_SECOND_KEY
             return None if refused else LockState.LOCKED
         if self._parameters.unlock_doors == "all" or self.state is LockState.UNLOCKED:
             return LockState.UNLOCKED
-        # The second press of the button opens the others too.
+        # The second press of the button also unlocks the other doors.
         again = cause is Cause.KEY_BUTTON and self.state is LockState.DRIVER_UNLOCKED
         return LockState.UNLOCKED if again else LockState.DRIVER_UNLOCKED

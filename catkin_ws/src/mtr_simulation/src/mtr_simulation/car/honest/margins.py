@@ -1,4 +1,4 @@
-"""By how many dB each of the Car's decisions at a place is clear of its threshold, before the noise in time."""
+"""Margins in dB of the Car's decisions at a place above their thresholds, without the noise in time."""
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
 
@@ -11,7 +11,7 @@ from .radio.uhf_link import UhfLink
 
 
 class Margins:
-    """Of one Car and key; places are arrays whose last axis is x, y, z in the Car's frame in m."""
+    """Margins of one Car and key; places are arrays whose last axis is x, y, z in the Car's frame in m."""
 
     def __init__(self, parameters: HonestParameters):
         passive = parameters.passive_entry
@@ -21,27 +21,28 @@ class Margins:
                            passive.shadow_correlation_m)
 
     def button_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """Of a press of a button."""
+        """Return the margin of a button press."""
         return self._uhf.margin_db(places, attitude) - self._parameters.key.button_needs_db
 
     def unlock_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """Of a poll that finds the key in the unlock zone."""
+        """Return the margin of a poll that finds the key in the unlock zone."""
         return np.minimum(self.field_db(places) - self.between_db, self.answer_db(places, attitude))
 
     def lock_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """Of a poll that finds the key at all: both ways have to work; below 0 it is gone."""
+        """Return the margin of a poll that finds the key at all: field and answer must arrive; below 0 the key is
+        gone."""
         return np.minimum(self.field_db(places), self.answer_db(places, attitude))
 
     def field_db(self, places: FloatArray) -> FloatArray:
-        """Of the Car's field alone, which a key in the lock zone hears."""
+        """Return the margin of the Car's field alone, which a key in the lock zone receives."""
         return self._lf.strength_db(places) - self._parameters.passive_entry.lock_threshold_db
 
     def answer_db(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """Of the answer alone of a key that has heard it."""
+        """Return the margin of the answer alone of a key that has received the field."""
         return self._uhf.margin_db(places, attitude)
 
     @property
     def between_db(self) -> float:
-        """By how much the field at the border of the unlock zone is above that at the border of the lock zone."""
+        """Difference of the field between the borders of the unlock zone and of the lock zone."""
         passive = self._parameters.passive_entry
         return passive.unlock_threshold_db - passive.lock_threshold_db

@@ -1,7 +1,7 @@
-"""Parameters of the honest Car: radio, key, passive entry, locks and bus, one set for each section of its file.
+"""Parameters of the honest Car: radio, key, passive entry, locks and bus, one class for each section of its file.
 
-Ranges and defaults are of real cars and keys as far as public sources tell them; the source of each radio effect is in
-its own module.
+Ranges and defaults are of real cars and keys according to public sources; the module of each radio effect states its
+source.
 """
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
@@ -18,14 +18,14 @@ UNLOCK_ON = ("approach", "handle")
 WALK_AWAY = ("distance", "delay", "off")
 UNLOCK_DOORS = ("all", "driver")
 CAUSE_IN = ("same", "other", "none")
-# What a file may change of an antenna; places are on a car, strengths those that LfAntenna allows.
+# Antenna values that a file may change; places are on a car, strengths are limited by LfAntenna.
 ANTENNA_LIMITS = {"x_m": Limits(-5.0, 5.0, "m"), "y_m": Limits(-2.0, 2.0, "m"), "z_m": Limits(0.0, 3.0, "m"),
                   "axis_rad": Limits(-math.pi, math.pi, "rad"), "strength_db": Limits(-40.0, 40.0, "dB"),
                   "lobe_db": Limits(0.0, 10.0, "dB"), "lobe_rad": Limits(-math.pi, math.pi, "rad")}
 
 
 def check_word(name: str, word: str, allowed: Tuple[str, ...]) -> None:
-    """ConfigurationError unless the word is one of those."""
+    """Raise ConfigurationError unless the word is allowed."""
     if word not in allowed:
         raise ConfigurationError(f"Parameter {name} is '{word}'; allowed is {', '.join(allowed)}.")
 
@@ -37,20 +37,20 @@ class UhfParameters(ParameterSet):
     PREFIX: ClassVar[str] = "uhf."
 
     frequency_mhz: float = number(434.0, 300.0, 1000.0, "MHz")
-    margin_at_1m_db: float = number(44.0, 0.0, 120.0, "dB")  # what decodes, in free space
+    margin_at_1m_db: float = number(44.0, 0.0, 120.0, "dB")  # above the decoding threshold, in free space
     ground_permittivity: float = number(5.0, 1.5, 80.0, "(relative)")  # dry asphalt 4 to 7, wet to 30 (ITU-R P.527)
     fading_sigma_db: float = number(6.0, 0.0, 12.0, "dB")
 
 
 @dataclass(frozen=True)
 class NoiseParameters(ParameterSet):
-    """What changes from one attempt to the next at the same place."""
+    """Variations between attempts at the same place."""
 
     PREFIX: ClassVar[str] = "noise."
 
     sigma_db: float = number(2.0, 0.1, 6.0, "dB")
     correlation_s: float = number(0.3, 0.02, 2.0, "s")
-    lapse: float = number(0.02, 0.0, 0.5, "(probability)")  # lost whatever the strength: collisions, a busy receiver
+    lapse: float = number(0.02, 0.0, 0.5, "(probability)")  # random miss at any strength: collisions, a busy receiver
 
 
 @dataclass(frozen=True)
@@ -61,37 +61,37 @@ class KeyParameters(ParameterSet):
 
     battery_v: float = number(3.0, 1.5, 3.4, "V")
     silent_below_v: float = number(2.1, 1.5, 3.0, "V")
-    axis_azimuth_deg: float = number(65.0, -180.0, 180.0, "degrees")  # of the loop's axis in the key's frame
+    axis_azimuth_deg: float = number(65.0, -180.0, 180.0, "degrees")  # axis of the loop antenna in the key's frame
     axis_elevation_deg: float = number(20.0, -90.0, 90.0, "degrees")
-    pattern_floor_db: float = number(-12.0, -40.0, 0.0, "dB")  # 0: the same in all directions
-    sleep_after_s: float = number(180.0, 0.0, 3600.0, "s")  # at rest; 0: never. Thatcham asks for 1 to 30 minutes
+    pattern_floor_db: float = number(-12.0, -40.0, 0.0, "dB")  # 0: no pattern
+    sleep_after_s: float = number(180.0, 0.0, 3600.0, "s")  # at rest; 0: never. Thatcham requires 1 to 30 minutes
     wake_move_m: float = number(0.01, 0.001, 1.0, "m")
-    buttons_wake: bool = True  # else a sleeping key's buttons are dead too
+    buttons_wake: bool = True  # else the buttons of a sleeping key have no effect
     contact_travel: float = number(0.6, 0.0, 1.0, "of the servo's full travel")
-    contact_ms: int = number(80, 0, 2000, "ms")  # a shorter contact is taken for bouncing
-    # A button has to arrive so much stronger than what decodes: makers limit it to the sight of the Car.
+    contact_ms: int = number(80, 0, 2000, "ms")  # a shorter contact counts as bouncing
+    # Additional strength that a button needs above the decoding threshold: makers limit it to the sight of the Car.
     button_needs_db: float = number(32.0, 0.0, 80.0, "dB")
 
 
 @dataclass(frozen=True)
 class PassiveParameters(ParameterSet):
-    """Passive entry: the Car polls for the key by its low-frequency field, the key answers by UHF."""
+    """Passive entry: the Car polls the key by its low-frequency field, the key answers by UHF."""
 
     PREFIX: ClassVar[str] = "passive_entry."
 
     enabled: bool = True
-    unlock_on: str = "approach"  # or handle: only when somebody takes the handle
+    unlock_on: str = "approach"  # or handle: only on a handle request
     unlock_threshold_db: float = number(0.0, -60.0, 40.0, "dB")
     lock_threshold_db: float = number(-12.0, -60.0, 40.0, "dB")
     poll_period_ms: int = number(300, 20, 1000, "ms")
     debounce_polls: int = number(2, 1, 10, "polls")
-    walk_away: str = "distance"  # or delay: so long after the key has left the unlock zone; or off
+    walk_away: str = "distance"  # or delay: this time after the key has left the unlock zone; or off
     walk_away_delay_s: float = number(5.0, 0.0, 60.0, "s")
-    handle_period_s: float = number(0.0, 0.0, 60.0, "s")  # a hand takes the handle so often; 0: only on request
-    extender_db: float = number(0.0, 0.0, 120.0, "dB")  # what an extender adds to the field while it is switched on
+    handle_period_s: float = number(0.0, 0.0, 60.0, "s")  # period of simulated hands at the handle; 0: only on request
+    extender_db: float = number(0.0, 0.0, 120.0, "dB")  # gain of an extender on the field while it is on
     shadow_sigma_db: float = number(1.0, 0.0, 10.0, "dB")
     shadow_correlation_m: float = number(0.5, 0.05, 10.0, "m")
-    # The response time of the truth: how long a key has to stand somewhere until it counts as not reacted to.
+    # Response time of the truth: time at a place after which a missing reaction counts as none.
     response_s: float = number(3.0, 0.1, 30.0, "s")
 
     def __post_init__(self) -> None:
@@ -112,11 +112,11 @@ class LockParameters(ParameterSet):
 
     PREFIX: ClassVar[str] = "locks."
 
-    boot_ms: int = number(200, 0, 10_000, "ms")  # until then the state is unknown
+    boot_ms: int = number(200, 0, 10_000, "ms")  # the state is unknown until then
     actuator_ms: int = number(100, 0, 1000, "ms")  # from the decision to the moved lock
-    relock_s: float = number(30.0, 0.0, 600.0, "s")  # after an unlock that no door followed; 0: never
+    relock_s: float = number(30.0, 0.0, 600.0, "s")  # after an unlock without an opened door; 0: never
     unlock_doors: str = "all"  # or driver: only the driver's door at the first unlock
-    second_key_inside: bool = False  # then the Car refuses to lock by passive entry and by its timer
+    second_key_inside: bool = False  # the Car then does not lock by passive entry or its timer
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -125,13 +125,13 @@ class LockParameters(ParameterSet):
 
 @dataclass(frozen=True)
 class BusParameters(ParameterSet):
-    """What the Car tells on its bus."""
+    """Messages of the Car on its bus."""
 
     PREFIX: ClassVar[str] = "bus."
 
     lock_cycle_ms: int = number(200, 20, 800, "ms")
-    sent_on_change: bool = False  # the lock message also comes at once when the state changes
-    cause_in: str = "same"  # the lock message tells the cause; or other: a message of its own; or none
+    sent_on_change: bool = False  # the lock message is also sent immediately when the state changes
+    cause_in: str = "same"  # the lock message contains the cause; or other: a separate message; or none
     cause_cycle_ms: int = number(500, 20, 800, "ms")
     event_counter: bool = True  # else it stays 0
 
@@ -142,9 +142,10 @@ class BusParameters(ParameterSet):
 
 @dataclass(frozen=True)
 class HonestParameters(ParameterSet):
-    """The whole Car. place_seed makes what is fixed in space; the simulation's seed all that differs between tests.
+    """All parameters of the Car. place_seed determines effects fixed in space; the simulation's seed all other
+    randomness.
 
-    antennas: of the passive entry, those of the gentle Car unless its file changes them.
+    antennas: antennas of the passive entry; default: the gentle Car's antennas.
     """
 
     PREFIX: ClassVar[str] = ""
@@ -165,7 +166,11 @@ class HonestParameters(ParameterSet):
 
 
 def changed_antennas(changes: Mapping[str, Any]) -> Tuple[LfAntenna, ...]:
-    """The usual antennas with some values of some of them changed, by name; ConfigurationError says what is wrong."""
+    """Return the default antennas with changed values, by name.
+
+    Raises:
+        ConfigurationError: a name or value is invalid.
+    """
     known = {antenna.name: antenna for antenna in DEFAULT_ANTENNAS}
     for name, values in changes.items():
         if name not in known:

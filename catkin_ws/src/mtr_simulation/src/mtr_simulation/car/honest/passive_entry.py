@@ -1,4 +1,4 @@
-"""Passive entry: polls that agree make the key near or gone, and that unlocks and locks."""
+"""Passive entry: consecutive agreeing polls change the key's presence, which unlocks and locks."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Optional
@@ -8,7 +8,7 @@ from .parameters import PassiveParameters
 
 
 class Poll(enum.Enum):
-    """What one poll says of the key."""
+    """Result of one poll."""
 
     IN_UNLOCK_ZONE = "unlock zone"
     BETWEEN = "between"  # within the lock zone only
@@ -19,7 +19,7 @@ class PassiveEntry:
     """Debounced presence of the key.
 
     Attributes:
-        is_near: the key has arrived, and not left since.
+        is_near: the key has arrived and has not left since.
     """
 
     def __init__(self, parameters: PassiveParameters):
@@ -29,7 +29,7 @@ class PassiveEntry:
         self.is_near = False
 
     def poll(self, answer: Poll, time_ns: int) -> Optional[Command]:
-        """Take one poll; the command that follows from it, if any."""
+        """Process one poll; return the resulting command, if any."""
         p = self._parameters
         departed = answer is Poll.GONE if p.walk_away == "distance" else answer is not Poll.IN_UNLOCK_ZONE
         changes = departed if self.is_near else answer is Poll.IN_UNLOCK_ZONE

@@ -1,8 +1,8 @@
-"""Probability that some polls one after the other agree, while the noise goes on between them; computed, not sampled.
+"""Probability that consecutive polls agree while the noise changes between them; computed, not sampled.
 
-The noise at the polls is a Markov chain (Ornstein-Uhlenbeck, correlation r from poll to poll), and the number of polls
-that agreed so far is its second state. The density of the noise is followed from poll to poll by quadrature: nodes and
-weights of Gauss and Legendre on both sides of the threshold, where the chance of agreement jumps.
+The noise at the polls is a Markov chain (Ornstein-Uhlenbeck, correlation r from poll to poll). The number of polls that
+have agreed so far is its second state. The density of the noise is followed from poll to poll by quadrature. It uses
+nodes and weights of Gauss and Legendre on both sides of the threshold, where the chance of agreement jumps.
 """
 # SPDX-License-Identifier: Apache-2.0
 import functools
@@ -14,7 +14,7 @@ from scipy.special import ndtr
 
 from mtr_core.arrays import FloatArray
 
-# Margins in sigmas for which the table is made; beyond, the probabilities are 0 and 1 but for lapses.
+# Margins of the table in sigmas; beyond them the probabilities are 0 and 1 except for random misses.
 _TABLE_SIGMAS = np.arange(-8.0, 8.01, 0.1)
 _POINTS, _WEIGHTS = np.polynomial.legendre.leggauss(64)  # type: ignore[no-untyped-call]
 _OUTERMOST_SIGMAS = 6.5
@@ -24,11 +24,10 @@ class Polling(NamedTuple):
     """Polls of a passive entry.
 
     Attributes:
-        polls: that fit into the response time; what is left over is the chance that one more does, as the phase is
-            any.
-        debounce: polls that have to agree, one after the other.
-        correlation: of the noise from one poll to the next.
-        lapse: probability that a poll fails for no reason.
+        polls: number of polls within the response time; the fraction is the chance of one more, for a random phase.
+        debounce: number of consecutive polls that must agree.
+        correlation: correlation of the noise from one poll to the next.
+        lapse: probability of a random miss.
     """
 
     polls: float
@@ -38,17 +37,17 @@ class Polling(NamedTuple):
 
 
 def finds_probability(margin_db: FloatArray, sigma_db: float, polling: Polling) -> FloatArray:
-    """Enough polls in a row find the key; margin_db is above the threshold at which they do."""
+    """Return the probability that enough consecutive polls find the key; margin_db is relative to their threshold."""
     return np.interp(margin_db / sigma_db, _TABLE_SIGMAS, _table(polling, False))
 
 
 def loses_probability(margin_db: FloatArray, sigma_db: float, polling: Polling) -> FloatArray:
-    """Enough polls in a row do not find it; a lapse is such a poll too."""
+    """Return the probability that enough consecutive polls do not find the key; random misses count."""
     return np.interp(margin_db / sigma_db, _TABLE_SIGMAS, _table(polling, True))
 
 
 def single_probability(margin_db: FloatArray, sigma_db: float, lapse: float = 0.0) -> FloatArray:
-    """One attempt works."""
+    """Return the probability that one attempt works."""
     return (1.0 - lapse) * ndtr(margin_db / sigma_db)
 
 
@@ -61,7 +60,7 @@ def _table(polling: Polling, loses: bool) -> FloatArray:
 
 
 def _by_polls(margin_sigmas: float, polling: Polling, loses: bool, polls: int) -> FloatArray:
-    """Probability that it has happened after 0, 1, 2, ... polls."""
+    """Return the probability that it has happened after 0, 1, 2, ... polls."""
     nodes, mass = _stationary(-margin_sigmas)
     works = (1.0 - polling.lapse) * (nodes >= -margin_sigmas)
     agrees = 1.0 - works if loses else works
@@ -78,7 +77,7 @@ def _by_polls(margin_sigmas: float, polling: Polling, loses: bool, polls: int) -
 
 
 def _stationary(threshold: float) -> Tuple[FloatArray, FloatArray]:
-    """Nodes on both sides of the threshold, and the mass of the standard normal distribution at each."""
+    """Return nodes on both sides of the threshold, and the mass of the standard normal distribution at each."""
     split = min(max(threshold, -_OUTERMOST_SIGMAS), _OUTERMOST_SIGMAS)
     halves = [(split - _OUTERMOST_SIGMAS) / 2.0, (split + _OUTERMOST_SIGMAS) / 2.0]
     lengths = [(split + _OUTERMOST_SIGMAS) / 2.0, (_OUTERMOST_SIGMAS - split) / 2.0]
@@ -88,7 +87,8 @@ def _stationary(threshold: float) -> Tuple[FloatArray, FloatArray]:
 
 
 def _transitions(nodes: FloatArray, mass: FloatArray, correlation: float) -> FloatArray:
-    """Row by row where the mass of a node goes; density of the pair over the density of its first, by Mehler."""
+    """Return row by row the transitions of a node's mass: density of the pair divided by the density of its first
+    (Mehler)."""
     rest = 1.0 - correlation * correlation
     exponent = -(correlation * correlation * (nodes[:, None] ** 2 + nodes[None, :] ** 2)
                  - 2.0 * correlation * nodes[:, None] * nodes[None, :]) / (2.0 * rest)

@@ -1,4 +1,4 @@
-"""Probabilities of the gentle Car's reactions: an almost ideal threshold, with the same noise at every poll."""
+"""Probabilities of the gentle Car's reactions: an almost ideal threshold, with uncorrelated noise at every poll."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable
 
@@ -11,12 +11,12 @@ from ..parameters import CarParameters
 from ..radio import PassiveEntryRadio, Point, RemoteRadio
 from .debounced import Polling, finds_probability, loses_probability, single_probability
 
-# The gentle Car polls each 0.1 s; after this time it has reacted or never will.
+# Response time: the gentle Car polls every 0.1 s, so it has reacted by then or never will.
 RESPONSE_S = 3.0
 
 
 class GentleReactions:
-    """See ReactionModel; the attitude does not matter to this Car."""
+    """See ReactionModel; the attitude has no effect on this Car."""
 
     def __init__(self, seed: int, parameters: CarParameters):
         self._passive_parameters = passive = parameters.passive_entry
@@ -38,7 +38,7 @@ class GentleReactions:
         return loses_probability(self._lock_db(places), self._passive_parameters.noise_sigma_db, self._polling)
 
     def handle(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """See ReactionModel; this Car has no handle that it looks at."""
+        """See ReactionModel; this Car has no sensor at its handle."""
         return np.zeros(places.shape[:-1])
 
     def unlock_poll(self, places: FloatArray, attitude: Attitude) -> FloatArray:

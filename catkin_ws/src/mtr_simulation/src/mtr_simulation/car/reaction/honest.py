@@ -13,7 +13,7 @@ from .debounced import Polling, finds_probability, loses_probability, single_pro
 
 
 class HonestReactions:
-    """See ReactionModel; of an undisturbed Car, without its relock timer."""
+    """See ReactionModel; for an undisturbed Car, without its relock timer."""
 
     def __init__(self, parameters: HonestParameters):
         self._parameters = parameters
@@ -25,7 +25,7 @@ class HonestReactions:
         return single_probability(self._margins.button_db(places, attitude), noise.sigma_db, noise.lapse)
 
     def unlock(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """See ReactionModel; of Cars that unlock on the handle only, that one handle request unlocks."""
+        """See ReactionModel; for Cars that unlock only by the handle, the probability of one handle request."""
         noise, passive = self._parameters.noise, self._parameters.passive_entry
         if not passive.enabled:
             return np.zeros(places.shape[:-1])
@@ -41,7 +41,7 @@ class HonestReactions:
         return single_probability(self._margins.unlock_db(places, attitude), noise.sigma_db, noise.lapse)
 
     def lock(self, places: FloatArray, attitude: Attitude) -> FloatArray:
-        """See ReactionModel; a delay of the walk-away lock comes on top of the response time."""
+        """See ReactionModel; a delay of the walk-away lock adds to the response time."""
         passive = self._parameters.passive_entry
         if not passive.enabled or passive.walk_away == "off" or self._parameters.locks.second_key_inside:
             return np.zeros(places.shape[:-1])

@@ -1,2 +1,2 @@
-"""What the honest Car's radio does between the key and the Car, one effect a module."""
+"""Radio between the key and the honest Car, one effect per module."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,15 +1,16 @@
-"""A random field in space, in dB, that stays where it is: what reflections, bodywork and neighbours do at each place.
+"""Random field in space, in dB, that is constant in time: effects of reflections, bodywork and neighbours at each
+place.
 
     f(r) = sigma sqrt(2 / N) sum_i cos(k_i . r + phi_i),   N waves, phi_i uniform
 
-Each place is near normally distributed with the sigma given, and the memory needed is that of N waves, whatever the
-size of the place. The wave vectors make the correlation:
+The value at each place is nearly normally distributed with the given sigma. Only N waves are stored, whatever the size
+of the site. The wave vectors determine the correlation:
 
-- all directions alike, |k| = 2 pi / lambda: sin(k r) / (k r), which is 0 at half a wavelength. This is what plane waves
-  from everywhere make (Clarke 1968, Bell Syst. Tech. J. 47; in three dimensions Cook et al. 1955, J. Acoust. Soc. Am.).
+- uniform directions, |k| = 2 pi / lambda: sin(k r) / (k r), which is 0 at half a wavelength. Plane waves from all
+  directions have it (Clarke 1968, Bell Syst. Tech. J. 47; in three dimensions Cook et al. 1955, J. Acoust. Soc. Am.).
 - normally distributed with 1 / l in each direction: exp(-r^2 / (2 l^2)).
 
-Taken in dB it is log-normal: 5 to 8 dB beside a car outdoors (ITU-R P.1411, Rappaport 4.9).
+In dB the field is log-normal: 5 to 8 dB next to a car outdoors (ITU-R P.1411, Rappaport 4.9).
 """
 # SPDX-License-Identifier: Apache-2.0
 import functools
@@ -34,14 +35,14 @@ class PlaneWaves:
         self.phases = phases
 
     def at(self, places: FloatArray) -> FloatArray:
-        """Gain in dB."""
+        """Return the gain in dB."""
         if self.amplitude_db == 0.0:
             return np.zeros(places.shape[:-1])
         return self.amplitude_db * _cosines(places, self.vectors, self.phases).sum(axis=-1)
 
 
 class FieldSet:
-    """Several fields at the same places at once, each of WAVES waves."""
+    """Several fields that are evaluated at the same places, each of WAVES waves."""
 
     def __init__(self, fields: Sequence[PlaneWaves]):
         self._amplitudes_db = np.array([field.amplitude_db for field in fields])
@@ -50,7 +51,7 @@ class FieldSet:
         self._is_flat = not self._amplitudes_db.any()
 
     def at(self, places: FloatArray) -> FloatArray:
-        """Gains in dB; the last axis is the field."""
+        """Return the gains in dB; the last axis is the field."""
         shape = (*places.shape[:-1], len(self._amplitudes_db))
         if self._is_flat:
             return np.zeros(shape)
@@ -59,7 +60,8 @@ class FieldSet:
 
 
 def _cosines(places: FloatArray, vectors: FloatArray, phases: FloatArray) -> FloatArray:
-    """Of each wave at each place. Three products are quicker than the matrix product of a plain BLAS."""
+    """Return the cosine of each wave at each place. Three products are faster than the matrix product of a plain
+    BLAS."""
     angles = places[..., 0, None] * vectors[:, 0]
     angles += places[..., 1, None] * vectors[:, 1]
     angles += places[..., 2, None] * vectors[:, 2]
@@ -70,20 +72,20 @@ def _cosines(places: FloatArray, vectors: FloatArray, phases: FloatArray) -> Flo
 
 @functools.lru_cache(maxsize=64)
 def fading(seed: int, name: str, sigma_db: float, wave_m: float) -> PlaneWaves:
-    """Field of waves from everywhere; uncorrelated over half a wavelength."""
+    """Return a field of waves from all directions; uncorrelated over half a wavelength."""
     directions = np.array([_direction(seed, f"fading/{name}/{i}", i) for i in range(WAVES)])
     return PlaneWaves(sigma_db, 2.0 * math.pi / wave_m * directions, _phases(seed, f"fading/{name}"))
 
 
 @functools.lru_cache(maxsize=64)
 def shadowing(seed: int, name: str, sigma_db: float, correlation_m: float) -> PlaneWaves:
-    """Smooth field; correlated by exp(-1/2) over correlation_m."""
+    """Return a smooth field; correlated by exp(-1/2) over correlation_m."""
     vectors = np.array([[gaussian(seed, f"shadowing/{name}/{i}", axis) for axis in range(3)] for i in range(WAVES)])
     return PlaneWaves(sigma_db, vectors / correlation_m, _phases(seed, f"shadowing/{name}"))
 
 
 def _direction(seed: int, stream: str, number: int) -> FloatArray:
-    """Unit vector; the heights are drawn in strata, so that no direction is left out by chance."""
+    """Return a unit vector; the heights are drawn in strata, so that all directions are covered."""
     first, second = uniform_pair(seed, stream, 0)
     height = 2.0 * (number + first) / WAVES - 1.0
     across = math.sqrt(1.0 - height * height)

@@ -1,10 +1,10 @@
-"""Noise in time: what the same place gives now and a little later, in dB.
+"""Noise in time: variation of the gain at the same place, in dB.
 
-An Ornstein-Uhlenbeck process: normally distributed with a constant sigma, correlated by exp(-dt / T):
+It is an Ornstein-Uhlenbeck process: normally distributed with a constant sigma, correlated by exp(-dt / T).
 
     n(t + dt) = r n(t) + sqrt(1 - r^2) g,   r = exp(-dt / T),  g normally distributed
 
-1 to 3 dB for a link between things that stand (people and cars that pass; Hashemi 1993, Proc. IEEE 81, 5.D).
+Sigma is 1 to 3 dB for a link between objects at rest, with people and cars passing (Hashemi 1993, Proc. IEEE 81, 5.D).
 """
 # SPDX-License-Identifier: Apache-2.0
 import functools
@@ -15,10 +15,10 @@ from ...noise import gaussian
 
 
 class TimeNoise:
-    """Follows the time in steps; the value depends on seed and steps alone, not on who looks.
+    """Noise that follows the time in steps; its value depends only on seed and steps.
 
     Attributes:
-        now_db: the present value.
+        now_db: current value.
     """
 
     def __init__(self, seed: int, sigma_db: float, correlation_s: float):
@@ -31,7 +31,7 @@ class TimeNoise:
 
     @property
     def now_db(self) -> float:
-        """In dB."""
+        """Current value in dB."""
         return self._sigma_db * self._unit
 
     def step(self, time_ns: int) -> None:
@@ -46,5 +46,5 @@ class TimeNoise:
 
 @functools.lru_cache(maxsize=16)
 def correlation(interval_ns: int, correlation_s: float) -> float:
-    """Between two values so far apart."""
+    """Return the correlation of two values with this time difference."""
     return math.exp(-interval_ns * 1e-9 / correlation_s)

@@ -1,8 +1,8 @@
-"""The link from key to Receiver at some hundred MHz: how many dB arrive over what the Receiver can decode.
+"""Link from key to Receiver at several hundred MHz: received power above the Receiver's decoding threshold in dB.
 
     margin_dB = margin at 1 m - 20 log10(d) + two rays + key's antenna + battery + Car's pattern + fading(place)
 
-d is the straight distance in m (Friis). Noise in time comes on top of it.
+d is the straight distance in m (Friis). Noise in time is added separately.
 """
 # SPDX-License-Identifier: Apache-2.0
 import numpy as np
@@ -17,7 +17,7 @@ from .plane_waves import fading
 from .two_ray import two_ray_gain_db, wavelength_m
 
 _NEAREST_M = 0.2
-# The Car's own pattern and the place of its Receiver are those of the gentle Car.
+# Pattern of the Car and place of its Receiver are equal to the gentle Car's.
 _CAR = RemoteParameters()
 _RECEIVER_M = np.array(_CAR.receiver_xyz_m)
 _GAINS_DB, _ORDERS, _DIRECTIONS_RAD = np.array([(each.gain_db, each.order, each.direction_rad)
@@ -25,7 +25,7 @@ _GAINS_DB, _ORDERS, _DIRECTIONS_RAD = np.array([(each.gain_db, each.order, each.
 
 
 class UhfLink:
-    """Budget of the link; places are arrays whose last axis is x, y, z in the Car's frame in m."""
+    """Link budget; places are arrays whose last axis is x, y, z in the Car's frame in m."""
 
     def __init__(self, place_seed: int, uhf: UhfParameters, key: KeyParameters):
         self._uhf = uhf
@@ -36,11 +36,11 @@ class UhfLink:
         self._battery_db = battery_gain_db(key.battery_v, key.silent_below_v)
 
     def margin_db(self, places: FloatArray, attitude: Attitude = LEVEL) -> FloatArray:
-        """Without the noise in time."""
+        """Return the margin without the noise in time."""
         return self.mean_margin_db(places, attitude) + self._fading.at(places)
 
     def mean_margin_db(self, places: FloatArray, attitude: Attitude = LEVEL) -> FloatArray:
-        """Also without fading."""
+        """Return the margin without noise in time and fading."""
         uhf, key = self._uhf, self._key
         from_receiver = places - _RECEIVER_M
         x_m, y_m = from_receiver[..., 0], from_receiver[..., 1]
@@ -54,5 +54,5 @@ class UhfLink:
 
 
 def _car_pattern_db(azimuth_rad: FloatArray) -> FloatArray:
-    """Windscreen and rear window let more through than the doors."""
+    """Return the Car's pattern: windscreen and rear window attenuate less than the doors."""
     return np.cos(_ORDERS * (azimuth_rad[..., None] - _DIRECTIONS_RAD)) @ _GAINS_DB
