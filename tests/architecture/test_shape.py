@@ -1,5 +1,6 @@
 """The shape of the house: rooms of at most 16 modules, no circles, C++ cores without ROS, every test in a suite."""
 # SPDX-License-Identifier: Apache-2.0
+import ast
 import collections
 import pathlib
 import re
@@ -45,26 +46,24 @@ def module_files() -> Dict[str, pathlib.Path]:
 
 
 def python_graph() -> Dict[str, Set[str]]:
-    """Module -> modules that it imports when it is loaded; a package's __init__ only counts where it is meant."""
+    """Module -> modules that it imports; a package's __init__ only counts where it is meant."""
     files = module_files()
     return {name: {target for target in resolved(name, path, files) if target != name} for name, path in files.items()}
 
 
 def resolved(name: str, path: pathlib.Path, files: Dict[str, pathlib.Path]) -> Iterator[str]:
-    """The project's modules that a module imports at its top level."""
+    """The project's modules that a module imports: at its top level, in functions, and for its types alone."""
     base = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
-    for line in re.findall(r"^(?:from|import) [^\n(]+(?:\([^)]*\))?", path.read_text(encoding="utf-8"), re.MULTILINE):
-        match = re.match(r"from (\.*)([\w.]*) import \(?([^)]*)", line)
-        if not match:
-            yield from (module for module in re.findall(r"[\w.]+", line[len("import "):]) if module in files)
-            continue
-        dots, start, names = match.groups()
-        whole = [*(base[:len(base) - len(dots) + 1] if dots else []), *filter(None, [start])]
-        for word in re.findall(r"(\w+)(?: as \w+)?", names):
-            inner = ".".join([*whole, word])
-            target = inner if inner in files else ".".join(whole)
-            if target in files:
-                yield target
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names if alias.name in files)
+        elif isinstance(node, ast.ImportFrom):
+            whole = [*(base[:len(base) - node.level + 1] if node.level else []), *filter(None, [node.module])]
+            for alias in node.names:
+                inner = ".".join([*whole, alias.name])
+                target = inner if inner in files else ".".join(whole)
+                if target in files:
+                    yield target
 
 
 def header_graph() -> Dict[str, Set[str]]:

@@ -9,10 +9,10 @@ from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.errors import RobotFailed
-from mtr_operator.domain.ports import Refused
 from mtr_operator.domain.results.journal import SESSION, Journal
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.refusals import Refusals
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.results.session_record import (
     ENDED_BY,
     RECOVERED,

@@ -13,7 +13,8 @@ import can
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
 from mtr_operator.domain.distance_feed import DistanceFeed
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState, Refused
+from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.results.session_record import CAN_ADAPTER, CAN_STAMPS
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.supervision.car_signals import CarSignals, first_active, unknown_unless_active

@@ -6,7 +6,8 @@ import collections
 import math
 from dataclasses import dataclass, replace
 
-from mtr_operator.domain.ports import LockState, Refused
+from mtr_operator.domain.ports import LockState
+from mtr_operator.domain.results.refused import Refused
 
 from .frame_judge import FrameJudge
 from .profile import CarProfile, LockReading

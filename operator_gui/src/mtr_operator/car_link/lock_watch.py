@@ -5,7 +5,8 @@ from __future__ import annotations
 import collections
 import math
 
-from mtr_operator.domain.ports import CarEvent, LockState, Refused
+from mtr_operator.domain.ports import CarEvent, LockState
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.supervision.car_signals import CarSignal
 

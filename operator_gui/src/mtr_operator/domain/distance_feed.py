@@ -10,7 +10,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 from .limits import Limit
-from .ports import Refused
+from .results.refused import Refused
 from .robot_status import RobotStatus
 
 # Ranging may read a little below zero at its anchor; no phone ranges farther.

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Mapping, Sequence
 
 from .requests import DesiredState
+from .results.refused import Refused
 from .robot_status import RobotStatus
 
 if TYPE_CHECKING:
@@ -78,14 +79,6 @@ class LockFacts:
     told_every_s: float = 0.0
     settles_s: float = 0.0
     needs_source: bool = False
-
-
-@dataclass(frozen=True)
-class Refused:
-    """How many messages were not believed or not obeyed, and a sentence about the last one."""
-
-    count: int = 0
-    last: str = ""
 
 
 @dataclass(frozen=True)

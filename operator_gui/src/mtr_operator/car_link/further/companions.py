@@ -7,7 +7,8 @@ from typing import Iterator, Mapping, NamedTuple
 
 from ..database.codec import SignalReader
 from .counting import CountWatch
-from .declared import Further, MessageKey, Place
+from .declared import Further
+from .places import MessageKey, Place
 
 # Of each signal; older ones than a change waits for belong to nothing.
 _KEPT = 512

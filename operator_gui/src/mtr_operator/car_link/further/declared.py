@@ -7,8 +7,9 @@ from typing import Any, Iterator
 
 from mtr_operator.domain.ports import HANDLE, KEY_BUTTON, PASSIVE_ENTRY
 
-from .counting import CountRange, count_range
+from .counting import count_range
 from .entries import FIRST_BUS, Entries, is_whole
+from .places import Place
 from .stop_signals import KEY as STOP_KEY
 from .stop_signals import PLACE_KEYS, StopSignal, stop_signal, stop_tables
 
@@ -23,34 +24,8 @@ _KEY_KEYS = {"bus", "message", "signal", "under_test"}
 _COUNTER_KEYS = {"bus", "message", "signal", "values"}
 KEYS = ("buses", "causes", "cause_within_s", "cause_required", "doors", "key_number", STOP_KEY)
 
-MessageKey = tuple[str, int, bool]
 # Entries of a profile with the values of its counters, by the entry with the counter.
 VALUES_OF = {"alive_signal": "alive_values", "command_signal": "command_values"}
-
-
-@dataclass(frozen=True, eq=False)
-class Place:
-    """A signal of a message (cantools') of a bus. values: of a counter."""
-
-    bus: str
-    message: Any
-    signal: str
-    values: CountRange | None = None
-
-    @property
-    def key(self) -> MessageKey:
-        """Which frames carry it."""
-        return self.bus, self.message.frame_id, self.message.is_extended_frame
-
-    @property
-    def declared(self) -> Any:
-        """The signal (cantools')."""
-        return self.message.get_signal_by_name(self.signal)
-
-    @property
-    def counts(self) -> CountRange:
-        """Of a counter: the values that it counts through."""
-        return self.values or CountRange(0, (1 << self.declared.length) - 1, self.declared.length)
 
 
 @dataclass(frozen=True, eq=False)

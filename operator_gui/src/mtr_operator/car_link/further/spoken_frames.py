@@ -13,8 +13,9 @@ from mtr_operator.domain.ports import LockState
 from ..database.codec import as_decoded, encode
 from ..phone.car_signal import PhoneSignal
 from ..profile import CarProfile
-from .declared import CauseSignal, MessageKey
+from .declared import CauseSignal
 from .entries import FIRST_BUS
+from .places import MessageKey
 
 # For so long the flag of a change and a cause that does not stay are set: some cycles of every message.
 _SHOWN_S = 0.1

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from mtr_operator.domain.supervision.car_signals import GEAR, IGNITION, SPEED
 
 from .entries import Entries, is_whole
-
-if TYPE_CHECKING:
-    from .declared import Place
+from .places import Place
 
 KEY = "stop_signals"
 KINDS = (IGNITION, GEAR, SPEED)

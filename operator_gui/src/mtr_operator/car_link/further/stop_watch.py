@@ -10,7 +10,8 @@ from typing import Callable
 from mtr_operator.domain.supervision.car_signals import DOOR, CarSignal, SignalState
 
 from ..database.codec import SignalReader
-from .declared import Further, MessageKey, Place
+from .declared import Further
+from .places import MessageKey, Place
 
 # A message that was silent for so long, or for three of its own cycles, leaves a clear signal unknown.
 SILENCE_LIMIT_S = 2.0

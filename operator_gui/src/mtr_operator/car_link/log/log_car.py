@@ -7,7 +7,8 @@ import pathlib
 from typing import Iterator, Mapping, Sequence
 
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState, Refused
+from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.results.session_record import CAN_ADAPTER
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.supervision.car_signals import CarSignals

@@ -6,13 +6,13 @@ import collections
 from dataclasses import dataclass
 
 from mtr_operator.domain.distance_feed import REPORTED, DistanceFeed, Reported
-from mtr_operator.domain.ports import Refused
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from ..can_frame import CanFrame
 from ..database.codec import SignalReader
-from ..further.declared import Place
 from ..further.entries import FIRST_BUS, Entries, is_whole
+from ..further.places import Place
 from .address import SERIAL, TCP, FeedAddress, feed_address, feed_at
 
 KEY = "phone_distance"

@@ -10,7 +10,7 @@ from typing import Callable
 
 from mtr_operator.domain.distance_feed import DistanceFeed, Reported
 from mtr_operator.domain.errors import ConnectionFailed
-from mtr_operator.domain.ports import Refused
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.robot_status import RobotStatus
 
 from .lines import LineReader, Told

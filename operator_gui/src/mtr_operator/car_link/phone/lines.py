@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 from mtr_operator.domain.distance_feed import REPORTED
 from mtr_operator.domain.limits import Limit
-from mtr_operator.domain.ports import Refused
+from mtr_operator.domain.results.refused import Refused
 
 # The object of one distance has some fifty letters; a line without an end would fill the memory.
 MAX_LINE_BYTES = 512

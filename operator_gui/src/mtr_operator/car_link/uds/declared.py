@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Callable
+from typing import Any, Callable, TypeVar
 
 from cantools.database.can import Message
 
 from ..further.entries import Entries, is_whole
+from .addresses import Addresses
 
-if TYPE_CHECKING:
-    from ..profile import Decode, LockReading
+Reading = TypeVar("Reading")
 
 _KEYS = {"request_id", "response_id", "is_extended", "data_identifier", "byte", "mask", "every_s"}
 _REQUIRED_KEYS = {"request_id", "response_id", "data_identifier"}
@@ -18,15 +18,6 @@ _MAX_STANDARD, _MAX_EXTENDED, _MAX_IDENTIFIER, _MAX_BYTE, _MAX_MASK = 0x7FF, 0x1
 # Often enough for a distance, seldom enough for an ECU's diagnostics, which are served beside its work.
 _EVERY_S, _MIN_EVERY_S, _MAX_EVERY_S = 0.2, 0.05, 10.0
 _BYTES = 8
-
-
-@dataclass(frozen=True)
-class Addresses:
-    """Identifiers of an ECU's diagnostics, both extended or neither."""
-
-    request_id: int
-    response_id: int
-    is_extended: bool = False
 
 
 @dataclass(frozen=True)
@@ -45,13 +36,13 @@ class UdsPoll:
         """What stands for a signal's name."""
         return f"DID 0x{self.data_identifier:04X}"
 
-    def decoder(self, reading: Callable[[int], LockReading]) -> Decode:
+    def decoder(self, reading: Callable[[int], Reading]) -> Callable[[int, bool, bytes], Reading | None]:
         """What frames in their order say; reading: of a raw value."""
         # Needs packages that no other profile needs.
         from .transport import AnsweredValues
         values = AnsweredValues(self.addresses, self.data_identifier)
 
-        def decode(can_id: int, is_extended: bool, data: bytes) -> LockReading | None:
+        def decode(can_id: int, is_extended: bool, data: bytes) -> Reading | None:
             value = values.frame(can_id, is_extended, data)
             return None if value is None or len(value) <= self.byte else reading(self.raw(value))
         return decode

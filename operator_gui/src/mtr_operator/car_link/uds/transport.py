@@ -10,7 +10,7 @@ import isotp
 import udsoncan
 from udsoncan.services import ReadDataByIdentifier
 
-from .declared import Addresses
+from .addresses import Addresses
 
 # Its warnings are for programmers: an answer that is not whole is none.
 logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).addHandler(logging.NullHandler())

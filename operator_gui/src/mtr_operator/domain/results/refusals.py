@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import Mapping
 
-from ..ports import LinkStatistics, Refused
+from ..ports import LinkStatistics
 from ..robot_status import RobotStatus
 from .journal import SESSION, Journal
+from .refused import Refused
 from .session_record import REFUSED_COMMANDS, REFUSED_FRAMES, REFUSED_REPORTS, REFUSED_STATUSES
 
 # Robot time between two entries: a flood of bad messages does not become a flood of writes.

@@ -7,7 +7,8 @@ from typing import Mapping, Sequence
 
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
 from mtr_operator.domain.distance_feed import DistanceFeed
-from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState, Refused
+from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState
+from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.robot_status import RobotStatus
 from mtr_operator.domain.supervision.car_signals import CarSignals
 
