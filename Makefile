@@ -57,7 +57,7 @@ $(STAMPS)/build: $(BUILD_INPUTS) setup/debian-packages.txt setup/python-requirem
 	@mv $@.begun $@
 
 demo: setup build $(if $(EMULATED),firmware) ## Run scenarios on the simulated robot and Car, beside the truth; results in out/demo, in a store too
-	@$(RUN) python -m mtr_bringup.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(SCENARIOS),--scenarios $(SCENARIOS)) \
+	@$(RUN) python -m mtr_simulation.demo --seed $(SEED) --car $(CAR) --out out/demo $(if $(SCENARIOS),--scenarios $(SCENARIOS)) \
 		$(if $(EMULATED),--firmware $(FIRMWARE_ELF))
 
 sim: setup build $(if $(EMULATED),firmware) ## Start the simulated robot and Car for an application on ports 3333 and 3334 (Ctrl-C ends)

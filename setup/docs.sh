@@ -9,7 +9,7 @@ mkdir -p out/docs/source
 doxygen docs/api/Doxyfile
 
 cp docs/api/conf.py docs/api/index.rst out/docs/source
-for folder in catkin_ws/src/*/src/mtr_* launch/src/mtr_* operator_gui/src/mtr_* firmware/emulator/python/mtr_*; do
+for folder in catkin_ws/src/*/src/mtr_* operator_gui/src/mtr_* firmware/emulator/python/mtr_*; do
   if [[ -d $folder ]]; then
     python -m sphinx.ext.apidoc -q --no-toc --module-first --output-dir out/docs/source/modules "$folder"
   fi

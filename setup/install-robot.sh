@@ -20,8 +20,9 @@ here=$top/setup/robot
 # What mtr_bringup needs on a robot. The simulated world, rviz and what measures are not of it: the package.xml files name them for
 # other computers only, by this word.
 export MTR_ROLE=robot
-packages=(catkin_ws/src/mtr_{car_locator,controller_input,core,description,dispatcher,drive_control}
-  catkin_ws/src/mtr_{fault_injection,localization,motion_planner,msgs,peripherals,serial_link,state_machine,surfel_map} launch proto)
+packages=(catkin_ws/src/mtr_{car_locator,commissioning,controller_input,core,description,dispatcher,drive_control}
+  catkin_ws/src/mtr_{fault_injection,graph_watch,jackal,localization,motion_check,motion_planner,msgs,peripherals,recording}
+  catkin_ws/src/mtr_{serial_link,state_machine,surfel_map} launch proto)
 
 fail() {
   echo "install-robot: $*" >&2
@@ -84,14 +85,17 @@ adopt_letters() {
 # The release in use judges its own robot: another one may not know its messages. One that has no `standstill` does not answer.
 standstill() (
   set +eu
-  [[ -x $prefix/current/lib/mtr_bringup/standstill ]] || exit 3
+  program=$prefix/current/lib/mtr_commissioning/standstill
+  # A release that is older has it there.
+  [[ -x $program ]] || program=$prefix/current/lib/mtr_bringup/standstill
+  [[ -x $program ]] || exit 3
   set -a
   # shellcheck source=/dev/null
   [[ ! -f $staging/etc/mtr/robot.env ]] || source "$staging/etc/mtr/robot.env"
   # shellcheck source=/dev/null
   source "$prefix/current/setup.bash"
   export ROS_HOME=/run/mtr-standstill ROS_LOG_DIR=/run/mtr-standstill
-  exec timeout 30 "$prefix/current/lib/mtr_bringup/standstill" 2>/dev/null
+  exec timeout 30 "$program" 2>/dev/null
 )
 
 # A restart ends every node; a robot that moves, or that a person has not stopped, is not restarted.

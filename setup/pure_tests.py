@@ -21,7 +21,8 @@ BUILT = {"evdev", "genmsg", "genpy", "mtr_drive_control_core", "mtr_localization
          "rosbag", "rosgraph", "roslaunch", "roslib", "rospkg", "rospy", "rostest", "tf2_ros", "urdf_parser_py",
          "xacro"}
 # Their tests compare with the built messages, or start the built nodes.
-NEED_THE_WORKSPACE = {"launch", "mtr_benchmarks", "mtr_description", "mtr_drive_control", "mtr_simulation"}
+NEED_THE_WORKSPACE = {"launch", "mtr_benchmarks", "mtr_commissioning", "mtr_description", "mtr_drive_control",
+                      "mtr_graph_watch", "mtr_recording", "mtr_simulation"}
 
 
 def main(arguments: List[str]) -> int:

@@ -40,6 +40,7 @@ SYSTEM_FOLDERS = {"sys", "bits", "netinet", "arpa", "linux"}
 WITHOUT_CODE = {
     "catkin": "builds every package",
     "lms1xx": "jackal.launch starts a LiDAR's driver by its kind", "sick_tim": "the same", "urg_node": "the same",
+    "mtr_bringup": "mtr_simulation.stack starts its sim.launch",
     "message_generation": "makes the messages", "message_runtime": "runs them",
     "protobuf-dev": "protoc makes the module",
     "qtbase5-dev": "headers of Qt have no folder",
@@ -115,6 +116,12 @@ def launch_keys(path: pathlib.Path) -> Set[str]:
     return set(re.findall(r'\bpkg="([a-z0-9_]+)"', text)) | set(re.findall(r"\$\(find ([a-z0-9_]+)\)", text))
 
 
+def moved_keys(path: pathlib.Path) -> Set[str]:
+    """Packages whose programs a package runs under their former names, by rosrun."""
+    moved = set(re.findall(r"^moved\((\w+) ", path.read_text(encoding="utf-8"), re.MULTILINE))
+    return moved | ({"rosbash"} if moved else set())
+
+
 # Programs of ROS that Python starts -> rosdep key of the package that has them; not every robot has the whole of ROS.
 PROGRAM_KEYS = {"roslaunch": "roslaunch", "rosmaster": "rosmaster", "rosnode": "rosnode", "rosrun": "rosbash",
                 "rostopic": "rostopic"}
@@ -144,6 +151,7 @@ def needed(folder: pathlib.Path) -> Dict[str, bool]:
     uses += [(path, header_keys(path)) for path in tracked(f"{under}/*.cpp", f"{under}/*.hpp")
              if "mrpt_icp_slam" not in path.parts]
     uses += [(path, launch_keys(path)) for path in tracked(f"{under}/*.launch", f"{under}/*.test")]
+    uses += [(path, moved_keys(path)) for path in tracked(f"{under}/CMakeLists.txt")]
     uses += [(path, message_keys(path)) for path in tracked(f"{under}/*.msg", f"{under}/*.srv")]
     for path, keys in uses:
         for key in keys - {package_name(folder)}:

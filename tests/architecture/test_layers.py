@@ -2,9 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 import ast
 import pathlib
-from typing import AbstractSet, Dict, Iterable, Iterator, List
+from typing import AbstractSet, Dict, Iterable, Iterator, List, Set, Tuple
 
-from project import TOP, imports, package_folder
+from catkin_pkg.package import parse_package
+from project import TOP, imports, package_folder, package_folders, tracked
 
 PACKAGES = TOP / "catkin_ws" / "src"
 OPERATOR = TOP / "operator_gui" / "src" / "mtr_operator"
@@ -24,15 +25,19 @@ ROS_OF_CORE = {"mtr_core.lockstep", "mtr_core.conversions"}
 # Files of a robot package that may import ROS: the shell around the core.
 SHELL = {"node.py", "conversions.py", "robot_description.py", "connections.py", "sensors.py", "calibrate_lift.py",
          "inject.py", "replay.py"}
-# Packages whose job is the border itself.
-BORDER_PACKAGES = {"mtr_benchmarks", "mtr_bringup", "mtr_tests"}
+# Packages whose job is the border itself, or whose shells have names of their own (SHELLS).
+BORDER_PACKAGES = {"mtr_benchmarks", "mtr_commissioning", "mtr_graph_watch", "mtr_motion_check", "mtr_recording"}
+
+
+# Lock-step, and the robot in one process, whose parts hand each other messages.
+OF_ROS = {"lockstep", "cores"}
 
 
 def robot_files() -> Iterator[pathlib.Path]:
     """Python files of the robot's packages; tests, set-up and what is made of ROS excluded."""
     for package in sorted(PACKAGES.iterdir()):
         if package.name not in BORDER_PACKAGES:
-            yield from (path for path in sorted((package / "src").rglob("*.py")) if "lockstep" not in path.parts)
+            yield from (path for path in sorted((package / "src").rglob("*.py")) if not OF_ROS & set(path.parts))
 
 
 def operator_files(folder: pathlib.Path = OPERATOR) -> Iterator[pathlib.Path]:
@@ -67,48 +72,26 @@ def test_robot_core_imports_no_ros():
     assert violations(core(robot_files()), ROS | ROS_MESSAGES | ROS_OF_CORE) == {}
 
 
-def preflight_files() -> Iterator[pathlib.Path]:
-    """Checks of the preflight, in a package of the border, without its two files that listen to the robot."""
-    files = (TOP / "launch" / "src" / "mtr_bringup" / "preflight").rglob("*.py")
-    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "listening.py"))
+# Files of packages with many programs that listen to the robot, start it, or read and play bags.
+SHELLS = {
+    "mtr_commissioning": {"preflight/command_line.py", "preflight/listening.py", "calibration/command_line.py",
+                          "calibration/robot.py", "base_contract/command_line.py", "standstill/command_line.py"},
+    "mtr_graph_watch": {"node.py", "master.py"},
+    "mtr_motion_check": {"bag.py"},
+    "mtr_recording": {"command_line.py", "bags.py", "listening.py", "player.py", "relay.py"},
+}
 
 
-def calibration_files() -> Iterator[pathlib.Path]:
-    """Guided calibration, without the file that listens to the robot and the one that starts it."""
-    files = (TOP / "launch" / "src" / "mtr_bringup" / "calibration").rglob("*.py")
-    yield from (path for path in sorted(files) if path.name not in ("command_line.py", "robot.py"))
-
-
-def recording_files() -> Iterator[pathlib.Path]:
-    """Profiles of a recording and the comparison with its replay, without the files that read, play and
-    record bags."""
-    files = (TOP / "launch" / "src" / "mtr_bringup" / "recording").rglob("*.py")
-    of_ros = ("command_line.py", "bags.py", "motion.py", "player.py", "relay.py")
-    yield from (path for path in sorted(files) if path.name not in of_ros)
-
-
-def base_contract_files() -> Iterator[pathlib.Path]:
-    """Checks of a base, without the file that listens to the robot."""
-    files = (TOP / "launch" / "src" / "mtr_bringup" / "base_contract").rglob("*.py")
-    yield from (path for path in sorted(files) if path.name != "command_line.py")
-
-
-def graph_watch_files() -> Iterator[pathlib.Path]:
-    """The watch of the graph, without its node."""
-    files = (TOP / "launch" / "src" / "mtr_bringup" / "graph_watch").rglob("*.py")
-    yield from (path for path in sorted(files) if path.name != "node.py")
-
-
-def base_stop_files() -> Iterator[pathlib.Path]:
-    """The relay of the base's hardware stop, without its node."""
-    files = (TOP / "launch" / "src" / "mtr_bringup" / "base_stop").rglob("*.py")
-    yield from (path for path in sorted(files) if path.name != "node.py")
+def checking_files() -> Iterator[pathlib.Path]:
+    """Files of these packages that decide, without their shells."""
+    for package, shell in SHELLS.items():
+        folder = PACKAGES / package / "src" / package
+        assert all((folder / name).is_file() for name in shell)
+        yield from (path for path in sorted(folder.rglob("*.py")) if str(path.relative_to(folder)) not in shell)
 
 
 def test_checks_calibration_and_recording_import_no_ros():
-    files = [*preflight_files(), *calibration_files(), *recording_files(), *base_contract_files(), *graph_watch_files(),
-             *base_stop_files()]
-    assert violations(files, ROS | ROS_MESSAGES | ROS_OF_CORE) == {}
+    assert violations(checking_files(), ROS | ROS_MESSAGES | ROS_OF_CORE) == {}
 
 
 def test_robot_imports_nothing_of_the_operator():
@@ -178,7 +161,7 @@ def test_campaigns_know_neither_ros_nor_qt_nor_sockets():
 
 def test_only_kernels_know_the_simulation():
     files = outside("kernels", operator_files(CAMPAIGN))
-    assert violations(files, {"mtr_simulation", "mtr_core", "mtr_bringup"}) == {}
+    assert violations(files, {"mtr_simulation", "mtr_core"}) == {}
 
 
 def without_databases() -> Iterator[pathlib.Path]:
@@ -189,6 +172,32 @@ def without_databases() -> Iterator[pathlib.Path]:
 
 def test_only_model_and_store_speak_to_databases():
     assert violations(without_databases(), {"sqlalchemy", "alembic", "duckdb"}) == {}
+
+
+def test_launch_files_have_no_python_and_no_package_imports_them():
+    tests = TOP / "launch" / "tests"
+    assert [path for path in (TOP / "launch").rglob("*.py") if tests not in path.parents] == []
+    files = [path for path in tracked("*.py") if path.parent != tests / "unit"]
+    assert violations(files, {"mtr_bringup"}) == {}
+
+
+def circles(name: str, needed: Dict[str, Set[str]], above: Tuple[str, ...] = ()) -> Iterator[Tuple[str, ...]]:
+    """Chains of packages from this one that come back to one of theirs."""
+    if name in above:
+        yield (*above, name)
+    else:
+        for below in sorted(needed[name]):
+            yield from circles(below, needed, (*above, name))
+
+
+def test_no_circle_of_packages():
+    packages = [parse_package(str(folder)) for folder in package_folders()]
+    names = {package.name for package in packages}
+    needed = {package.name: {depend.name for kind in (package.build_depends, package.exec_depends,
+                                                      package.build_export_depends) for depend in kind} & names
+              for package in packages}
+    assert sum(map(len, needed.values())) > 50
+    assert [chain for name in sorted(needed) for chain in circles(name, needed)] == []
 
 
 def test_messages_and_proto_depend_on_nothing_local():

@@ -73,14 +73,18 @@ def test_other_computers_get_the_simulated_world_and_rviz():
 
 def test_commands_of_a_robot_import_nothing_that_it_lacks():
     installed = needed_by("mtr_bringup", packages(ROBOT))
-    modules = {path.relative_to(TOP / "launch" / "src").with_suffix("").as_posix().replace("/", "."): path
-               for path in (TOP / "launch" / "src" / "mtr_bringup").rglob("*.py")}
-    left = {name for script in (TOP / "launch" / "scripts").iterdir() for name in imports(script)}
+    folders = [folder for folder in folders_of_a_robot() if parse_package(str(folder)).name in installed]
+    modules = {path.relative_to(folder / "src").with_suffix("").as_posix().replace("/", "."): path
+               for folder in folders for path in (folder / "src").rglob("*.py")}
+    scripts = [path for folder in folders for path in (folder / "scripts").glob("*")
+               if path.read_text(encoding="utf-8").partition("\n")[0].endswith("python3")]
+    left = {name for script in scripts for name in imports(script)}
     seen: Set[str] = set()
     while left:
         seen |= left
         files = [modules[name] for name in left if name in modules]
         left = {name for path in files for name in imports(path)} - seen
+    assert len(scripts) > 10 and len(seen & set(modules)) > 50
     assert {name for name in seen if name.startswith("mtr_") and "." not in name} <= installed
 
 

@@ -5,9 +5,9 @@ import math
 
 import pytest
 
-from mtr_bringup.calibration.readings import Estimate
-from mtr_bringup.calibration.record import DESIGN_TERMS, LARGEST, Check, Origin, updated
-from mtr_bringup.calibration.record_file import save
+from mtr_commissioning.calibration.readings import Estimate
+from mtr_commissioning.calibration.record import DESIGN_TERMS, LARGEST, Check, Origin, updated
+from mtr_commissioning.calibration.record_file import save
 from mtr_operator.domain.estimation.budget import calibration_document
 from mtr_operator.storage.given_files import load_calibration
 

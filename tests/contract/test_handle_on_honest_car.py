@@ -9,7 +9,6 @@ from honest_car import HonestCarLink
 from scipy.optimize import brentq
 from scipy.stats import binom, chi2
 
-from mtr_bringup.demo import HONEST_LIMITS
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.assistance import OUTPUT
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
@@ -21,6 +20,7 @@ from mtr_operator.domain.scenarios.handle_request.parameters import HandleReques
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.robot_link.fake import FakeRobotLink
 from mtr_simulation.car.honest.radio.key_antenna import Attitude
+from mtr_simulation.demo import HONEST_LIMITS
 from mtr_simulation.truth import compare
 
 GIVEN = {"measurements_distance_m": 2.0, "maximum_distance_m": 3.5, "interval_m": 0.25, "attempts_limit": 14,

@@ -12,7 +12,7 @@ from mtr_fault_injection.parts import catalogue
 
 FILE = model.read()
 # Packages that own a motion lock, a hold, or the stop of lift and servos: each of their sentences counts.
-LOCKING = {"mtr_bringup", "mtr_controller_input", "mtr_drive_control", "mtr_peripherals", "mtr_state_machine"}
+LOCKING = {"mtr_controller_input", "mtr_drive_control", "mtr_graph_watch", "mtr_peripherals", "mtr_state_machine"}
 SESSION = PACKAGES / "mtr_dispatcher/src/mtr_dispatcher/session.py"
 
 

@@ -9,7 +9,7 @@ import subprocess
 
 import pytest
 
-from mtr_bringup.standstill.judge import Verdict
+from mtr_commissioning.standstill.judge import Verdict
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "setup" / "install-robot.sh"
 # What stands in for catkin "builds" in two steps, as catkin does package by package; a build `broken` fails between.
@@ -274,7 +274,7 @@ class RunningRobot:
         self._programs.mkdir()
         for number in (1, 2):
             release = folder / f"release-{number}"
-            (release / "lib" / "mtr_bringup").mkdir(parents=True)
+            release.mkdir()
             (release / "release").write_text(f"{number}\n", encoding="ascii")
             (release / "setup.bash").touch()
         self._current = folder / "current"
@@ -284,8 +284,9 @@ class RunningRobot:
     def service(self, is_active):
         self._write(self._programs / "systemctl", f'[ "$*" = "is-active --quiet mtr-robot" ] && {is_active}')
 
-    def answers(self, status, sentence="Says so."):
-        program = self._folder / "release-1" / "lib" / "mtr_bringup" / "standstill"
+    def answers(self, status, sentence="Says so.", package="mtr_commissioning"):
+        program = self._folder / "release-1" / "lib" / package / "standstill"
+        program.parent.mkdir(parents=True)
         self._write(program, f'echo "A warning." >&2\necho "{sentence}"\nexit {status}')
 
     def use(self, force=""):
@@ -311,9 +312,10 @@ def running(tmp_path):
     return RunningRobot(tmp_path)
 
 
+@pytest.mark.parametrize("package", ["mtr_commissioning", "mtr_bringup"], ids=["release", "older release"])
 @pytest.mark.parametrize("force", ["", "yes"])
-def test_release_of_a_robot_that_moves_or_is_not_stopped_is_replaced_not_even_by_force(running, force):
-    running.answers(Verdict.REFUSED.value, "No stop is engaged.")
+def test_release_of_a_robot_that_moves_or_is_not_stopped_is_replaced_not_even_by_force(running, force, package):
+    running.answers(Verdict.REFUSED.value, "No stop is engaged.", package)
     said, in_use = running.use(force)
     assert in_use == "release-1" and said.strip() == "install-robot: No stop is engaged. The release in use stays."
 

@@ -76,7 +76,7 @@ class LaunchFiles(unittest.TestCase):
     def test_every_node_of_a_robot_waits_for_its_name(self):
         for arguments in ([], ["joy:=evdev", "base_guard:=true", "fault_injection:=true"]):
             for node in load("robot.launch", arguments).nodes:
-                self.assertEqual(node.launch_prefix, "python3 -m mtr_bringup.name_guard", node.name)
+                self.assertEqual(node.launch_prefix, "python3 -m mtr_graph_watch.name_guard", node.name)
 
     def test_base_guard_has_the_limits_of_the_shipped_base(self):  # A2
         guarded = load("robot.launch", ["base_guard:=true"])
@@ -182,7 +182,7 @@ class LaunchFiles(unittest.TestCase):
             with case(node.name):
                 command = create_local_process_args(node, None)
                 # The guard of a node's name starts the node's program.
-                program = command[3] if command[1:3] == ["-m", "mtr_bringup.name_guard"] else command[0]
+                program = command[3] if command[1:3] == ["-m", "mtr_graph_watch.name_guard"] else command[0]
                 self.assertTrue(os.access(program, os.X_OK), command)
 
     def test_nodes_of_the_robot_are_started_again_and_none_ends_the_others(self):  # A11

@@ -16,11 +16,11 @@ import zmq
 from paired_operator import LIMIT_S, Operator
 
 from mtr_benchmarks.soak.processes import below
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names
 from mtr_dispatcher.access.authorised_keys import Entry, Role
 from mtr_dispatcher.access.key_folder import KeyFolder
 from mtr_proto import robot_link_pb2 as link
+from mtr_simulation.stack import Stack, StackOptions
 
 HERE = pathlib.Path(__file__).resolve().parent
 TOP = HERE.parents[1]

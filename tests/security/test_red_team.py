@@ -9,9 +9,9 @@ from attacks import INSIDERS, STRANGERS
 from robot_under_attack import TOP, RobotUnderAttack
 
 from mtr_benchmarks.harness.tails import percentile
-from mtr_bringup.stack import free_port
 from mtr_dispatcher.access.command_line import NOT_PAIRED
 from mtr_dispatcher.access.pairing_window import FIRST_PAUSE_S, MAX_TRIES
+from mtr_simulation.stack import free_port
 
 OUT = TOP / "out" / "test" / "security"
 # Of one attack: nobody controls the robot that long, then so many Commands of its Operator are timed.

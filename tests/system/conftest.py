@@ -10,8 +10,8 @@ import time
 import pytest
 import zmq
 
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_proto import robot_link_pb2
+from mtr_simulation.stack import Stack, StackOptions
 
 # The helpers lie beside the tests.
 sys.path.append(str(pathlib.Path(__file__).parent))

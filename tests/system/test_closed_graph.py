@@ -9,15 +9,15 @@ import time
 
 import pytest
 
-from mtr_bringup.graph_watch.environment import closed_environment
-from mtr_bringup.graph_watch.listening_sockets import is_loopback
-from mtr_bringup.graph_watch.look import listening, owners_of
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names
 from mtr_core.lockstep.start import CANNOT_START
+from mtr_graph_watch.environment import closed_environment
+from mtr_graph_watch.listening_sockets import is_loopback
+from mtr_graph_watch.look import listening, owners_of
+from mtr_simulation.stack import Stack, StackOptions
 
 PROC = pathlib.Path("/proc")
-PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "launch" / "scripts" / "graph_watch"
+PROGRAM = pathlib.Path(__file__).resolve().parents[2] / "catkin_ws/src/mtr_graph_watch/scripts/graph_watch"
 VARIABLES = {name: value for name, value in closed_environment({}).items() if name != "ROS_MASTER_URI"}
 # A look takes place every 3 s; the rest is a machine with much else to do.
 LIMIT_S = 60.0

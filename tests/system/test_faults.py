@@ -8,9 +8,9 @@ import subprocess
 
 import pytest
 
-from mtr_bringup.demo import read_rows
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_proto import robot_link_pb2
+from mtr_simulation.demo import read_rows
+from mtr_simulation.stack import Stack, StackOptions
 
 PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # A log's line that an Operator or a service has to look at.

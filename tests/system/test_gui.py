@@ -9,7 +9,7 @@ import sys
 
 import pytest
 
-from mtr_bringup.demo import THRESHOLD_LIMITS, compare
+from mtr_simulation.demo import THRESHOLD_LIMITS, compare
 
 SESSION = pathlib.Path(__file__).with_name("gui_session.py")
 SCREEN = "-screen 0 1440x900x24 -nolisten tcp"

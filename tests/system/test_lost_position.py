@@ -10,12 +10,12 @@ import time
 
 import pytest
 
-from mtr_bringup.demo import read_rows
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_operator.domain.requests import DesiredState
 from mtr_operator.domain.robot_status import Mode
 from mtr_operator.robot_link.client import ZmqRobotLink
 from mtr_proto import robot_link_pb2
+from mtr_simulation.demo import read_rows
+from mtr_simulation.stack import Stack, StackOptions
 
 HERE = pathlib.Path(__file__).parent
 PARAMETERS = HERE / "parameters" / "autolock.yaml"

@@ -13,12 +13,12 @@ import pytest
 import rosbag
 
 from mtr_benchmarks.harness.operator_link import OperatorLink
-from mtr_bringup.recording.profiles import ORDERS, RECORDED
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names
+from mtr_recording.profiles import ORDERS, RECORDED
+from mtr_simulation.stack import Stack, StackOptions
 
 HERE = pathlib.Path(__file__).resolve().parent
-RECORD = HERE.parents[1] / "launch" / "scripts" / "record"
+RECORD = HERE.parents[1] / "catkin_ws/src/mtr_recording/scripts/record"
 LIMIT_S = 60.0
 DRIVES_S, PLAYS_S = 4.0, 5.0
 # Truth is exact; a base that is told nothing does not move, and the lift holds within a step of its motor.

@@ -8,9 +8,9 @@ import sys
 import pytest
 from conftest import Application
 
-from mtr_bringup.demo import THRESHOLD_LIMITS, compare, read_rows
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names
+from mtr_simulation.demo import THRESHOLD_LIMITS, compare, read_rows
+from mtr_simulation.stack import Stack, StackOptions
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 BASES = pathlib.Path(__file__).parent / "bases"
@@ -25,9 +25,9 @@ FORGET = "import rospy; rospy.delete_param('/jackal_velocity_controller/linear/x
 
 def contract(robot, path, *options):
     """Exit status and findings of base_contract on a running robot, without those of this computer's load."""
-    done = subprocess.run([sys.executable, str(TOP / "launch" / "scripts" / "base_contract"), "--json", str(path),
-                           *options], text=True, capture_output=True, env=robot.environment(), timeout=LIMIT_S,
-                          check=False)
+    program = TOP / "catkin_ws/src/mtr_commissioning/scripts/base_contract"
+    done = subprocess.run([sys.executable, str(program), "--json", str(path), *options], text=True, check=False,
+                          capture_output=True, env=robot.environment(), timeout=LIMIT_S)
     assert path.exists(), done.stdout + done.stderr
     findings = json.loads(path.read_text(encoding="utf-8"))["findings"]
     return [each for each in findings if each["bad"] and each["check"] not in ("topic.rate", "topic.gap", "topic.age")

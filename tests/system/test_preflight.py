@@ -7,11 +7,11 @@ import sys
 
 import pytest
 
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names
+from mtr_simulation.stack import Stack, StackOptions
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = TOP / "launch" / "scripts" / "preflight"
+PROGRAM = TOP / "catkin_ws/src/mtr_commissioning/scripts/preflight"
 LIMIT_S = 60.0
 # Commands the wheels to stand, says where base and front LiDAR are, as forgotten nodes would; then waits for its end.
 INTRUDER = """

@@ -9,10 +9,10 @@ import sys
 import pytest
 from conftest import Application, Observer
 
-from mtr_bringup.stack import Stack, StackOptions, free_port
+from mtr_simulation.stack import Stack, StackOptions, free_port
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
-SCRIPTS = TOP / "launch" / "scripts"
+SCRIPTS = TOP / "catkin_ws/src/mtr_recording/scripts"
 PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # Map and Car are fitted by workers, which take some seconds on a busy machine; the recording has to go on meanwhile.
 AFTER_S = 30.0

@@ -5,7 +5,7 @@ import pathlib
 
 import pytest
 
-from mtr_bringup.demo import THRESHOLD_LIMITS, compare, read_rows
+from mtr_simulation.demo import THRESHOLD_LIMITS, compare, read_rows
 
 PARAMETERS = pathlib.Path(__file__).parent / "parameters"
 # The Car is almost a threshold and the robot sees its surroundings: the place is known to some mm.

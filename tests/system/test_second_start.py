@@ -7,7 +7,7 @@ import time
 import pytest
 
 from mtr_benchmarks.harness.operator_link import OperatorLink
-from mtr_bringup.stack import Stack, StackOptions, free_port
+from mtr_simulation.stack import Stack, StackOptions, free_port
 
 LIMIT_S = 60.0
 NODES = ("drive_control", "localization", "motion_planner", "car_locator", "state_machine", "peripherals", "dispatcher",

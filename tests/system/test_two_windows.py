@@ -4,7 +4,6 @@ import itertools
 
 import pytest
 
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.station.connection import SIMULATED, CanChoice, Connection, LinkOpener, RobotChoice
 from mtr_operator.station.links.idle_loop import CarRequest
@@ -12,6 +11,7 @@ from mtr_operator.station.links.worker import Worker
 from mtr_operator.station.mailbox import Mailbox
 from mtr_operator.station.test import new_test
 from mtr_proto import robot_link_pb2
+from mtr_simulation.stack import Stack, StackOptions
 
 LIMIT_S = 30.0
 # Some more than it takes to open a link again.

@@ -4,8 +4,8 @@ from distutils.core import setup
 
 from catkin_pkg.python_setup import generate_distutils_setup
 
-FOLDERS = ("car", "car.honest", "car.honest.radio", "car.reaction", "clock", "firmware", "physics", "sensors", "site",
-           "truth")
+FOLDERS = ("car", "car.honest", "car.honest.radio", "car.reaction", "clock", "cores", "firmware", "physics", "sensors",
+           "site", "truth")
 
 setup(**generate_distutils_setup(
     packages=["mtr_simulation", *(f"mtr_simulation.{folder}" for folder in FOLDERS)],

@@ -25,7 +25,7 @@ def test_every_argument_of_a_launch_file_is_documented(path):
 def test_every_node_of_a_launch_file_exists(path):
     for node in ElementTree.parse(path).getroot().iter("node"):
         package, executable = node.get("pkg"), node.get("type")
-        folder = TOP / "launch" if package == "mtr_bringup" else TOP / "catkin_ws" / "src" / package
+        folder = TOP / "catkin_ws" / "src" / package
         if not package.startswith("mtr_"):
             continue
         cmake = (folder / "CMakeLists.txt").read_text(encoding="utf-8")

@@ -12,7 +12,7 @@ from mtr_operator.cli.exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INTERRUPTED,
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.terminal import show, show_error
 
-_WORKSPACE = ("mtr_simulation", "mtr_core", "mtr_bringup")
+_WORKSPACE = ("mtr_simulation", "mtr_core")
 _SHOWN = 5
 
 

@@ -88,8 +88,8 @@ def robot_of_before(opener):
 
 def test_robot_that_says_nothing_of_a_preflight_is_told(robot_of_before, operator):
     operator.wait(lambda: "Ready" in operator.window.header.status.text())
-    assert ("? Preflight The robot does not say whether one was made. Make it on the robot: rosrun mtr_bringup "
-            "preflight --drive") in shown(operator)
+    assert ("? Preflight The robot does not say whether one was made. Make it on the robot: rosrun "
+            "mtr_commissioning preflight --drive") in shown(operator)
 
 
 def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):
@@ -97,7 +97,7 @@ def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):
     operator.wait(lambda: "Ready" in status.text())
     opener.spoil_with(preflight=PreflightReport(), steady_s=500.0)
     operator.wait(lambda: "? Preflight Never made since the robot was started. Make it on the robot: rosrun "
-                  "mtr_bringup preflight --drive" in shown(operator))
+                  "mtr_commissioning preflight --drive" in shown(operator))
     assert not status.preflight.isVisibleTo(status.popup)
     fine = PreflightItem("/imu/data", False, "50 Hz.")
     opener.spoil_with(preflight=PreflightReport(320.0, (fine, fine), 2, 0), steady_s=500.0)
@@ -106,7 +106,7 @@ def test_preflight_is_told_with_all_its_sentences_on_demand(operator, opener):
     opener.spoil_with(preflight=PreflightReport(320.0, (full, fine), 2, 1), steady_s=500.0)
     operator.wait(lambda: "Not ready" in status.text())
     assert ("\N{MULTIPLICATION X} Preflight 1 of 2 wrong, 3 min ago. disk: Full {0}. Then make it again on the robot: "
-            "rosrun mtr_bringup preflight") in shown(operator)
+            "rosrun mtr_commissioning preflight") in shown(operator)
     assert status.toolTip() == "The robot's preflight found: disk: Full {0}."
     operator.click(status)
     assert not status.preflight.sentences.isVisible()

@@ -8,10 +8,10 @@ import rosbag
 import rospy
 from spoiling import spoilt_bytes
 
-from mtr_bringup.recording.bags import decisions_in, messages_in
-from mtr_bringup.recording.profiles import CannotRecord
 from mtr_core import names
 from mtr_msgs.msg import CarEstimate, LocalizedPose
+from mtr_recording.bags import decisions_in, messages_in
+from mtr_recording.profiles import CannotRecord
 
 MESSAGES = 20
 

@@ -60,7 +60,7 @@ class StackKernel:
     @staticmethod
     def _demo(arguments: list[str], log: pathlib.Path) -> int:
         with log.open("wb") as output:
-            process = subprocess.Popen([sys.executable, "-m", "mtr_bringup.demo", *arguments], stdout=output,
+            process = subprocess.Popen([sys.executable, "-m", "mtr_simulation.demo", *arguments], stdout=output,
                                        stderr=subprocess.STDOUT, start_new_session=True)
             try:
                 return process.wait(_LIMIT_S)

@@ -221,7 +221,7 @@ class PreflightItem:
 
 @dataclass(frozen=True)
 class PreflightReport:
-    """The last preflight of this run of the robot: `rosrun mtr_bringup preflight`, made by whoever sets it up.
+    """The last preflight of this run of the robot: `rosrun mtr_commissioning preflight`, made by whoever sets it up.
 
     made_s: when it ended, on the robot's steady clock; NaN: none was made. items: what is wrong first, of checks in
     all; bad: how many of them found something wrong. motion_made_s: when sensors were compared in motion last, on the

@@ -56,7 +56,7 @@ def test_failure_of_a_run_is_kept_with_its_log(tmp_path, monkeypatch):
     def fail(robot):
         raise RuntimeError("A part of the robot has a defect.")
 
-    monkeypatch.setattr("mtr_bringup.cores.robot.CoresRobot.next_status", fail)
+    monkeypatch.setattr("mtr_simulation.cores.robot.CoresRobot.next_status", fail)
     folder = CampaignFolder(tmp_path / "camp")
     folder.make()
     done = folder.done(execute(Run("cores", "key_press", SHORT).to_document(), str(folder.path)))

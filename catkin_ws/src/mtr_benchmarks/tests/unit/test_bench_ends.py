@@ -28,7 +28,7 @@ while True:
 BENCHMARK = """
 import contextlib, os, pathlib, sys, time
 from mtr_benchmarks.harness.own_process import end_in_order, in_own_process
-from mtr_bringup.stack import Stack, StackOptions
+from mtr_simulation.stack import Stack, StackOptions
 
 def work(folder):
     with contextlib.ExitStack() as opened:

@@ -39,9 +39,9 @@ from mtr_benchmarks.faults.matrix import (
 from mtr_benchmarks.faults.proofs import LANES, Proof, Ran, run, together
 from mtr_benchmarks.faults.record import Run, right_of
 from mtr_benchmarks.faults.robot import PutBackError
-from mtr_bringup.stack import StackError
 from mtr_operator.domain.ports import LockState
 from mtr_operator.domain.robot_status import Interventions, Mode, Notification, Problem
+from mtr_simulation.stack import StackError
 
 TOP = pathlib.Path(__file__).resolve().parents[5]
 UNTOUCHED = Interventions()

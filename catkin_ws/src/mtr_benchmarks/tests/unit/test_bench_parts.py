@@ -9,8 +9,8 @@ from mtr_benchmarks.simulation import __main__ as simulation
 from mtr_benchmarks.simulation import whole_stack
 from mtr_benchmarks.simulation.physics import PhysicsFigures
 from mtr_benchmarks.simulation.whole_stack import WholeStackFigures
-from mtr_bringup.demo import DemoError
-from mtr_bringup.stack import StackError
+from mtr_simulation.demo import DemoError
+from mtr_simulation.stack import StackError
 
 PHYSICS = PhysicsFigures(real_time_factor=25.0, tick_median_ms=0.7, tick_p99_ms=2.0)
 

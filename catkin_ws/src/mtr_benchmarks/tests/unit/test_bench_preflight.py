@@ -10,7 +10,7 @@ from mtr_benchmarks.preflight.__main__ import ALARMS, WRONG, main, report
 from mtr_benchmarks.preflight.assemblies import ASSEMBLIES, RIGHT
 from mtr_benchmarks.preflight.drive import drive_of, drives, record
 from mtr_benchmarks.preflight.verdicts import Verdict, asks_for_more, counts, says, verdict_on
-from mtr_bringup.preflight.finding import bad, good, needs_more
+from mtr_motion_check.finding import bad, good, needs_more
 
 # One drive with perfect LiDARs, one with bad LiDARs and a walking person.
 DRIVES = {"lot": (4, False), "lot_person": (5, True)}

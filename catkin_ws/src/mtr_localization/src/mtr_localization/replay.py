@@ -21,6 +21,8 @@ from mtr_core.bags.diagnosis import unreadable, unusable
 from mtr_core.errors import RobotError
 from mtr_core.se2 import Pose2
 from mtr_description.mounts import LidarMounts
+from mtr_motion_check.bag import motion_in
+from mtr_motion_check.judge import MotionJudge
 
 from .any_bag.conversions import Found, convert
 from .any_bag.errors import BagUnusable
@@ -105,15 +107,7 @@ def gap_limit_of(options: argparse.Namespace) -> float:
 
 
 def against_each_other(bag: pathlib.Path, found: Found) -> List[str]:
-    """Return lines that compare LiDARs, wheels and gyro of a converted bag, including mounts that contradict the scans.
-
-    Empty without mtr_bringup, whose preflight makes the comparison.
-    """
-    try:
-        from mtr_bringup.preflight.motion.judge import MotionJudge
-        from mtr_bringup.recording.motion import motion_in
-    except ImportError:
-        return []
+    """Return lines that compare LiDARs, wheels and gyro of a converted bag, and mounts that contradict the scans."""
     places = [place for _, place in found.mounts.values()]
     seen = [Pose2(float(place[0, 3]), float(place[1, 3]), yaw_of(place)) for place in places]
     recording = motion_in(bag, [math.copysign(1.0, place[2, 2]) for place in places])

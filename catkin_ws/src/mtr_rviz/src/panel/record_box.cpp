@@ -13,7 +13,7 @@
 namespace mtr_rviz {
 namespace {
 
-/// Profiles of mtr_bringup's recording.
+/// Profiles of mtr_recording.
 const QStringList kProfiles{"small", "full"};
 /// Time limit for closing the bag.
 constexpr int kEndLimitMs = 5000;
@@ -74,7 +74,7 @@ void RecordBox::start_or_end() {
     return;
   }
   said_->clear();
-  process_->start("rosrun", {"mtr_bringup", "record", "--profile", profile_->currentText(), "--out", folder_->text()});
+  process_->start("rosrun", {"mtr_recording", "record", "--profile", profile_->currentText(), "--out", folder_->text()});
 }
 
 void RecordBox::show_state() {

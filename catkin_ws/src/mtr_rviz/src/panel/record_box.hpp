@@ -12,7 +12,7 @@
 
 namespace mtr_rviz {
 
-/// Runs `rosrun mtr_bringup record`, which ends with this object.
+/// Runs `rosrun mtr_recording record`, which ends with this object.
 class RecordBox : public QGroupBox {
   Q_OBJECT
  public:

@@ -7,7 +7,6 @@ import pathlib
 from dataclasses import dataclass
 from typing import Callable
 
-from mtr_bringup.cores.robot import CoresOptions, CoresRobot
 from mtr_operator.car_link.drivers.in_process import InProcessCarLink
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.results.progress import Progress
@@ -15,6 +14,7 @@ from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.robot_link.in_process import InProcessRobotLink
 from mtr_operator.storage.given_files import Given
+from mtr_simulation.cores.robot import CoresOptions, CoresRobot
 
 from .car_port import DirectPort
 

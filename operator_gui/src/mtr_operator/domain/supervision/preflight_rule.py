@@ -8,7 +8,7 @@ from ..clocks.clock_offset import span_text
 from ..clocks.simulated_time import is_simulated_robot
 from ..robot_status import PREFLIGHT_VALID_S, PreflightReport, RobotStatus
 
-COMMAND = "rosrun mtr_bringup preflight --drive"
+COMMAND = "rosrun mtr_commissioning preflight --drive"
 
 
 def preflight_hindrance(report: PreflightReport | None, status: RobotStatus) -> str:
@@ -18,7 +18,7 @@ def preflight_hindrance(report: PreflightReport | None, status: RobotStatus) -> 
     """
     if report is not None and report.hinders(status.steady_s):
         return (f"No test begins, because the robot's preflight found: {report.first_bad} Mend it, then run "
-                "`rosrun mtr_bringup preflight` on the robot again.")
+                "`rosrun mtr_commissioning preflight` on the robot again.")
     return "" if is_simulated_robot(status) else _missing(report, status.steady_s)
 
 

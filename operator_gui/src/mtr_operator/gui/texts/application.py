@@ -53,7 +53,7 @@ SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "The robot did not find the Car within {} s."),
     QT_TRANSLATE_NOOP("Sentence", "The robot is controlled by another application; end that one, then start again."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins, because the robot's preflight found: {} Mend it, then run "
-                                  "`rosrun mtr_bringup preflight` on the robot again."),
+                                  "`rosrun mtr_commissioning preflight` on the robot again."),
     QT_TRANSLATE_NOOP("Sentence", "The robot's battery is nearly empty ({} %); charge it, then begin the test."),
     QT_TRANSLATE_NOOP("Sentence", "The robot does not report the charge of its battery; check the topic of its battery,"
                                   " then begin the test."),

@@ -876,77 +876,77 @@
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="282"/>
+        <location filename="../../station/checks/check_texts.py" line="283"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="283"/>
+        <location filename="../../station/checks/check_texts.py" line="284"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="296"/>
+        <location filename="../../station/checks/check_texts.py" line="297"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="308"/>
+        <location filename="../../station/checks/check_texts.py" line="309"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="310"/>
+        <location filename="../../station/checks/check_texts.py" line="311"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="311"/>
+        <location filename="../../station/checks/check_texts.py" line="312"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="314"/>
+        <location filename="../../station/checks/check_texts.py" line="315"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="315"/>
+        <location filename="../../station/checks/check_texts.py" line="316"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="316"/>
+        <location filename="../../station/checks/check_texts.py" line="317"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="317"/>
+        <location filename="../../station/checks/check_texts.py" line="318"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="318"/>
+        <location filename="../../station/checks/check_texts.py" line="319"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="319"/>
+        <location filename="../../station/checks/check_texts.py" line="320"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="322"/>
+        <location filename="../../station/checks/check_texts.py" line="323"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="323"/>
+        <location filename="../../station/checks/check_texts.py" line="324"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="324"/>
+        <location filename="../../station/checks/check_texts.py" line="325"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -996,12 +996,12 @@
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="298"/>
+        <location filename="../../station/checks/check_texts.py" line="299"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="306"/>
+        <location filename="../../station/checks/check_texts.py" line="307"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
@@ -1047,13 +1047,13 @@
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="273"/>
-        <source>Make it again on the robot: rosrun mtr_bringup preflight</source>
-        <translation>Proveďte ji na robotu znovu: rosrun mtr_bringup preflight</translation>
+        <source>Make it again on the robot: rosrun mtr_commissioning preflight</source>
+        <translation>Proveďte ji na robotu znovu: rosrun mtr_commissioning preflight</translation>
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="274"/>
-        <source>Then make it again on the robot: rosrun mtr_bringup preflight</source>
-        <translation>Potom ji na robotu proveďte znovu: rosrun mtr_bringup preflight</translation>
+        <source>Then make it again on the robot: rosrun mtr_commissioning preflight</source>
+        <translation>Potom ji na robotu proveďte znovu: rosrun mtr_commissioning preflight</translation>
     </message>
     <message>
         <location filename="../../station/checks/check_texts.py" line="46"/>
@@ -1076,7 +1076,7 @@
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="287"/>
+        <location filename="../../station/checks/check_texts.py" line="288"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
     </message>
@@ -1111,7 +1111,7 @@
         <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="300"/>
+        <location filename="../../station/checks/check_texts.py" line="301"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1151,27 +1151,27 @@
         <translation>Otevřené dveře, víko ani čelo korby nad LiDARy robot nevidí. Víko kufru se může samo otevřít, je-li klíč za autem.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="288"/>
+        <location filename="../../station/checks/check_texts.py" line="289"/>
         <source>Walk around the Car: nobody within 2 m, no chock beyond its outline.</source>
         <translation>Obejděte auto: do 2 m nikdo, žádný klín mimo jeho obrys.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="290"/>
+        <location filename="../../station/checks/check_texts.py" line="291"/>
         <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
         <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="292"/>
+        <location filename="../../station/checks/check_texts.py" line="293"/>
         <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
         <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="294"/>
+        <location filename="../../station/checks/check_texts.py" line="295"/>
         <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
         <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="303"/>
+        <location filename="../../station/checks/check_texts.py" line="304"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robota (technický list nebo svinovací metr), restartujte s ním robota a zmapujte vozidlo znovu; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1186,7 +1186,7 @@
         <translation>Robot nehlásí stav nabití.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="312"/>
+        <location filename="../../station/checks/check_texts.py" line="313"/>
         <source>Check that the base publishes it on the robot&apos;s topic of the battery (docs/other-bases.md).</source>
         <translation>Ověřte, že jej podvozek publikuje na tématu baterie robotu (docs/other-bases.md).</translation>
     </message>
@@ -1221,12 +1221,12 @@
         <translation>Robot nesděluje, zda nějaký dodržuje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="275"/>
+        <location filename="../../station/checks/check_texts.py" line="276"/>
         <source>Draw it on the start page under Test area.</source>
         <translation>Nakreslete ho na úvodní stránce pod Zkušební prostor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="276"/>
+        <location filename="../../station/checks/check_texts.py" line="277"/>
         <source>Stay where you can stop the robot before an edge.</source>
         <translation>Zůstaňte tam, kde robot zastavíte dřív než u hrany.</translation>
     </message>
@@ -1326,22 +1326,22 @@
         <translation>Profil auta neuvádí signál pro: {signals}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="277"/>
-        <source>Make it on the robot: rosrun mtr_bringup preflight --drive</source>
-        <translation>Proveďte ji na robotu: rosrun mtr_bringup preflight --drive</translation>
+        <location filename="../../station/checks/check_texts.py" line="278"/>
+        <source>Make it on the robot: rosrun mtr_commissioning preflight --drive</source>
+        <translation>Proveďte ji na robotu: rosrun mtr_commissioning preflight --drive</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="279"/>
+        <location filename="../../station/checks/check_texts.py" line="280"/>
         <source>Close it.</source>
         <translation>Zavřete je.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="280"/>
+        <location filename="../../station/checks/check_texts.py" line="281"/>
         <source>Wake the Car; watch ignition, gear and doors yourself meanwhile.</source>
         <translation>Probuďte auto; zatím sami sledujte zapalování, řazení a dveře.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="281"/>
+        <location filename="../../station/checks/check_texts.py" line="282"/>
         <source>Watch them yourself: the robot does not stop for them.</source>
         <translation>Sledujte je sami: robot kvůli nim nezastaví.</translation>
     </message>
@@ -1361,12 +1361,12 @@
         <translation>Ztrátu ovladače robot nemusí poznat, dokud zůstává zapojený jeho přijímač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="284"/>
+        <location filename="../../station/checks/check_texts.py" line="285"/>
         <source>Start the robot with its controller (controller:=true).</source>
         <translation>Spusťte robot s ručním ovladačem (controller:=true).</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="285"/>
+        <location filename="../../station/checks/check_texts.py" line="286"/>
         <source>Press the stop button in your hand: the robot reports it here. Then release it.</source>
         <translation>Stiskněte tlačítko zastavení v ruce: robot to zde ohlásí. Pak jej uvolněte.</translation>
     </message>
@@ -1481,7 +1481,7 @@
 <context>
     <name>ConditionsForm</name>
     <message>
-        <location filename="../header/conditions_form.py" line="34"/>
+        <location filename="../header/conditions_form.py" line="33"/>
         <source>Confirm each operating condition:</source>
         <translation>Potvrďte každou provozní podmínku:</translation>
     </message>
@@ -7349,8 +7349,8 @@
     </message>
     <message>
         <location filename="../texts/application.py" line="11"/>
-        <source>No test begins, because the robot&apos;s preflight found: {} Mend it, then run `rosrun mtr_bringup preflight` on the robot again.</source>
-        <translation>Zkouška nezačne, protože kontrola robotu zjistila: {} Odstraňte to a pak na robotu znovu spusťte `rosrun mtr_bringup preflight`.</translation>
+        <source>No test begins, because the robot&apos;s preflight found: {} Mend it, then run `rosrun mtr_commissioning preflight` on the robot again.</source>
+        <translation>Zkouška nezačne, protože kontrola robotu zjistila: {} Odstraňte to a pak na robotu znovu spusťte `rosrun mtr_commissioning preflight`.</translation>
     </message>
     <message>
         <location filename="../texts/application.py" line="11"/>
@@ -8034,23 +8034,23 @@
     </message>
     <message>
         <location filename="../texts/safety/supervision.py" line="5"/>
-        <source>No test begins on a real robot that does not report its preflight; update its software, then run `rosrun mtr_bringup preflight --drive` on it.</source>
-        <translation>Na skutečném robotu, který nehlásí svou kontrolu, nezačne zkouška; aktualizujte jeho program a pak na něm spusťte `rosrun mtr_bringup preflight --drive`.</translation>
+        <source>No test begins on a real robot that does not report its preflight; update its software, then run `rosrun mtr_commissioning preflight --drive` on it.</source>
+        <translation>Na skutečném robotu, který nehlásí svou kontrolu, nezačne zkouška; aktualizujte jeho program a pak na něm spusťte `rosrun mtr_commissioning preflight --drive`.</translation>
     </message>
     <message>
         <location filename="../texts/safety/supervision.py" line="5"/>
-        <source>No test begins on a real robot before a preflight in motion, since its start or its last update: run `rosrun mtr_bringup preflight --drive` on it.</source>
-        <translation>Na skutečném robotu nezačne zkouška bez kontroly za jízdy od jeho spuštění nebo poslední aktualizace: spusťte na něm `rosrun mtr_bringup preflight --drive`.</translation>
+        <source>No test begins on a real robot before a preflight in motion, since its start or its last update: run `rosrun mtr_commissioning preflight --drive` on it.</source>
+        <translation>Na skutečném robotu nezačne zkouška bez kontroly za jízdy od jeho spuštění nebo poslední aktualizace: spusťte na něm `rosrun mtr_commissioning preflight --drive`.</translation>
     </message>
     <message>
         <location filename="../texts/safety/supervision.py" line="5"/>
-        <source>No test begins on a real robot before a preflight in motion; the last one was made at rest: run `rosrun mtr_bringup preflight --drive` on it.</source>
-        <translation>Na skutečném robotu nezačne zkouška bez kontroly za jízdy; poslední byla provedena vstoje: spusťte na něm `rosrun mtr_bringup preflight --drive`.</translation>
+        <source>No test begins on a real robot before a preflight in motion; the last one was made at rest: run `rosrun mtr_commissioning preflight --drive` on it.</source>
+        <translation>Na skutečném robotu nezačne zkouška bez kontroly za jízdy; poslední byla provedena vstoje: spusťte na něm `rosrun mtr_commissioning preflight --drive`.</translation>
     </message>
     <message>
         <location filename="../texts/safety/supervision.py" line="5"/>
-        <source>No test begins on a real robot whose preflight in motion was made {} ago; allowed are {}: run `rosrun mtr_bringup preflight --drive` on it.</source>
-        <translation>Na skutečném robotu nezačne zkouška, když je kontrola za jízdy stará {}; přípustné je {}: spusťte na něm `rosrun mtr_bringup preflight --drive`.</translation>
+        <source>No test begins on a real robot whose preflight in motion was made {} ago; allowed are {}: run `rosrun mtr_commissioning preflight --drive` on it.</source>
+        <translation>Na skutečném robotu nezačne zkouška, když je kontrola za jízdy stará {}; přípustné je {}: spusťte na něm `rosrun mtr_commissioning preflight --drive`.</translation>
     </message>
     <message>
         <location filename="../texts/safety/supervision.py" line="5"/>

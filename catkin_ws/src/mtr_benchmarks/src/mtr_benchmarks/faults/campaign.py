@@ -4,7 +4,7 @@ import contextlib
 import pathlib
 from typing import List, NamedTuple, Optional
 
-from mtr_bringup.stack import StackError
+from mtr_simulation.stack import StackError
 
 from .course import Course
 from .judge import Outcome, wrong

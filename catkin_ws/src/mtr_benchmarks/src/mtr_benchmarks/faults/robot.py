@@ -11,7 +11,6 @@ from typing import Any, Callable, List, NamedTuple
 import rospy
 from nav_msgs.msg import Odometry
 
-from mtr_bringup.stack import Stack, StackOptions, free_port
 from mtr_core import names
 from mtr_fault_injection.set_clock import SettableClock
 from mtr_msgs.msg import ActiveFaults, FirmwareState
@@ -19,6 +18,7 @@ from mtr_msgs.srv import InjectFault
 from mtr_operator.car_link.bus import CanCarLink
 from mtr_operator.robot_link.conversions import robot_status_from
 from mtr_proto import robot_link_pb2 as link
+from mtr_simulation.stack import Stack, StackOptions, free_port
 
 from ..harness.operator_link import OperatorLink
 from ..harness.ros_shutdown import shut_down

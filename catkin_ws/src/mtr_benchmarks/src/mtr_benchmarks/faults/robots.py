@@ -6,7 +6,7 @@ import subprocess
 from dataclasses import dataclass, field
 from typing import Dict, Iterator
 
-from mtr_bringup.graph_watch.environment import closed_environment
+from mtr_graph_watch.environment import closed_environment
 
 from .matrix import CAR_BUS, GUARDED, LOCKSTEP, MACHINE_CLOCK, PACED, SATELLITES, SMALL_DISK
 

@@ -10,10 +10,10 @@ import pathlib
 import sys
 from typing import Any, Dict, List, Optional
 
-from mtr_bringup.stack import StackError
 from mtr_core.errors import ConfigurationError
 from mtr_simulation.car.choice import chosen_car
 from mtr_simulation.site.scenario_file import chosen_scenario
+from mtr_simulation.stack import StackError
 
 from ..harness.report import BenchmarkReport, finish
 from .judge import judged

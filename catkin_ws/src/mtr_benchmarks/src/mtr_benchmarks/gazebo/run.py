@@ -9,9 +9,9 @@ import sys
 from dataclasses import dataclass
 from typing import Dict, Iterator, List, Optional, Tuple
 
-from mtr_bringup.demo import DemoOptions, run_scenario
-from mtr_bringup.stack import Stack, StackOptions, free_port
+from mtr_simulation.demo import DemoOptions, run_scenario
 from mtr_simulation.site.scenario_file import chosen_scenario
+from mtr_simulation.stack import Stack, StackOptions, free_port
 from mtr_simulation.truth.distance import CarSize, Comparison
 from mtr_simulation.truth.distance import compare as compared
 from mtr_simulation.truth.results import ResultsError, read_autolock, read_events, read_key_press

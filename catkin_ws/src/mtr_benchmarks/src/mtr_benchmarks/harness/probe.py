@@ -6,7 +6,7 @@ import subprocess
 import sys
 from typing import Dict, List
 
-from mtr_bringup.stack import free_port
+from mtr_simulation.stack import free_port
 
 CLOCK_TICK_S = 1.0 / os.sysconf("SC_CLK_TCK")
 

@@ -11,7 +11,7 @@ from typing import Any, Counter, Dict, List
 
 import yaml
 
-from mtr_bringup.stack import Stack
+from mtr_simulation.stack import Stack
 
 from ..gazebo.run import RunOptions, lines_of
 from .deaths import Kill

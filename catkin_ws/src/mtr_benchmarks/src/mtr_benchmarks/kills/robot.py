@@ -11,11 +11,11 @@ from typing import Any, Callable, Dict, List, Optional
 import rospy
 from nav_msgs.msg import Odometry
 
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names
 from mtr_fault_injection.parts import FaultError
 from mtr_fault_injection.processes import process_of
 from mtr_msgs.msg import DesiredState, DriveStatus, MotionStatus, PeripheralsState, RobotMode
+from mtr_simulation.stack import Stack, StackOptions
 
 from ..faults.robot import PATIENCE, Speed, fastest_of
 from ..harness.ros_shutdown import shut_down

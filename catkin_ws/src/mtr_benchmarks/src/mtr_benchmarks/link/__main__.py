@@ -17,11 +17,11 @@ from typing import Dict, Iterator, List, Optional
 
 import zmq
 
-from mtr_bringup.stack import free_port
 from mtr_dispatcher.access.curve import Curve
 from mtr_dispatcher.link_server import LinkServer, Ports
 from mtr_proto.keys import KeyPair
 from mtr_simulation.clock.machine import take_precedence
+from mtr_simulation.stack import free_port
 
 from ..harness.report import BenchmarkReport, finish
 from ..harness.rows import Requirement, Row

@@ -11,10 +11,10 @@ from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 
-from mtr_bringup.stack import Stack, StackOptions
 from mtr_core import names, schedule
 from mtr_fault_injection.processes import process_of
 from mtr_proto import robot_link_pb2 as link
+from mtr_simulation.stack import Stack, StackOptions
 
 from ..harness.operator_link import OperatorLink
 from ..harness.ros_shutdown import shut_down

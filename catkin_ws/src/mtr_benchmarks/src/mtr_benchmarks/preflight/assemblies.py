@@ -5,8 +5,8 @@ from typing import Callable, Dict, List, NamedTuple, Tuple
 
 import numpy as np
 
-from mtr_bringup.preflight.motion.recording import ImuSample, Recording, ScanSample, WheelSample
 from mtr_core.arrays import FloatArray
+from mtr_motion_check.recording import ImuSample, Recording, ScanSample, WheelSample
 
 Change = Callable[[Recording], Recording]
 

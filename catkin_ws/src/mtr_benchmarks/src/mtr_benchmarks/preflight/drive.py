@@ -6,9 +6,9 @@ from typing import List, NamedTuple, Tuple
 
 import numpy as np
 
-from mtr_bringup.preflight.motion.recording import ImuSample, Recording, Sweep, WheelSample, scan_sample
 from mtr_core import sensor_figures as figures
 from mtr_core.se2 import Pose2
+from mtr_motion_check.recording import ImuSample, Recording, Sweep, WheelSample, scan_sample
 from mtr_simulation.sensors.lidar import LidarParameters
 from mtr_simulation.sensors.readings import Scan, Sensors
 from mtr_simulation.sensors.scan_errors import ScanErrors

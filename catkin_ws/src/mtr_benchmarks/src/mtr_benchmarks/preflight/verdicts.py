@@ -4,10 +4,10 @@ from collections import Counter
 from dataclasses import dataclass
 from typing import Dict, List, Optional, Sequence, Tuple
 
-from mtr_bringup.preflight.finding import NEEDS_MORE, Finding
-from mtr_bringup.preflight.motion.judge import MotionJudge
-from mtr_bringup.preflight.motion.recording import Recording
 from mtr_description.shipped import shipped_geometry
+from mtr_motion_check.finding import NEEDS_MORE, Finding
+from mtr_motion_check.judge import MotionJudge
+from mtr_motion_check.recording import Recording
 
 from .assemblies import Assembly
 from .drive import MOTION_S

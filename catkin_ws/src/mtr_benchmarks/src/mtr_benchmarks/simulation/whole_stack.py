@@ -4,8 +4,8 @@ import pathlib
 from dataclasses import dataclass
 from typing import Optional, Tuple
 
-from mtr_bringup.demo import DemoError, DemoOptions, run_demo
-from mtr_bringup.stack import StackError
+from mtr_simulation.demo import DemoError, DemoOptions, run_demo
+from mtr_simulation.stack import StackError
 
 
 @dataclass(frozen=True)

@@ -26,13 +26,13 @@ SENTENCES = (
                                   "and operator, or as person_in_charge of the identity file."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins on a real robot before its operating conditions are confirmed: {}."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins on a real robot that does not report its preflight; update its "
-                                  "software, then run `rosrun mtr_bringup preflight --drive` on it."),
+                                  "software, then run `rosrun mtr_commissioning preflight --drive` on it."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins on a real robot before a preflight in motion, since its start or its "
-                                  "last update: run `rosrun mtr_bringup preflight --drive` on it."),
+                                  "last update: run `rosrun mtr_commissioning preflight --drive` on it."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins on a real robot before a preflight in motion; the last one was made "
-                                  "at rest: run `rosrun mtr_bringup preflight --drive` on it."),
+                                  "at rest: run `rosrun mtr_commissioning preflight --drive` on it."),
     QT_TRANSLATE_NOOP("Sentence", "No test begins on a real robot whose preflight in motion was made {} ago; allowed "
-                                  "are {}: run `rosrun mtr_bringup preflight --drive` on it."),
+                                  "are {}: run `rosrun mtr_commissioning preflight --drive` on it."),
     QT_TRANSLATE_NOOP("Sentence", "A press may sound the horn or the alarm, or open the tailgate. Announce the test; "
                                   "people next to the Car wear ear protection."),
     QT_TRANSLATE_NOOP("Sentence", "A pull at the handle of a locked Car may set off its alarm. Announce the test; "

@@ -1,0 +1,1 @@
+"""Checks, calibration and release of a robot before its tests."""

@@ -1,0 +1,7 @@
+"""Catkin reads the Python packages of mtr_recording from here."""
+# SPDX-License-Identifier: Apache-2.0
+from distutils.core import setup
+
+from catkin_pkg.python_setup import generate_distutils_setup
+
+setup(**generate_distutils_setup(packages=["mtr_recording"], package_dir={"": "src"}))

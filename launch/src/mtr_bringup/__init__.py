@@ -1,1 +1,0 @@
-"""Starting and stopping the whole system on one machine."""
