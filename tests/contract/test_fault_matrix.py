@@ -69,7 +69,7 @@ def test_table_of_the_documentation_is_the_matrix():
 def test_clock_of_a_fault_is_set_for_nodes_too_that_preload_nothing_else(tmp_path):
     """A node that kept the machine's clock would be silent to all others: it would test what no robot has."""
     variables = SettableClock(tmp_path).variables
-    launch = ElementTree.parse(TOP / "launch" / "launch" / "robot.launch")
+    launch = ElementTree.parse(TOP / "launch" / "launch" / "robot" / "operator.launch")
     own = [each.get("value") for each in launch.iter("env") if each.get("name") == "LD_PRELOAD"]
     assert own
     for value in own:

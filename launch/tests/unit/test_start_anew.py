@@ -9,7 +9,8 @@ import roslaunch
 from mtr_car_locator import node
 
 LAUNCH = pathlib.Path(__file__).resolve().parents[2] / "launch"
-WITH_ITS_NODES = ("robot", "jackal", "lidar_driver", "sim", "replay")
+WITH_ITS_NODES = ("jackal", "lidar_driver", "sim", "replay", "robot/nodes", "robot/motion", "robot/car",
+                  "robot/peripherals", "robot/operator")
 ONE_LIDAR = ["lidar:=hokuyo_utm30lx", "rear_lidar:=false"]
 FOUND_OUT = {"/preflight_report/bad": 0, "/preflight_motion/bad": 0, "/start_failures/localization": "Because."}
 
