@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import pathlib
 import signal
-from typing import Any, Mapping
+from typing import Any, Callable, Mapping, TypeVar
 
 from PyQt5.QtCore import QRect, Qt, QTimer
 from PyQt5.QtGui import QGuiApplication, QIcon
@@ -24,13 +24,13 @@ from .header.stop_button import add_stop
 from .i18n import Language
 from .stopping import Stopping
 from .theme.appearance import Appearance
-from .theme.plain_labels import PlainLabels
 from .theme.sheet import ICON
 from .threads.waited_thread import WaitedThread
 from .windows.connection_window import ConnectionWindow
 from .windows.main_window import MainWindow
 
 NAME = "mtr-operator"
+_Window = TypeVar("_Window", bound=QWidget)
 
 
 class Application:
@@ -46,7 +46,6 @@ class Application:
         self.appearance = Appearance()
         self.language = Language()
         self.screens = ScreenWatch()
-        self.labels = PlainLabels()
         self.defects = Defects()
         self.defects.found.connect(self.flow.keep_after_defect)
         self.window: QWidget | None = None
@@ -56,15 +55,16 @@ class Application:
         self.defects.install()
         self.stopping.install()
         self.screens.install()
-        self.labels.install()
         self._store.load()
         settings = self._store.settings
         self.language.use(settings.language)
-        self.appearance.use(settings.theme)
+        with self.stopping.building():
+            self.appearance.use(settings.theme)
         self.bridge.start()
         self.flow.connecting.connected.connect(self._show_main)
         self.flow.language_changed.connect(self._speak)
-        self._show(ConnectionWindow(self.flow, _filled_in(settings.connection, robot or {}, can or {})))
+        filled_in = _filled_in(settings.connection, robot or {}, can or {})
+        self._show(lambda: ConnectionWindow(self.flow, filled_in))
 
     def close(self) -> None:
         """Stop the robot, and disconnect."""
@@ -73,12 +73,14 @@ class Application:
         self.flow.close()
         self.stopping.remove()
         self.screens.remove()
-        self.labels.remove()
         WaitedThread.finish_all()
         self.defects.remove()
 
     def _show_main(self) -> None:
-        self._show(MainWindow(self.flow, self.appearance, self.stopping))
+        self._show(self._made_main)
+
+    def _made_main(self) -> MainWindow:
+        return MainWindow(self.flow, self.appearance, self.stopping)
 
     def _speak(self, code: str) -> None:
         """Windows are made anew in another language; later, for the one at hand has asked for it."""
@@ -88,21 +90,22 @@ class Application:
     def _renew(self) -> None:
         former = self.window
         if isinstance(former, ConnectionWindow):
-            self._show(ConnectionWindow(self.flow, former.typed), former.geometry())
+            self._show(lambda: ConnectionWindow(self.flow, former.typed), former.geometry())
         elif isinstance(former, MainWindow):
-            window = MainWindow(self.flow, self.appearance, self.stopping)
-            self._show(window, former.geometry())
-            window.show_settings()
+            self._show(self._made_main, former.geometry()).show_settings()
 
-    def _show(self, window: QWidget, place: QRect | None = None) -> None:
-        """place: where the former one was, None for where it opens by itself."""
-        if place is not None:
-            window.setGeometry(place)
-        former, self.window = self.window, window
-        window.show()
+    def _show(self, make: Callable[[], _Window], place: QRect | None = None) -> _Window:
+        """Make a window and show it instead of the former one; at its place, None for where it opens by itself."""
+        with self.stopping.building():
+            window = make()
+            if place is not None:
+                window.setGeometry(place)
+            former, self.window = self.window, window
+            window.show()
         if former is not None:
             former.hide()
             former.deleteLater()
+        return window
 
 
 def _filled_in(connection: Connection, robot: Mapping[str, Any], can: Mapping[str, Any]) -> Connection:

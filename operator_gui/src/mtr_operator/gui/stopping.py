@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import contextlib
+from typing import Iterator
+
 from PyQt5.QtCore import QEvent, QObject, Qt, pyqtSignal
 from PyQt5.QtGui import QKeyEvent
 from PyQt5.QtWidgets import (
@@ -20,6 +23,8 @@ from .forms.hold_button import HoldButton
 
 _STOP_KEYS = (Qt.Key.Key_Space, Qt.Key.Key_Escape)
 _PRESS_KEYS = (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+# Names that are looked up at each event of the application.
+_KEY, _OPENS = QEvent.Type.KeyPress, (QEvent.Type.Polish, QEvent.Type.Show)
 
 
 class Stopping(QObject):
@@ -40,15 +45,32 @@ class Stopping(QObject):
         super().__init__()
         self._flow = flow
         self.may_move = False
+        self._is_installed = False
         flow.bridge.changed.connect(self._learn)
 
     def install(self) -> None:
         """Begin to take keys."""
+        self._is_installed = True
         QApplication.instance().installEventFilter(self)
 
     def remove(self) -> None:
         """End; safe to call twice."""
+        self._is_installed = False
         QApplication.instance().removeEventFilter(self)
+
+    @contextlib.contextmanager
+    def building(self) -> Iterator[None]:
+        """Build widgets without looking at each of their events, of which a window causes 10,000.
+
+        No key is lost: Qt delivers keys from an event loop only. So nothing within may run one or show a dialog.
+        """
+        was_installed = self._is_installed
+        self.remove()
+        try:
+            yield
+        finally:
+            if was_installed:
+                self.install()
 
     def stop(self) -> None:
         """Stop the robot; the stop has left when this returns."""
@@ -57,10 +79,12 @@ class Stopping(QObject):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """See QObject."""
         kind = event.type()
+        if kind == _KEY:
+            return isinstance(event, QKeyEvent) and self._takes(event)
         # Polish is before its size is chosen; a dialog may be polished before it is made.
-        if kind in (QEvent.Type.Polish, QEvent.Type.Show) and isinstance(watched, QDialog):
+        if kind in _OPENS and isinstance(watched, QDialog):
             self.dialog_opens.emit(watched)
-        return kind == QEvent.Type.KeyPress and isinstance(event, QKeyEvent) and self._takes(event)
+        return False
 
     def _takes(self, event: QKeyEvent) -> bool:
         focus = QApplication.focusWidget()

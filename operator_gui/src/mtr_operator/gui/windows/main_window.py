@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import functools
 import pathlib
 from typing import TYPE_CHECKING, Callable
 
@@ -66,6 +67,7 @@ class MainWindow(QMainWindow):
         self.setWindowTitle(self.tr("Mobile testing robot"))
         self._flow = flow
         self._appearance = appearance
+        self._stopping = stopping
         self._opened: dict[type[QDialog], QDialog] = {}
         self._is_asked = False
         self.header = HeaderBar(appearance, stopping)
@@ -74,18 +76,18 @@ class MainWindow(QMainWindow):
         self.settings = _MadeOnDemand(self._settings_screen)
         self.measurement = MeasurementScreen(flow.model, appearance)
         self.protocol = ProtocolScreen(flow, appearance)
-        self.history = HistoryScreen()
         self._screens = QStackedWidget()
-        for screen in (self.welcome, self.types, self.measurement, self.protocol, self.history):
-            self._screens.addWidget(screen)
         page = QWidget()
         page.setObjectName("page")
+        # From the window inwards: each change of parent styles all that is inside anew.
+        self.setCentralWidget(page)
         layout = QVBoxLayout(page)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(self.header)
         layout.addWidget(self._screens, 1)
-        self.setCentralWidget(page)
+        for screen in (self.welcome, self.types, self.measurement, self.protocol):
+            self._screens.addWidget(screen)
         open_within(self, _SIZE)
         self._connect()
         self._show_step(flow.step)
@@ -123,7 +125,8 @@ class MainWindow(QMainWindow):
         """Open a window of a kind, or show the one that is open; this one stays alive, and its Stop."""
         dialog = self._opened.get(kind)
         if dialog is None:
-            dialog = self._opened[kind] = make()
+            with self._stopping.building():
+                dialog = self._opened[kind] = make()
             dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
             dialog.finished.connect(lambda _: self._forget(kind))
         dialog.show()
@@ -164,20 +167,29 @@ class MainWindow(QMainWindow):
         self.measurement.leave_wanted.connect(flow.to_welcome)
         self.measurement.answered.connect(self.header.stop.setFocus)
         self.protocol.closed.connect(flow.to_welcome)
-        self.history.closed.connect(flow.to_welcome)
-        self.history.open_wanted.connect(flow.open)
-        self.history.file_wanted.connect(self._open)
-        self.history.repeat_wanted.connect(self._repeat)
-        self.history.compare_wanted.connect(self._show_comparison)
-        self.history.spread_wanted.connect(self._show_spread)
-        self.history.replayed.connect(self._show_replayed)
+
+    @functools.cached_property
+    def history(self) -> HistoryScreen:
+        """The tests so far; made when it is asked for first."""
+        with self._stopping.building():
+            screen = HistoryScreen()
+            self._screens.addWidget(screen)
+        screen.closed.connect(self._flow.to_welcome)
+        screen.open_wanted.connect(self._flow.open)
+        screen.file_wanted.connect(self._open)
+        screen.repeat_wanted.connect(self._repeat)
+        screen.compare_wanted.connect(self._show_comparison)
+        screen.spread_wanted.connect(self._show_spread)
+        screen.replayed.connect(self._show_replayed)
+        return screen
 
     def _settings_screen(self, name: str) -> SettingsScreen:
-        screen = SettingsScreen(SCENARIOS[name], self._flow.model, self._appearance)
+        with self._stopping.building():
+            screen = SettingsScreen(SCENARIOS[name], self._flow.model, self._appearance)
+            self._screens.addWidget(screen)
         screen.back.connect(lambda: self._flow.show(Step.TYPE))
         screen.started.connect(lambda parameters, paths, who: self._flow.start(
             SCENARIOS[name], parameters, paths, who, screen.conditions.confirmed))
-        self._screens.addWidget(screen)
         return screen
 
     def _show_model(self) -> None:
