@@ -1,4 +1,7 @@
-"""The style sheet of all windows, made from a palette and the scale."""
+"""The style sheet of all windows, made from a palette and the scale.
+
+It also makes each label and tool tip plain: what people, robots and files say is never markup.
+"""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,7 +22,8 @@ QWidget#header { background: $surface; border-bottom: 2px solid $line; }
 QFrame#card { background: $surface; border: 1px solid $line; border-radius: ${radius}px; }
 QFrame#popup { background: $surface; border: 2px solid $border; }
 QScrollArea, QScrollArea > QWidget > QWidget { background: transparent; border: none; }
-QLabel { background: transparent; qproperty-textFormat: PlainText; }
+QLabel { background: transparent; }
+QLabel, QToolTip { qproperty-textFormat: PlainText; }
 QLabel[role="title"] { font-size: ${title_pt}pt; font-weight: 600; }
 QLabel[role="heading"] { font-size: ${heading_pt}pt; font-weight: 600; }
 QLabel[role="large"] { font-size: ${large_pt}pt; font-weight: 600; }
@@ -94,7 +98,7 @@ QTableView:focus { border: 2px solid $accent; }
 QHeaderView::section { font-size: ${table_pt}pt; background: $raised; color: $ink; border: none;
     border-right: 1px solid $line; border-bottom: 1px solid $border; padding: 6px 8px; font-weight: 600; }
 QTableCornerButton::section { background: $raised; border: none; }
-QToolTip { qproperty-textFormat: PlainText; background: $ink; color: $surface; border: 1px solid $border; padding: 6px; }
+QToolTip { background: $ink; color: $surface; border: 1px solid $border; padding: 6px; }
 QToolButton { background: transparent; border: 2px solid transparent; border-radius: ${radius}px; padding: 4px; }
 QToolButton:hover { background: $raised; }
 QToolButton:focus { border-color: $accent; }
