@@ -17,9 +17,9 @@ from mtr_operator.gui.history.spread_window import SpreadWindow
 from mtr_operator.gui.windows.calibration_window import CalibrationWindow
 from mtr_operator.gui.windows.connection_window import ConnectionWindow
 from mtr_operator.gui.windows.settings_window import SettingsWindow
-from mtr_operator.history.comparison import compare
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.history.spread import spread_of
+from mtr_operator.history.statistics.comparison import compare_sets
 from mtr_operator.station.connection import BusChoice, CanChoice, Connection
 
 
@@ -95,8 +95,9 @@ def measured_side(day, far_m):
 
 def test_comparison_fits_and_has_its_stop_in_sight(application, main, show, monkeypatch):
     sides = measured_side(1, 4.0), measured_side(2, 6.0)
-    window = show(lambda: ComparisonWindow(compare(*sides), application.appearance, main))
-    assert visible(window, StopButton) and window.table.model().rowCount() == 8
+    window = show(lambda: ComparisonWindow(compare_sets(sides[:1], sides[1:]), application.appearance, main))
+    # Eight radials, right and left side, all lines, and the area.
+    assert visible(window, StopButton) and window.table.model().rowCount() == 12
     assert_fits(window, monkeypatch, QSize(1300, 760))
 
 

@@ -27,10 +27,13 @@ def test_two_tests_are_compared_with_stop_in_sight(lab):
     window = opened(lab, ComparisonWindow)
     assert window.isVisible() and window.findChildren(StopButton) and not window.isModal()
     model = window.table.model()
-    assert model.rowCount() == 2
+    assert [model.data(model.index(row, 0)) for row in range(2, model.rowCount())] == ["all lines"]
     # The oldest is the first; the same figures show no difference.
     assert model.data(model.index(0, 3)) == "+0.00"
     assert model.data(model.index(0, 2)) in ("no difference shown", "not known")
+    assert "No difference is shown among all rows." in window.summary.text()
+    window.table.selectRow(2)
+    assert len(window._points.chosen) == 4
     window.table.selectRow(1)
     assert "Car's VIN: OTHER / \N{EN DASH}" in window.summary.text()
     window.close()

@@ -17,9 +17,9 @@ from mtr_campaign.work.conductor import Conductor, Course
 from mtr_campaign.work.crew import crew_of
 from mtr_campaign.work.folder import CampaignFolder
 from mtr_operator.history.line_pairs import open_side
+from mtr_operator.history.statistics.comparison import compare_sets
 from mtr_operator.storage.plain_yaml import load_yaml
 from mtr_operator.storage.progress_file import FILE_NAME
-from mtr_results.statistics.comparison import compare_sets
 
 EXAMPLES = pathlib.Path(__file__).parents[2] / "examples" / "demo"
 

@@ -18,9 +18,9 @@ import table
 from sqlalchemy import func, select, text
 
 from mtr_operator.domain.identity.identity import Identity
+from mtr_operator.history.statistics.comparison import compare_sets
 from mtr_results.intake.record import read_record
 from mtr_results.model.tests import Measurement, Test
-from mtr_results.statistics.comparison import compare_sets
 from mtr_results.store import reading
 from mtr_results.store.database import Database, engine_of
 from mtr_results.store.writing import add

@@ -1,15 +1,12 @@
 """Tests of before: found in folders and read once, searched, and compared without calling chance a difference."""
 # SPDX-License-Identifier: Apache-2.0
-import dataclasses
 import json
 import math
 import os
-import random
 
 import pytest
 
 from mtr_operator.cli import main
-from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.results.line_result import LineStatus
@@ -18,9 +15,7 @@ from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.domain.verdict.limits_document import limits_from
-from mtr_operator.history.circumstances import circumstances
-from mtr_operator.history.comparison import Change, compare
-from mtr_operator.history.comparison_text import comparison_document, comparison_lines
+from mtr_operator.history.circumstances import circumstances_of_sets
 from mtr_operator.history.entry import TestEntry, entry_from
 from mtr_operator.history.index import Index
 from mtr_operator.history.line_pairs import Side, open_side
@@ -153,88 +148,12 @@ def test_what_is_found_is_told_while_it_is_read(tmp_path, monkeypatch):
     assert told == [1, 2, 3]
 
 
-def test_same_test_shows_no_difference():
-    compared = compare(side(5.0, 6.0), side(5.0, 6.0))
-    assert [difference.change for difference in compared.differences] == 2 * [Change.NOT_SHOWN]
-    assert [difference.value_m for difference in compared.differences] == [0.0, 0.0]
-    assert compared.expected_by_chance == pytest.approx(0.1)
-
-
-def test_difference_is_shown_from_where_its_interval_leaves_zero():
-    # Two intervals of half width 0.3 m make one of 0.3 * sqrt(2), and a little more for what both have in common.
-    for by_m, change in ((0.40, Change.NOT_SHOWN), (0.55, Change.FARTHER), (-0.55, Change.NEARER)):
-        difference = compare(side(5.0), side(5.0 + by_m)).differences[0]
-        assert difference.change is change, by_m
-        assert difference.low_m < by_m < difference.high_m
-        assert difference.high_m - difference.low_m >= 2.0 * HALF_M * math.sqrt(2.0)
-
-
-def test_no_more_differences_than_chance_allows_where_there_is_none():
-    rng = random.Random(1)
-    shown = 0
-    for _ in range(400):
-        first, second = (side(rng.gauss(5.0, HALF_M / SIGMAS_OF_LEVEL)) for _ in range(2))
-        shown += compare(first, second).differences[0].change is not Change.NOT_SHOWN
-    # 5 % of 400 are 20; the common errors, counted in full for both, make it fewer.
-    assert shown <= 30
-
-
-def test_without_intervals_nothing_is_called_different_whatever_the_figures():
-    scan = parameters("scan")
-    results = [KeyPressResult(1, 0.0, LineStatus.OK, distance_m, distance_m + 0.5, 0.01, 9, 1.0, "")
-               for distance_m in (3.0, 6.0)]
-    sides = [Side(SCENARIO, scan, dataclasses.replace(progress([result]), parameters=scan.to_mapping()))
-             for result in results]
-    difference = compare(*sides).differences[0]
-    assert difference.change is Change.NOT_KNOWN
-    assert difference.reason == "Test 1 does not say how sure this distance is."
-
-
-def test_invalid_line_and_a_key_that_may_have_slept_are_not_compared():
-    bad = KeyPressResult(1, 0.0, LineStatus.INVALID, None, None, None, 0, None, "lifted", method="adaptive")
-    invalid = Side(SCENARIO, parameters(), progress([bad]))
-    assert compare(side(5.0), invalid).differences[0].reason == "It is invalid in test 2."
-    dead = KeyPressResult(1, 0.0, LineStatus.NOT_REACHED, None, 3.0, None, 9, None, "", method="adaptive",
-                          reach="nearer", d50_high_m=3.2)
-    silent = Side(SCENARIO, parameters(), progress([dead]))
-    assert compare(silent, side(5.0)).differences[0].change is Change.NOT_KNOWN
-    # Where it worked on another line, the border of this one is known from one side.
-    awake = Side(SCENARIO, parameters(), progress([dead, searched(2, 5.0)]))
-    difference = compare(awake, side(5.0, 5.0)).differences[0]
-    assert difference.change is Change.FARTHER and difference.high_m == math.inf and difference.value_m is None
-
-
-def test_lines_are_paired_by_their_place_and_the_rest_is_named():
-    eighths = Side(SCENARIO, parameters(angle_between_radials_rad=QUARTER / 2.0), dataclasses.replace(
-        progress([searched(number, 5.0) for number in range(1, 9)]),
-        parameters=parameters(angle_between_radials_rad=QUARTER / 2.0).to_mapping()))
-    compared = compare(side(5.0, 5.0), eighths)
-    assert [(pair.pair.number, pair.pair.second.number) for pair in compared.differences] == [(1, 1), (2, 3)]
-    assert compared.only_first == () and len(compared.only_second) == 6
-    assert compared.only_second[0].startswith("radial 2 (")
-
-
-def test_tests_of_two_scenarios_or_without_a_line_are_refused():
-    with pytest.raises(OperatorError, match="Key press and one of Autolock cannot be compared"):
-        compare(side(5.0), Side(SCENARIOS["autolock"], SCENARIOS["autolock"].parameters_type(), progress()))
-    with pytest.raises(OperatorError, match="has measured nothing"):
-        compare(side(5.0), side())
-
-
 def test_what_else_differs_is_told():
     first = side(5.0, identity=Identity("A", key_battery_v=3.0))
     second = side(5.0, identity=Identity("B", key_battery_v=2.8))
     second.progress.session["robot software"] = "0.3.0"
-    rows = {row.name: (row.first, row.second) for row in circumstances(first, second)}
+    rows = {row.name: (row.first, row.second) for row in circumstances_of_sets([first], [second])}
     assert rows == {"Car's VIN": ("A", "B"), "Key's battery": ("3 V", "2.8 V"), "robot software": ("", "0.3.0")}
-
-
-def test_comparison_as_text_and_as_values():
-    compared = compare(side(5.0, 5.0), side(6.0, 5.1))
-    text = "\n".join(comparison_lines(compared))
-    assert "farther" in text and "+1.00" in text and "by chance alone about 0.1 would differ." in text
-    document = json.loads(json.dumps(comparison_document(compared), allow_nan=False))
-    assert [each["change"] for each in document["differences"]] == ["farther", "no difference shown"]
 
 
 def test_command_line_lists_and_compares(tmp_path, capsys, monkeypatch):

@@ -7,12 +7,14 @@ import json
 import pathlib
 from typing import Sequence
 
-from mtr_operator.history.comparison import compare
-from mtr_operator.history.comparison_text import comparison_document, comparison_lines
+from mtr_operator.domain.results.session_record import STARTED
 from mtr_operator.history.entry import TestEntry
 from mtr_operator.history.index import Index, cache_path
 from mtr_operator.history.line_pairs import Side, open_side
 from mtr_operator.history.search import matching, problems_of
+from mtr_operator.history.statistics.comparison import compare_sets
+from mtr_operator.history.statistics.documents import pair_document
+from mtr_operator.history.statistics.texts import comparison_lines
 from mtr_operator.station.settings_file import SettingsStore, default_path
 from mtr_operator.storage.progress_file import FILE_NAME
 from mtr_operator.terminal import show, show_error
@@ -42,12 +44,15 @@ def _printable(text: str) -> str:
 
 def compare_tests(options: argparse.Namespace) -> None:
     """Print the differences of two tests."""
-    comparison = compare(_side(options.first), _side(options.second))
+    sides = _side(options.first), _side(options.second)
+    comparison = compare_sets(sides[:1], sides[1:])
     if options.json:
-        print(json.dumps(comparison_document(comparison), indent=1, ensure_ascii=False))
-    else:
-        for line in comparison_lines(comparison):
-            show(line)
+        print(json.dumps(pair_document(comparison), indent=1, ensure_ascii=False))
+        return
+    for number, side in enumerate(sides, start=1):
+        show(f"Side {number}: {side.scenario.title} of {side.progress.session.get(STARTED, 'an unknown day')}")
+    for line in comparison_lines(comparison):
+        show(line)
 
 
 def _side(path: pathlib.Path) -> Side:

@@ -10,10 +10,10 @@ from mtr_operator.storage.atomic import output_folder
 from mtr_operator.storage.inside import inside
 from mtr_operator.storage.progress_file import free_path
 
-from .comparison import Comparison, compare
 from .entry import TestEntry
 from .laboratory import fetch, file_of
 from .line_pairs import Side, open_side
+from .statistics.comparison import Comparison, compare_sets
 
 if TYPE_CHECKING:
     from mtr_operator.replay.replay import ReplayedTest
@@ -32,7 +32,7 @@ def side_of(entry: TestEntry) -> Side:
 
 def compared(first: TestEntry, second: TestEntry) -> Comparison:
     """Both tests; OperatorError when they cannot be read or compared."""
-    return compare(side_of(first), side_of(second))
+    return compare_sets([side_of(first)], [side_of(second)])
 
 
 def spread_of_chosen(entries: Sequence[TestEntry], alike: TestEntry | None,

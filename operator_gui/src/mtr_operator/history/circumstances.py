@@ -25,11 +25,6 @@ class Circumstance(NamedTuple):
     is_parameter: bool = False
 
 
-def circumstances(first: Side, second: Side) -> list[Circumstance]:
-    """Everything in which two tests differ; what neither says does not."""
-    return circumstances_of_sets([first], [second])
-
-
 def circumstances_of_sets(first: Sequence[Side], second: Sequence[Side]) -> list[Circumstance]:
     """Everything in which any two tests of two sets differ, with all that the tests of each say."""
     told = [[_told(side) for side in sides] for sides in (first, second)]

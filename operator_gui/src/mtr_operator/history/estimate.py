@@ -16,6 +16,8 @@ import numpy as np
 from mtr_operator.domain.estimation.interval import SIGMAS_OF_LEVEL
 from mtr_operator.domain.estimation.student import quantile
 
+NOT_MEASURED = "No test measured it."
+
 
 @dataclass(frozen=True)
 class Known:
@@ -60,10 +62,10 @@ class Estimate:
         return not (math.isfinite(self.low) and math.isfinite(self.high))
 
 
-def estimate(known: Sequence[Known]) -> Estimate:
-    """What tests say together of one quantity."""
+def estimate(known: Sequence[Known], without: str = NOT_MEASURED) -> Estimate:
+    """What tests say together of one quantity. without: reason if no test knows anything of it."""
     if not known:
-        return Estimate(None, -math.inf, math.inf, 0, reason="No test measured it.")
+        return Estimate(None, -math.inf, math.inf, 0, reason=without)
     unknown = next((each.reason for each in known if each.reason), "")
     if unknown:
         return Estimate(None, -math.inf, math.inf, len(known), reason=unknown)

@@ -15,12 +15,14 @@ from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.verdict.assessment import Assessment, LastingSigmas
 from mtr_operator.domain.verdict.verdict import Verdict
 
-from .comparison import DistanceReader
-from .estimate import Known
+from .distance_reader import DistanceReader
+from .estimate import NOT_MEASURED, Known
 from .line_pairs import Side, line_pairs
 
 MAX_TESTS = 500
 _NOWHERE = (-math.inf, math.inf)
+INVALID = "The line is invalid."
+ASLEEP = "The key worked on no line of this test; it may have been asleep."
 UNLIKE = ("The tests tell different things here, such as a boundary and the place of one event; choose tests that were "
           "measured alike.")
 
@@ -63,6 +65,11 @@ class Tests:
         """Where a line lies in the first test."""
         return self._rays[line]
 
+    def figure(self, test: int, line: int, word: str) -> Figure:
+        """Return a distance as its own test states it; the line must have a result in this test."""
+        result = self.results[test][line]
+        return self._readers[test].figure(result, result.distances[self.words.index(word)])
+
     def assessment(self, test: int) -> Assessment:
         """Budgets and verdicts of a test."""
         if test not in self._assessments:
@@ -82,6 +89,13 @@ class Tests:
         if key not in self._distances:
             self._distances[key] = self._distance(*key)
         return self._distances[key]
+
+    def why_unknown(self, test: int, line: int, word: str) -> str:
+        """Return the reason why distance() is None, a sentence."""
+        result = self.results[test].get(line)
+        if result is None:
+            return NOT_MEASURED
+        return INVALID if result.distances[self.words.index(word)].status is LineStatus.INVALID else ASLEEP
 
     def _distance(self, test: int, line: int, word: str) -> Known | None:
         result = self.results[test].get(line)

@@ -11,7 +11,7 @@ from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.results.line_result import LineResult
 
 from .circumstances import differing_names
-from .comparison import Ends
+from .distance_reader import Ends
 from .estimate import Estimate, estimate
 from .line_pairs import Side
 from .same_lines import Tests

@@ -11,19 +11,18 @@ from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.history.circumstances import differing_names
 from mtr_operator.history.same_lines import Tests
 from mtr_operator.history.spread import distance_spread
+from mtr_operator.history.statistics.comparison import compare_sets
+from mtr_operator.history.statistics.documents import comparison_document
+from mtr_operator.history.statistics.texts import comparison_lines, interval_text
 from mtr_operator.report.table import line_name
 from mtr_operator.terminal import show
 
 from ..statistics.capability import Capability, capability
-from ..statistics.comparison import compare_sets
-from ..statistics.documents import capability_document, comparison_document, spread_document, trend_document
-from ..statistics.texts import MEANING, interval_text, row_texts
+from ..statistics.documents import capability_document, spread_document, trend_document
 from ..statistics.trend import trend
 from ..store.sets import TestSet, read_set
 from .meant import place_of
-from .output import print_json, print_table
-
-_HEADINGS = ("", "first", "second", "second - first", "95 %", "chance of all", "")
+from .output import print_json
 
 
 def compare(options: argparse.Namespace) -> int:
@@ -36,20 +35,8 @@ def compare(options: argparse.Namespace) -> int:
         return EXIT_PASS
     for number, side in ((1, first), (2, second)):
         show(f"Side {number}: {side.text}, {len(side.rows)} tests from {side.rows[0]['started']}")
-    for each in found.differing:
-        show(f"  {each.name}: {each.first or 'nothing'} / {each.second or 'nothing'}")
-    print_table(_HEADINGS, [row_texts(row) for row in found.rows])
-    for reason in found.reasons:
-        show(f"not known: {reason}")
-    for name, mine, its in found.holes:
-        show(f"holes on {name}: {mine or 'none'} / {its or 'none'}")
-    show("verdicts: " + " / ".join(", ".join(f"{count} {word}" for word, count in each.items())
-                                   for each in found.verdicts))
-    for number, names in ((1, found.only_first), (2, found.only_second)):
-        if names:
-            show(f"Only on side {number}: {', '.join(names)}")
-    show(MEANING)
-    show(found.summary)
+    for line in comparison_lines(found):
+        show(line)
     return EXIT_PASS
 
 

@@ -11,11 +11,11 @@ import jinja2
 import markupsafe
 
 from mtr_operator.history.line_pairs import Side
+from mtr_operator.history.statistics.comparison import compare_sets
+from mtr_operator.history.statistics.documents import row_document
+from mtr_operator.history.statistics.texts import MEANING, interval_text, row_texts
 from mtr_operator.report.table import line_name
 
-from ..statistics.comparison import compare_sets
-from ..statistics.documents import row_document
-from ..statistics.texts import MEANING, interval_text, row_texts
 from .figure_texts import figure_text
 from .pictures import around_car, difference_picture, overlay_picture
 

@@ -12,10 +12,12 @@ from mtr_operator.domain.results.picture import PointSet, Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.history.estimate import Estimate, Known
 from mtr_operator.history.line_pairs import Side
+from mtr_operator.history.statistics.comparison import Comparison
+from mtr_operator.history.statistics.difference import Change
+from mtr_operator.history.statistics.row import DISTANCE, SIDE, Row
+from mtr_operator.history.statistics.texts import estimate_text, interval_text
 from mtr_operator.report.figures import SIGNS, filled
 
-from ..statistics.comparison import DISTANCE, FARTHER, NEARER, SIDE, Comparison, Row
-from ..statistics.texts import estimate_text, interval_text
 from ..statistics.trend import Trend
 from .drawing import Drawing, Point
 
@@ -30,7 +32,7 @@ _BESIDE = 1.06
 # Test numbers are omitted for more tests, because they would overlap.
 _MAX_NAMED = 24
 _SIDES = ("first", "second")
-_KINDS = {FARTHER: "farther", NEARER: "nearer"}
+_KINDS = {Change.FARTHER: "farther", Change.NEARER: "nearer"}
 
 
 def around_car(side: Side) -> str:
@@ -133,11 +135,11 @@ def overlay_picture(comparison: Comparison, word: str) -> str:
     lines = {line.number: line for line in first.scenario.lines(first.parameters, first.progress.measured_car)}
     drawing = Drawing(f"{word}: both sides around the Car")
     _draw_car(drawing, first.progress.measured_car)
-    rows = [row for row in comparison.rows if row.quantity == DISTANCE and row.word == word and row.line is not None]
+    rows = [row for row in comparison.distances if row.word == word]
     for name in _SIDES:
         known = []
         for row in rows:
-            ray, found = lines[row.line or 0].ray, getattr(row, name)
+            ray, found = lines[row.lines[0]].ray, getattr(row, name)
             ends = _shown_ends(found)
             if ends is not None:
                 drawing.line([_up(ray.point(end)) for end in ends], f"interval {name}", title=_titled(row, name))
@@ -149,7 +151,7 @@ def overlay_picture(comparison: Comparison, word: str) -> str:
     for row in rows:
         if row.is_different:
             known_m = [end for name in _SIDES for end in (_shown_ends(getattr(row, name)) or ())]
-            drawing.text(_up(lines[row.line or 0].ray.point(max(known_m, default=0.0) + _LABEL_M)), "*", "star")
+            drawing.text(_up(lines[row.lines[0]].ray.point(max(known_m, default=0.0) + _LABEL_M)), "*", "star")
     return drawing.svg()
 
 
@@ -167,8 +169,8 @@ def _titled(row: Row, name: str) -> str:
 def difference_picture(comparison: Comparison, word: str) -> str:
     """Return the differences of lines and sides with their intervals and a zero line; open ends reach the edge."""
     rows = [row for row in comparison.rows if row.quantity in (DISTANCE, SIDE) and row.word == word
-            and not row.change.reason]
-    ends = [end for row in rows for end in (row.change.low, row.change.high) if math.isfinite(end)]
+            and not row.difference.reason]
+    ends = [end for row in rows for end in (row.difference.low, row.difference.high) if math.isfinite(end)]
     edge = 1.1 * max((abs(end) for end in ends), default=1.0) or 1.0
     drawing = Drawing(f"{word}: second less first, with 95 % intervals", is_stretched=True)
     places = _places_of(rows)
@@ -176,12 +178,12 @@ def difference_picture(comparison: Comparison, word: str) -> str:
     for height in (-edge, edge):
         drawing.text((-0.9, height), f"{height:+.2f} m")
     for index, row in zip(places, rows):
-        kind = f"{'different ' if row.is_different else ''}{_KINDS.get(row.verdict, 'same')}"
-        low, high = (min(max(end, -edge), edge) for end in (row.change.low, row.change.high))
-        title = f"{row.name}: {row.verdict}"
+        kind = f"{'different ' if row.is_different else ''}{_KINDS.get(row.change, 'same')}"
+        low, high = (min(max(end, -edge), edge) for end in (row.difference.low, row.difference.high))
+        title = f"{row.title}: {row.change.value}"
         drawing.line([(index, low), (index, high)], f"interval {kind}", title=title)
-        if row.change.value is not None:
-            drawing.dot((index, row.change.value), f"point {kind}", title)
+        if row.difference.value is not None:
+            drawing.dot((index, row.difference.value), f"point {kind}", title)
         drawing.text((index, -edge), str(row.line or row.name.split()[0]), "label small")
     return drawing.svg()
 

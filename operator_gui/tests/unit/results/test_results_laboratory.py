@@ -116,7 +116,7 @@ def test_tests_of_the_store_are_compared_repeated_and_spread(named, tmp_path):
     entries = [entry for entry in listed(kept_entries()) if entry.done]
     alike = next(entry for entry in entries if entry.test_id == "m1")
     first, second = (next(entry for entry in entries if entry.test_id == mark) for mark in ("m1", "m2"))
-    assert compared(first, second).differences[0].value_m == pytest.approx(0.1)
+    assert compared(first, second).distances[0].difference.value == pytest.approx(0.1)
     assert side_of(first).parameters == measured.parameters()
     tests = repetitions(entries, alike)
     assert len(tests) == 4

@@ -15,7 +15,8 @@ from mtr_operator.history.circumstances import differing_names
 from mtr_operator.history.line_pairs import Side, line_pairs
 from mtr_operator.history.same_lines import UNLIKE, Tests
 from mtr_operator.history.spread import spread_of
-from mtr_results.statistics.comparison import FARTHER, NEARER, NOT_KNOWN, compare_sets
+from mtr_operator.history.statistics.comparison import compare_sets
+from mtr_operator.history.statistics.difference import Change
 from mtr_results.statistics.trend import trend
 
 # A slow Car with boundaries at 2 m.
@@ -55,8 +56,8 @@ def test_event_of_one_pass_is_not_set_against_a_static_boundary(others):
     for first, second in (([several(number) for number in range(4)], others), (others, [several(number)
                                                                                         for number in range(4)])):
         found = compare_sets(first, second)
-        assert {row.verdict for row in found.rows if row.line is not None} == {NOT_KNOWN}
-        assert not {row.verdict for row in found.rows} & {FARTHER, NEARER}
+        assert {row.change for row in found.rows if row.line is not None} == {Change.NOT_KNOWN}
+        assert not {row.change for row in found.rows} & {Change.FARTHER, Change.NEARER}
         assert any(UNLIKE in reason for reason in found.reasons)
         row = next(row for row in found.differing if row.name == "passes")
         assert {row.first, row.second} <= {"1", "2", "2, 1"} and row.is_parameter
@@ -65,9 +66,9 @@ def test_event_of_one_pass_is_not_set_against_a_static_boundary(others):
 def test_events_at_one_speed_are_compared_and_at_two_are_not():
     fast = [one_pass(number) for number in range(4)]
     alike = compare_sets(fast, [one_pass(number + 1) for number in range(4)])
-    assert NOT_KNOWN not in {row.verdict for row in alike.rows} and alike.reasons == []
+    assert Change.NOT_KNOWN not in {row.change for row in alike.rows} and alike.reasons == []
     unlike = compare_sets(fast, [one_pass(number, 0.1) for number in range(4)])
-    assert {row.verdict for row in unlike.rows if row.line is not None} == {NOT_KNOWN}
+    assert {row.change for row in unlike.rows if row.line is not None} == {Change.NOT_KNOWN}
 
 
 def test_axis_that_was_not_reached_bounds_boundary_and_event():
@@ -93,7 +94,7 @@ def test_farthest_press_of_a_scan_is_not_set_against_a_border():
     scans = [scanned(5.5 + 0.01 * number) for number in range(3)]
     borders = [measured.side(5.0 + 0.01 * number) for number in range(3)]
     row, = (row for row in compare_sets(borders, scans).rows if row.line is not None)
-    assert (row.verdict, row.second.reason) == (NOT_KNOWN, UNLIKE)
+    assert (row.change, row.second.reason) == (Change.NOT_KNOWN, UNLIKE)
 
 
 @pytest.mark.parametrize("height_m, count", [(1.04, 1), (1.06, 0)])

@@ -7,9 +7,12 @@ from typing import Any, Sequence
 
 from PyQt5.QtCore import QModelIndex, QObject, Qt
 
-from mtr_operator.history.comparison import Change, Comparison, Difference
+from mtr_operator.history.estimate import Estimate
+from mtr_operator.history.statistics.comparison import Comparison
+from mtr_operator.history.statistics.difference import Change
+from mtr_operator.history.statistics.row import DISTANCE, NEIGHBOURS, UNITS, Row
 
-from ..figure_text import cell_text
+from .. import figure_text
 from ..i18n import number, translate
 from ..names import domain_word
 from ..sentences import translated
@@ -17,59 +20,98 @@ from .table_model import TableModel
 
 # Columns of words; after them come figures.
 _WORDS = 3
+# Smaller p-values are shown by this bound.
+_MIN_CHANCE = 0.001
 
 
 class ComparisonModel(TableModel):
-    """Line, distance, what may be said of it; second test less first, its 95 % interval, and what both tests say."""
+    """Quantity, distance with its unit, and result; second test less first, its 95 % interval, p-value among all, and
+    the values of both tests; the reason of an unknown difference as a tip."""
 
     def __init__(self, comparison: Comparison, parent: QObject | None = None):
         super().__init__(parent)
         self._comparison = comparison
 
-    def _rows(self) -> Sequence[Difference]:
-        return self._comparison.differences
+    def _rows(self) -> Sequence[Row]:
+        return self._comparison.rows
 
     def data(self, index: QModelIndex, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
         """See QAbstractItemModel."""
-        difference = self._comparison.differences[index.row()]
+        row = self._comparison.rows[index.row()]
         if role == Qt.ItemDataRole.DisplayRole:
-            return self._texts(difference)[index.column()]
+            return self._texts(row)[index.column()]
         if role == Qt.ItemDataRole.ToolTipRole:
-            return translated(difference.reason) or None
+            return translated(row.difference.reason) or None
         if role == Qt.ItemDataRole.TextAlignmentRole and index.column() >= _WORDS:
             return int(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         return None
 
     def _headings(self) -> tuple[str, ...]:
-        return (domain_word(self._comparison.first.scenario.line_word).capitalize(), "", self.tr("Second test"),
-                self.tr("Difference [m]"), "95 % [m]", self.tr("First [m]"), self.tr("Second [m]"))
+        return (domain_word(self._comparison.tests.first.scenario.line_word).capitalize(), "", self.tr("Second test"),
+                self.tr("Difference"), "95 %", self.tr("Chance among all"), self.tr("First"), self.tr("Second"))
 
-    @staticmethod
-    def _texts(difference: Difference) -> tuple[str, ...]:
-        pair = difference.pair
-        value = "" if difference.value_m is None else signed(difference.value_m)
-        return (f"{pair.number} ({domain_word(pair.first.place)})", domain_word(difference.word),
-                change_text(difference.change), value, "" if difference.reason else ends_text(difference),
-                cell_text(difference.first), cell_text(difference.second))
+    def _texts(self, row: Row) -> tuple[str, ...]:
+        found = row.difference
+        value = "" if found.value is None else signed(found.value)
+        known = ("", "") if found.reason else (ends_text(found.low, found.high), chance_text(row.adjusted))
+        unit = f" [{UNITS[row.quantity]}]" if UNITS[row.quantity] else ""
+        return (row_name(self._comparison, row), words_text(row) + unit, result_text(row), value, *known,
+                *self._values(row))
+
+    def _values(self, row: Row) -> tuple[str, str]:
+        if row.quantity != DISTANCE:
+            return _estimate_text(row.first), _estimate_text(row.second)
+        first, second = (self._comparison.tests.figure(test, row.lines[0], row.word) for test in (0, 1))
+        return figure_text.cell_text(first), figure_text.cell_text(second)
+
+
+def row_name(comparison: Comparison, row: Row) -> str:
+    """Return the line, the side, or the run of lines of a row."""
+    if row.line is not None:
+        return f"{row.line} ({domain_word(comparison.tests.results[0][row.line].place)})"
+    if row.quantity == NEIGHBOURS:
+        return translate("Comparison", "{first} to {last}, moved together").format(first=row.lines[0],
+                                                                              last=row.lines[-1])
+    return translated(row.name)
+
+
+def words_text(row: Row) -> str:
+    """Return the names of the distances of a row."""
+    return ", ".join(map(domain_word, row.words))
+
+
+def result_text(row: Row) -> str:
+    """Return the result for a row alone, with a star if it also differs among all."""
+    return f"{change_text(row.change)} *" if row.is_different else change_text(row.change)
 
 
 def change_text(change: Change) -> str:
-    """What may be said of a difference."""
+    """Return the result for one quantity."""
     return {Change.FARTHER: translate("Comparison", "farther"), Change.NEARER: translate("Comparison", "nearer"),
             Change.NOT_SHOWN: translate("Comparison", "no difference shown"),
             Change.NOT_KNOWN: translate("Comparison", "not known")}[change]
 
 
-def signed(value_m: float) -> str:
-    """With its sign, also a plus."""
-    return ("+" if value_m >= 0.0 else "\N{MINUS SIGN}") + number(abs(value_m), 2)
+def chance_text(chance: float) -> str:
+    """Return a p-value; small ones have an upper bound instead of zero."""
+    return f"< {number(_MIN_CHANCE, 3)}" if chance < _MIN_CHANCE else number(chance, 3)
 
 
-def ends_text(difference: Difference) -> str:
-    """The interval, or the end that is known."""
-    low_m, high_m = difference.low_m, difference.high_m
-    if math.isfinite(low_m) and math.isfinite(high_m):
-        return translate("Figure", "{first} to {second}").format(first=signed(low_m), second=signed(high_m))
-    if math.isfinite(low_m):
-        return translate("Figure", "at least {first}").format(first=signed(low_m))
-    return translate("Figure", "at most {first}").format(first=signed(high_m)) if math.isfinite(high_m) else ""
+def signed(value: float) -> str:
+    """Return a number with its sign, also a plus."""
+    return ("+" if value >= 0.0 else "\N{MINUS SIGN}") + number(abs(value), 2)
+
+
+def ends_text(low: float, high: float) -> str:
+    """Return the interval of a difference, or the end that is known."""
+    if math.isfinite(low) and math.isfinite(high):
+        return translate("Figure", "{first} to {second}").format(first=signed(low), second=signed(high))
+    if math.isfinite(low):
+        return translate("Figure", "at least {first}").format(first=signed(low))
+    return translate("Figure", "at most {first}").format(first=signed(high)) if math.isfinite(high) else ""
+
+
+def _estimate_text(estimate: Estimate) -> str:
+    if estimate.value is not None:
+        return number(estimate.value, 2)
+    return figure_text.ends_text(estimate.low, estimate.high) or translate("Figure", "unknown")

@@ -18,11 +18,18 @@ TITLES = (
     QT_TRANSLATE_NOOP("Identity", "Photos"),
 )
 SENTENCES = (
-    QT_TRANSLATE_NOOP("Sentence", "A test of the scenario {} and one of {} cannot be compared; choose two of one "
-                                  "scenario."),
+    QT_TRANSLATE_NOOP("Sentence", "A side of the comparison has no test."),
     QT_TRANSLATE_NOOP("Sentence", "A test that has measured nothing cannot be compared."),
-    QT_TRANSLATE_NOOP("Sentence", "It is invalid in test {}."),
-    QT_TRANSLATE_NOOP("Sentence", "Test {} does not say how sure this distance is."),
+    QT_TRANSLATE_NOOP("Sentence", "Side {}: {}"),
+    QT_TRANSLATE_NOOP("Sentence", "The line is invalid."),
+    QT_TRANSLATE_NOOP("Sentence", "The key worked on no line of this test; it may have been asleep."),
+    QT_TRANSLATE_NOOP("Sentence", "front side"),
+    QT_TRANSLATE_NOOP("Sentence", "right side"),
+    QT_TRANSLATE_NOOP("Sentence", "rear side"),
+    QT_TRANSLATE_NOOP("Sentence", "left side"),
+    QT_TRANSLATE_NOOP("Sentence", "all lines"),
+    QT_TRANSLATE_NOOP("Sentence", "area"),
+    QT_TRANSLATE_NOOP("Sentence", "area at {} m"),
     QT_TRANSLATE_NOOP("Sentence", "No test fits."),
     QT_TRANSLATE_NOOP("Sentence", "{} tests fit; at most {} are looked at together. Narrow the search."),
     QT_TRANSLATE_NOOP("Sentence", "Tests of the scenarios {} cannot be looked at together; choose one."),

@@ -12,6 +12,7 @@ WORDS = (
     QT_TRANSLATE_NOOP("Word", "press"),
     QT_TRANSLATE_NOOP("Word", "zone"),
     QT_TRANSLATE_NOOP("Word", "reach"),
+    QT_TRANSLATE_NOOP("Word", "coverage"),
     QT_TRANSLATE_NOOP("Word", "handle"),
     QT_TRANSLATE_NOOP("Word", "finding"),
     QT_TRANSLATE_NOOP("Word", "held"),

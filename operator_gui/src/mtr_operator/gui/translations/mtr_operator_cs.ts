@@ -1382,22 +1382,22 @@
 <context>
     <name>Comparison</name>
     <message>
-        <location filename="../history/comparison_model.py" line="58"/>
+        <location filename="../history/comparison_model.py" line="90"/>
         <source>farther</source>
         <translation>dále</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="58"/>
+        <location filename="../history/comparison_model.py" line="90"/>
         <source>nearer</source>
         <translation>blíže</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="59"/>
+        <location filename="../history/comparison_model.py" line="91"/>
         <source>no difference shown</source>
         <translation>rozdíl neprokázán</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="60"/>
+        <location filename="../history/comparison_model.py" line="92"/>
         <source>not known</source>
         <translation>není známo</translation>
     </message>
@@ -1407,75 +1407,95 @@
         <translation>První test</translation>
     </message>
     <message>
-        <location filename="../history/comparison_picture.py" line="27"/>
+        <location filename="../history/comparison_picture.py" line="25"/>
         <source>Second test</source>
         <translation>Druhý test</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="73"/>
+        <source>{first} to {last}, moved together</source>
+        <translation>{first} až {last}, posunuly se společně</translation>
     </message>
 </context>
 <context>
     <name>ComparisonModel</name>
     <message>
-        <location filename="../history/comparison_model.py" line="44"/>
-        <source>First [m]</source>
-        <translation>První [m]</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_model.py" line="44"/>
-        <source>Second [m]</source>
-        <translation>Druhý [m]</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_model.py" line="44"/>
-        <source>Difference [m]</source>
-        <translation>Rozdíl [m]</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_model.py" line="44"/>
+        <location filename="../history/comparison_model.py" line="50"/>
         <source>Second test</source>
         <translation>Druhý test</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="50"/>
+        <source>Difference</source>
+        <translation>Rozdíl</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="50"/>
+        <source>Chance among all</source>
+        <translation>p mezi všemi</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="50"/>
+        <source>First</source>
+        <translation>První</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_model.py" line="50"/>
+        <source>Second</source>
+        <translation>Druhý</translation>
     </message>
 </context>
 <context>
     <name>ComparisonWindow</name>
     <message>
-        <location filename="../history/comparison_window.py" line="31"/>
+        <location filename="../history/comparison_window.py" line="29"/>
         <source>Two tests compared</source>
         <translation>Porovnání dvou testů</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="33"/>
-        <source>Difference of each distance</source>
-        <translation>Rozdíl každé vzdálenosti</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_window.py" line="49"/>
+        <location filename="../history/comparison_window.py" line="46"/>
         <source>First: {test}</source>
         <translation>První: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="50"/>
+        <location filename="../history/comparison_window.py" line="47"/>
         <source>Second: {test}</source>
         <translation>Druhý: {test}</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="53"/>
-        <source>{counts}. By chance alone about {expected} would differ.</source>
-        <translation>{counts}. Jen náhodou by se jich lišilo asi {expected}.</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_window.py" line="55"/>
-        <source>A distance is called farther or nearer in the second test only where the whole 95 % interval of its difference is on that side of zero.</source>
-        <translation>Vzdálenost je v druhém testu označena dále nebo blíže jen tam, kde celý 95% interval rozdílu leží na té straně nuly.</translation>
-    </message>
-    <message>
-        <location filename="../history/comparison_window.py" line="59"/>
+        <location filename="../history/comparison_window.py" line="56"/>
         <source>Lines of one test only: {first} of the first, {second} of the second.</source>
         <translation>Přímky jen jednoho testu: {first} prvního, {second} druhého.</translation>
     </message>
     <message>
-        <location filename="../history/comparison_window.py" line="51"/>
+        <location filename="../history/comparison_window.py" line="48"/>
         <source>{count} {change}</source>
         <translation>{count}krát {change}</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="31"/>
+        <source>Differences of distances, sides and areas</source>
+        <translation>Rozdíly vzdáleností, stran a ploch</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="50"/>
+        <source>Distances one by one: {counts}.</source>
+        <translation>Vzdálenosti jednotlivě: {counts}.</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="51"/>
+        <source>Farther or nearer: the whole 95 % interval of the difference is on that side of zero. A star marks what also differs among all rows (Holm&apos;s correction); without a true difference, 95 of 100 comparisons have no star.</source>
+        <translation>Dále nebo blíže: celý 95% interval rozdílu leží na té straně nuly. Hvězdička označuje, co se liší i mezi všemi řádky (Holmova korekce); bez skutečného rozdílu nemá 95 ze 100 porovnání žádnou hvězdičku.</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="66"/>
+        <source>No difference is shown among all rows.</source>
+        <translation>Mezi všemi řádky není prokázán žádný rozdíl.</translation>
+    </message>
+    <message>
+        <location filename="../history/comparison_window.py" line="69"/>
+        <source>Different among all rows: {names}.</source>
+        <translation>Mezi všemi řádky se liší: {names}.</translation>
     </message>
 </context>
 <context>
@@ -5604,23 +5624,8 @@
     </message>
     <message>
         <location filename="../texts/identity.py" line="20"/>
-        <source>A test of the scenario {} and one of {} cannot be compared; choose two of one scenario.</source>
-        <translation>Test scénáře {} nelze porovnat s testem scénáře {}; vyberte dva téhož scénáře.</translation>
-    </message>
-    <message>
-        <location filename="../texts/identity.py" line="20"/>
         <source>A test that has measured nothing cannot be compared.</source>
         <translation>Test, který nic nezměřil, nelze porovnat.</translation>
-    </message>
-    <message>
-        <location filename="../texts/identity.py" line="20"/>
-        <source>It is invalid in test {}.</source>
-        <translation>V testu {} je neplatná.</translation>
-    </message>
-    <message>
-        <location filename="../texts/identity.py" line="20"/>
-        <source>Test {} does not say how sure this distance is.</source>
-        <translation>Test {} neříká, jak jistá tato vzdálenost je.</translation>
     </message>
     <message>
         <location filename="../texts/identity.py" line="20"/>
@@ -8072,6 +8077,61 @@
         <source>The robot has no hand-held emergency stop, so no test begins. Start it with its controller (controller:=true).</source>
         <translation>Robot nemá ruční nouzové zastavení, proto žádná zkouška nezačne. Spusťte jej s ovladačem (controller:=true).</translation>
     </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>Side {}: {}</source>
+        <translation>Strana {}: {}</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>The line is invalid.</source>
+        <translation>Přímka je neplatná.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>The key worked on no line of this test; it may have been asleep.</source>
+        <translation>Klíč nefungoval na žádné přímce tohoto testu; možná spal.</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>front side</source>
+        <translation>přední strana</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>right side</source>
+        <translation>pravá strana</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>rear side</source>
+        <translation>zadní strana</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>left side</source>
+        <translation>levá strana</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>all lines</source>
+        <translation>všechny přímky</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>area</source>
+        <translation>plocha</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>area at {} m</source>
+        <translation>plocha ve výšce {} m</translation>
+    </message>
+    <message>
+        <location filename="../texts/identity.py" line="20"/>
+        <source>A side of the comparison has no test.</source>
+        <translation>Jedna strana porovnání nemá žádný test.</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -9203,6 +9263,11 @@
         <location filename="../texts/words.py" line="7"/>
         <source>door</source>
         <translation>dveře</translation>
+    </message>
+    <message>
+        <location filename="../texts/words.py" line="7"/>
+        <source>coverage</source>
+        <translation>pokrytí</translation>
     </message>
 </context>
 </TS>

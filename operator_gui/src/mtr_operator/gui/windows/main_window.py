@@ -11,8 +11,8 @@ from PyQt5.QtGui import QCloseEvent
 from PyQt5.QtWidgets import QDialog, QMainWindow, QStackedWidget, QVBoxLayout, QWidget
 
 from mtr_operator.domain.scenarios import SCENARIOS
-from mtr_operator.history.comparison import Comparison
 from mtr_operator.history.line_pairs import Side
+from mtr_operator.history.statistics.comparison import Comparison
 from mtr_operator.station.readiness import RUNNING
 from mtr_operator.station.test import Test
 

@@ -16,7 +16,7 @@ from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.history.estimate import Estimate, Known, estimate
 from mtr_operator.history.same_lines import Tests
 
-from .change import Change, change
+from .difference import Difference, difference
 from .neighbours import Neighbours, moved_most
 from .same_passes import Events, events_of, moved
 from .sides import SideLines
@@ -24,12 +24,13 @@ from .sides import SideLines
 
 @dataclass(frozen=True)
 class SideMean:
-    """Attributes: distances: number of averaged distances. first, second: of both sets. change: second less first."""
+    """Attributes: distances: number of averaged distances. first, second: of both sets. difference: second less
+    first."""
 
     distances: int
     first: Estimate
     second: Estimate
-    change: Change
+    difference: Difference
 
 
 def side_mean(tests: Tests, split: int, side: SideLines, words: Sequence[str]) -> SideMean | None:
@@ -43,7 +44,7 @@ def side_mean(tests: Tests, split: int, side: SideLines, words: Sequence[str]) -
     known = [mean_of([found for part in parts if (found := tests.distance(test, *part)) is not None])
              for test in range(len(tests.sides))]
     first, second = estimate(known[:split]), estimate(known[split:])
-    return SideMean(len(parts), first, second, change(first, second))
+    return SideMean(len(parts), first, second, difference(first, second))
 
 
 def neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> Neighbours | None:

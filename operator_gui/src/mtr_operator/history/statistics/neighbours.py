@@ -24,7 +24,7 @@ from scipy.special import fdtrc
 
 from mtr_operator.history.estimate import Estimate
 
-from .change import Change
+from .difference import Difference
 from .multiplicity import ALPHA
 from .same_passes import Events, Floats, estimate_of, spread_of, summed
 
@@ -42,7 +42,7 @@ class Neighbours:
     numbers: tuple[int, ...]
     first: Estimate
     second: Estimate
-    change: Change
+    difference: Difference
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ def moved_most(events: OfLines, sides: Sequence[Sequence[int]], split: int, last
     means = _means(events, runs[largest], noise)
     first, second = (estimate_of(part, summed(noise.of_line[0] / len(runs[largest]) / len(part), freedom,
                                               lasting ** 2)) for part in (means[:split], means[split:]))
-    return Neighbours(runs[largest], first, second, Change(value, value - low, value + low, chance))
+    return Neighbours(runs[largest], first, second, Difference(value, value - low, value + low, chance))
 
 
 def _runs(side: Sequence[int], events: OfLines) -> list[tuple[int, ...]]:

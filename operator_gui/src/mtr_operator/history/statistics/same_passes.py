@@ -29,7 +29,7 @@ from mtr_operator.domain.estimation.student import quantile
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.history.estimate import Estimate
 
-from .change import Change
+from .difference import Difference
 from .multiplicity import ALPHA, chance
 
 Floats = npt.NDArray[np.float64]
@@ -79,7 +79,7 @@ def _is_same(first_mps: float, second_mps: float) -> bool:
     return abs(first_mps - second_mps) <= _SAME_SPEED * max(first_mps, second_mps)
 
 
-def moved(words: Sequence[Sequence[Events]], split: int, lasting: float) -> tuple[Estimate, Estimate, Change]:
+def moved(words: Sequence[Sequence[Events]], split: int, lasting: float) -> tuple[Estimate, Estimate, Difference]:
     """Return the means over the lines of all words in the first tests and in the others, and their difference.
 
     words: lines of each word, at least one. split: number of first tests. lasting: 1 sigma of the error that all lines
@@ -96,8 +96,8 @@ def moved(words: Sequence[Sequence[Events]], split: int, lasting: float) -> tupl
     value = float(np.mean(sides[1]) - np.mean(sides[0]))
     sigma, freedom = summed(sum(noise / len(side) for side in sides), freedom, 2.0 * lasting ** 2)
     reach = quantile(freedom) * sigma
-    return first, second, Change(value, value - reach, value + reach,
-                                 chance(value, value - reach, value + reach, freedom))
+    return first, second, Difference(value, value - reach, value + reach,
+                                     chance(value, value - reach, value + reach, freedom))
 
 
 def _variance_of_test(words: Sequence[Sequence[Events]], count: int) -> tuple[float, float]:

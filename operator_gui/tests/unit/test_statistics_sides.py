@@ -12,12 +12,13 @@ import pytest
 from mtr_operator.domain.identity.identity import Identity
 from mtr_operator.domain.scenarios import SCENARIOS
 from mtr_operator.history.estimate import Known, estimate
-from mtr_results.statistics.change import change
-from mtr_results.statistics.comparison import AREA, DISTANCE, FARTHER, NEARER, SIDE, compare_sets
-from mtr_results.statistics.multiplicity import holm
-from mtr_results.statistics.same_passes import Events, events_of, moved
-from mtr_results.statistics.side_means import mean_of
-from mtr_results.statistics.sides import sides_of
+from mtr_operator.history.statistics.comparison import compare_sets
+from mtr_operator.history.statistics.difference import Change, difference
+from mtr_operator.history.statistics.multiplicity import holm
+from mtr_operator.history.statistics.row import AREA, DISTANCE, SIDE
+from mtr_operator.history.statistics.same_passes import Events, events_of, moved
+from mtr_operator.history.statistics.side_means import mean_of
+from mtr_operator.history.statistics.sides import sides_of
 
 LEFT = range(11, 16)
 # Noise of a fast and of a slow pass.
@@ -52,7 +53,7 @@ def test_holm_with_weights_gives_a_part_its_share():
 def test_all_quantities_are_one_family():
     found = compare_sets([measured.side(5.0, 5.0, 5.0, 5.0)], [measured.side(5.0, 5.0, 5.0, 3.85)])
     line = rows(found, DISTANCE)["radial 4 press"]
-    assert line.adjusted == pytest.approx(line.change.chance * (4 + 1) * 2, rel=1e-6)
+    assert line.adjusted == pytest.approx(line.difference.chance * (4 + 1) * 2, rel=1e-6)
     assert [row.is_leading for row in found.rows if row.quantity != DISTANCE] == [True, False]
 
 
@@ -78,10 +79,10 @@ def test_what_both_sides_have_alike_leaves_their_difference():
     alone, alike = 0.1, 0.3
     half = 1.959964 * math.hypot(alone, alike)
     known = [Known(value, value, value, (value - half, value + half), alike, alike, alike) for value in (5.0, 5.5)]
-    found = change(*(estimate([each]) for each in known))
+    found = difference(*(estimate([each]) for each in known))
     assert found.high - 0.5 == pytest.approx(1.959964 * alone * math.sqrt(2.0))
     other = [dataclasses.replace(each, alike=0.0) for each in known]
-    assert change(*(estimate([each]) for each in other)).high - 0.5 == pytest.approx(half * math.sqrt(2.0))
+    assert difference(*(estimate([each]) for each in other)).high - 0.5 == pytest.approx(half * math.sqrt(2.0))
 
 
 @pytest.mark.parametrize("tests, split, noises_m", [(2, 1, NOISES_M), (2, 1, (0.05, 0.1, 0.3)), (6, 3, NOISES_M)])
@@ -121,8 +122,9 @@ def test_weaker_antenna_moves_its_side_and_no_other():
     generator = random.Random(2)
     found = compare_sets([noisy(generator) for _ in range(3)], [noisy(generator, weaker_m=0.2) for _ in range(3)])
     sides = rows(found)
-    assert sides["left side unlock and lock"].verdict == NEARER and sides["left side unlock and lock"].is_different
-    assert sides["left side unlock and lock"].change.value == pytest.approx(-0.2, abs=0.08)
+    left = sides["left side unlock and lock"]
+    assert left.change is Change.NEARER and left.is_different
+    assert left.difference.value == pytest.approx(-0.2, abs=0.08)
     assert not sides["right side unlock and lock"].is_different
 
 
@@ -135,7 +137,7 @@ def test_chance_alone_makes_a_difference_in_at_most_5_of_100_comparisons_of_sing
 
 def test_outline_is_alike_for_the_same_car_only_and_as_far_as_it_was_mapped_alike():
     def width(second, name="left side unlock", quantity=SIDE):
-        change_of = rows(compare_sets([noisy(random.Random(1))], [second]), quantity)[name].change
+        change_of = rows(compare_sets([noisy(random.Random(1))], [second]), quantity)[name].difference
         return change_of.high - change_of.low
     same = noisy(random.Random(2))
     other = noisy(random.Random(2), identity=Identity(car_model="Polo"))
@@ -153,5 +155,5 @@ def test_area_has_the_timing_of_the_car_alike_on_all_lines():
 
 def test_side_that_is_farther_is_so_by_key_presses_too():
     found = rows(compare_sets([measured.side(*[5.0] * 8, lines=8)], [measured.side(*[5.6] * 8, lines=8)]))
-    assert found["left side press"].verdict == FARTHER and found["left side press"].is_different
-    assert found["all lines press"].change.value == pytest.approx(0.6)
+    assert found["left side press"].change is Change.FARTHER and found["left side press"].is_different
+    assert found["all lines press"].difference.value == pytest.approx(0.6)

@@ -17,58 +17,22 @@ from typing import Any, Sequence
 
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.history.circumstances import Circumstance, circumstances_of_sets
-from mtr_operator.history.estimate import Estimate, Known, estimate
+from mtr_operator.history.estimate import NOT_MEASURED, Estimate, Known, estimate
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.history.same_lines import Tests
 from mtr_operator.report.table import line_name
 
 from .areas import area, rings
-from .change import Change, change
+from .difference import Change, difference
 from .multiplicity import ALPHA, holm
+from .row import AREA, COVERAGE, DISTANCE, NEIGHBOURS, SIDE, Row
 from .side_means import neighbours, side_mean
 from .sides import SideLines, sides_of
 
 # Share of the 5 % of a family for runs of adjacent lines if they can be evaluated, otherwise for means of sides.
 _NEIGHBOURS_SHARE, _SIDES_SHARE = 0.6, 0.5
-FARTHER, NEARER, NOT_SHOWN, NOT_KNOWN = "farther", "nearer", "no difference shown", "not known"
-DISTANCE, NEIGHBOURS, SIDE, AREA, COVERAGE = "distance", "neighbours", "side", "area", "coverage"
-UNITS = {DISTANCE: "m", NEIGHBOURS: "m", SIDE: "m", AREA: "m\N{SUPERSCRIPT TWO}", COVERAGE: ""}
-
-
-@dataclass(frozen=True)
-class Row:
-    """One quantity in both sets.
-
-    Attributes:
-        quantity: DISTANCE, SIDE, AREA or COVERAGE. line: number in the first test, None for several. name: for a
-            person. word: name of the distance; a mean over several distances has all their names. is_leading: one of
-            the means with the larger share of the error rate. adjusted: p-value of the difference among all rows.
-    """
-
-    quantity: str
-    line: int | None
-    name: str
-    word: str
-    first: Estimate
-    second: Estimate
-    change: Change
-    is_leading: bool = False
-    adjusted: float = 1.0
-
-    @property
-    def verdict(self) -> str:
-        """Return the result for this row alone."""
-        if self.change.reason or (self.first.is_open and self.second.is_open and self.change.chance > ALPHA
-                                  and self.change.value is None):
-            return NOT_KNOWN
-        if self.change.low > 0.0:
-            return FARTHER
-        return NEARER if self.change.high < 0.0 else NOT_SHOWN
-
-    @property
-    def is_different(self) -> bool:
-        """True if the row also differs among all rows."""
-        return self.verdict in (FARTHER, NEARER) and self.adjusted <= ALPHA
+# Names of differing quantities in the summary.
+MAX_NAMED = 8
 
 
 @dataclass(frozen=True)
@@ -91,16 +55,31 @@ class Comparison:
     @property
     def is_different(self) -> bool:
         """True if a distance, an area or a coverage differs after the correction for the number of comparisons."""
-        return any(row.is_different for row in self.rows)
+        return bool(self.different)
 
-    def counts(self) -> dict[str, int]:
-        """Return the number of distances per verdict."""
-        return dict(collections.Counter(row.verdict for row in self.rows if row.quantity == DISTANCE))
+    @property
+    def distances(self) -> list[Row]:
+        """Return the rows of single distances, line by line."""
+        return [row for row in self.rows if row.quantity == DISTANCE]
+
+    def counts(self) -> dict[Change, int]:
+        """Return the number of distances per result for the distance alone."""
+        return dict(collections.Counter(row.change for row in self.distances))
+
+    @property
+    def different(self) -> list[Row]:
+        """Return the rows that differ after the correction for the number of comparisons."""
+        return [row for row in self.rows if row.is_different]
+
+    @property
+    def expected_by_chance(self) -> float:
+        """Mean number of distances whose intervals would exclude zero without a true difference."""
+        return ALPHA * sum(number for change, number in self.counts().items() if change is not Change.NOT_KNOWN)
 
     @property
     def reasons(self) -> list[str]:
         """Return the reasons why some quantities cannot be compared, each sentence once."""
-        return list(dict.fromkeys(row.change.reason for row in self.rows if row.change.reason))
+        return list(dict.fromkeys(row.difference.reason for row in self.rows if row.difference.reason))
 
     @property
     def differing(self) -> list[Circumstance]:
@@ -110,19 +89,19 @@ class Comparison:
     @property
     def summary(self) -> str:
         """Return the result as one sentence."""
-        counts = ", ".join(f"{number} {verdict}" for verdict, number in self.counts().items()) or "no line in common"
-        remaining = [row for row in self.rows if row.is_different]
-        if not remaining:
+        counts = ", ".join(f"{number} {change.value}" for change, number in self.counts().items())
+        counts = counts or "no line in common"
+        if not self.different:
             return f"No difference is shown: {counts} of the distances one by one, and none among all of them (Holm)."
-        named = ", ".join(f"{row.name} {row.word}".strip() for row in remaining[:8])
-        return (f"Different among all (Holm): {named}{' and more' if len(remaining) > 8 else ''}; one by one the "
-                f"distances are: {counts}.")
+        named = ", ".join(f"{row.title} {row.word}".strip() for row in self.different[:MAX_NAMED])
+        more = " and more" if len(self.different) > MAX_NAMED else ""
+        return f"Different among all (Holm): {named}{more}; one by one the distances are: {counts}."
 
 
 def compare_sets(first: Sequence[Side], second: Sequence[Side]) -> Comparison:
     """Compare two sets; OperatorError if they cannot be compared."""
     if not first or not second:
-        raise OperatorError("A side of the comparison has no test; mtr-results list shows what there is.")
+        raise OperatorError("A side of the comparison has no test.")
     tests = Tests([*first, *second])
     split = len(first)
     lines = [line for line in tests.first.scenario.lines(tests.first.parameters, tests.first.progress.measured_car)
@@ -137,24 +116,38 @@ def _in_both(tests: Tests, split: int, line: int) -> bool:
     return all(any(line in results for results in side) for side in (tests.results[:split], tests.results[split:]))
 
 
-def _row(what: tuple[str, int | None, str, str], known: Sequence[Known | None], split: int) -> Row:
-    first, second = (estimate([each for each in side if each is not None]) for side in (known[:split], known[split:]))
-    return Row(*what, first, second, change(first, second))
-
-
 def _distances(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
-    return [_row((DISTANCE, line.number, _name(tests, line.number), word),
-                 [tests.distance(test, line.number, word) for test in range(len(tests.sides))], split)
-            for line in lines for word in tests.words]
+    return [_distance(tests, split, line.number, word) for line in lines for word in tests.words]
+
+
+def _distance(tests: Tests, split: int, line: int, word: str) -> Row:
+    first, second = (_estimate(tests, side, line, word) for side in _halves(tests, split))
+    return Row(DISTANCE, (line,), _name(tests, line), (word,), first, second, difference(first, second))
+
+
+def _halves(tests: Tests, split: int) -> tuple[range, range]:
+    """Return the indices of the tests of both sets."""
+    return range(split), range(split, len(tests.sides))
+
+
+def _estimate(tests: Tests, side: Sequence[int], line: int, word: str) -> Estimate:
+    known = [each for test in side if (each := tests.distance(test, line, word)) is not None]
+    return estimate(known, tests.why_unknown(side[0], line, word) if len(side) == 1 and not known else NOT_MEASURED)
+
+
+def _row(what: tuple[str, tuple[int, ...], str, tuple[str, ...]], known: Sequence[Known | None], split: int) -> Row:
+    first, second = (estimate([each for each in side if each is not None]) for side in (known[:split], known[split:]))
+    return Row(*what, first, second, difference(first, second))
 
 
 def _areas(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
     rows = []
     for height, ring in rings(lines):
         name = "area" if height is None else f"area at {height:.2f} m"
+        numbers = tuple(line.number for line in ring)
         for word in tests.words:
             known = [area(ring, _known(tests, test, ring, word)) for test in range(len(tests.sides))]
-            rows.append(_row((AREA, None, name, word), known, split))
+            rows.append(_row((AREA, numbers, name, (word,)), known, split))
     return rows
 
 
@@ -168,7 +161,7 @@ def _coverages(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
     for line in lines:
         known = [tests.coverage(test, line.number) for test in range(len(tests.sides))]
         if any(known):
-            rows.append(_row((COVERAGE, line.number, _name(tests, line.number), "coverage"), known, split))
+            rows.append(_row((COVERAGE, (line.number,), _name(tests, line.number), ("coverage",)), known, split))
     return rows
 
 
@@ -177,14 +170,13 @@ def _sides(tests: Tests, split: int, lines: Sequence[Any]) -> list[Row]:
     sides = list(sides_of(lines, tests.first.progress.measured_car))
     rows = _neighbours(tests, split, sides)
     is_leading = not rows
-    choices = [tests.words, *([(word,) for word in tests.words] if len(tests.words) > 1 else [])]
+    choices: list[tuple[str, ...]] = [tests.words, *([(word,) for word in tests.words] if len(tests.words) > 1 else [])]
     for side in sides:
         for words in choices:
             found = side_mean(tests, split, side, words)
             if found is not None:
-                rows.append(Row(SIDE, None, f"{side.name} ({found.distances} distances)", " and ".join(words),
-                                found.first, found.second, found.change,
-                                is_leading=is_leading and words == tests.words))
+                rows.append(Row(SIDE, side.numbers, side.name, words, found.first, found.second, found.difference,
+                                found.distances, is_leading and words == tests.words))
     return rows
 
 
@@ -194,18 +186,17 @@ def _neighbours(tests: Tests, split: int, sides: Sequence[SideLines]) -> list[Ro
     if found is None:
         return []
     first, last = (_name(tests, number) for number in (found.numbers[0], found.numbers[-1]))
-    count = len(found.numbers) * len(tests.words)
-    return [Row(NEIGHBOURS, None, f"most moved together: {first} to {last} ({count} distances)",
-                " and ".join(tests.words), found.first, found.second, found.change, is_leading=True)]
+    return [Row(NEIGHBOURS, found.numbers, f"most moved together: {first} to {last}", tests.words, found.first,
+                found.second, found.difference, len(found.numbers) * len(tests.words), is_leading=True)]
 
 
 def _adjusted(rows: Sequence[Row]) -> list[Row]:
     """Apply Holm's correction; leading rows, if any, get their share of the error rate."""
-    known = [row for row in rows if not row.change.reason]
+    known = [row for row in rows if not row.difference.reason]
     numbers = collections.Counter(row.is_leading for row in known)
     leading = _NEIGHBOURS_SHARE if any(row.quantity == NEIGHBOURS for row in known) else _SIDES_SHARE
     parts = {True: leading, False: 1.0 - leading}
-    adjusted = holm([row.change.chance for row in known],
+    adjusted = holm([row.difference.chance for row in known],
                     [parts[row.is_leading] / numbers[row.is_leading] for row in known])
     of_known = dict(zip(map(id, known), adjusted))
     return [replace(row, adjusted=of_known.get(id(row), 1.0)) for row in rows]
