@@ -118,7 +118,7 @@ def test_passes_are_recorded_as_the_first_ones_distance_and_to_micrometres_per_s
     assert result.lock_pass_distances_m[0] == result.lock_distance_m == round(result.lock_distance_m, 6)
 
 
-# Speeds and prospect
+# Speeds and forecast
 
 
 def test_single_pass_has_the_speed_that_is_given():
@@ -130,10 +130,10 @@ def test_single_pass_has_the_speed_that_is_given():
 def test_axes_that_are_measured_say_how_wide_the_intervals_of_the_others_will_be():
     wide = replace(axis((1.3,), (0.4,)), unlock_static_m=1.5, unlock_static_low_m=1.3, unlock_static_high_m=1.7,
                    lock_static_m=2.5, lock_static_low_m=2.45, lock_static_high_m=2.55)
-    prospect = SCENARIO.prospect(TWO, LockFacts(told_every_s=0.2), [wide])
-    assert prospect.interval_m == pytest.approx((0.05, 0.2))
+    forecast = SCENARIO.forecast(TWO, LockFacts(told_every_s=0.2), [wide])
+    assert forecast.interval_m == pytest.approx((0.05, 0.2))
     nowhere = replace(wide, unlock_static_m=None, unlock_static_low_m=None, unlock_static_high_m=None)
-    assert SCENARIO.prospect(TWO, LockFacts(told_every_s=0.2), [nowhere]).interval_m == pytest.approx((0.05, 0.05))
+    assert SCENARIO.forecast(TWO, LockFacts(told_every_s=0.2), [nowhere]).interval_m == pytest.approx((0.05, 0.05))
 
 
 def unlocked(status):

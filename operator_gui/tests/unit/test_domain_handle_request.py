@@ -317,8 +317,8 @@ def test_interval_that_cannot_be_reached_is_told_before_the_start():
     too_few = replace(PARAMETERS, interval_m=0.02, attempts_limit=6, border_requests=0)
     sentence, = SCENARIO.cautions(too_few, LockFacts())
     assert sentence.startswith("6 requests on each axis reach an interval of")
-    prospect = SCENARIO.prospect(PARAMETERS, LockFacts(), ())
-    assert 2 < prospect.attempts[0] <= prospect.attempts[1] <= PARAMETERS.attempts_limit
+    forecast = SCENARIO.forecast(PARAMETERS, LockFacts(), ())
+    assert 2 < forecast.attempts[0] <= forecast.attempts[1] <= PARAMETERS.attempts_limit
 
 
 @pytest.mark.parametrize(("values", "words"), [

@@ -74,7 +74,7 @@ def test_who_took_the_handle_first_is_told_when_nobody_had_to_again(measured):
 
 
 def test_axis_is_expected_to_take_the_middle_of_what_the_planner_says():
-    shortest_s, longest_s = SCENARIO.prospect(PARAMETERS, LockFacts(), ()).line_s
+    shortest_s, longest_s = SCENARIO.forecast(PARAMETERS, LockFacts(), ()).line_s
     assert shortest_s < SCENARIO.expected_line_s(PARAMETERS) < longest_s
     assert SCENARIO.expected_line_s(PARAMETERS) - shortest_s == pytest.approx(
         longest_s - SCENARIO.expected_line_s(PARAMETERS))

@@ -18,8 +18,8 @@ from mtr_operator.domain.scenarios.key_press import SCENARIO
 from mtr_operator.domain.scenarios.key_press_parameters import KeyPressParameters
 from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.domain.scenarios.line_search import search
+from mtr_operator.domain.scenarios.line_search.forecast import UsualWidths, search_forecast
 from mtr_operator.domain.scenarios.line_search.moves import drive, wake_key
-from mtr_operator.domain.scenarios.line_search.prospect import UsualWidths, prospect
 from mtr_operator.domain.scenarios.press.radial import WIDTHS
 
 CAR = CarDimensions(4.5, 1.8, 0.02, 0.01)
@@ -188,17 +188,18 @@ def test_widths_of_the_radials_that_are_measured_stand_for_those_of_the_others()
         # The width is that from 90 to 10 %, and d95 lies ln 19 of the logistic curve's scales before d50.
         return radial(1, 6.0, 6.0 - width_m / (2.0 * math.log(9.0)) * math.log(19.0))
     measured = [of_width(width_m) for width_m in (0.5, 1.5, 5.0)]
-    found = SCENARIO.prospect(PARAMETERS, LockFacts(), [*measured, radial(4, 6.0), radial(5)])
-    expected = prospect(PARAMETERS.search_plan, UsualWidths(1.5, 9.0, 1.5), ())
+    found = SCENARIO.forecast(PARAMETERS, LockFacts(), [*measured, radial(4, 6.0), radial(5)])
+    expected = search_forecast(PARAMETERS.search_plan, UsualWidths(1.5, 9.0, 1.5), ())
     assert found.attempts == expected.attempts and found.interval_m == pytest.approx(expected.interval_m)
     assert found.line_s == pytest.approx(expected.line_s)
-    assert found != SCENARIO.prospect(PARAMETERS, LockFacts(), ())
+    assert found != SCENARIO.forecast(PARAMETERS, LockFacts(), ())
 
 
-def test_prospect_before_the_first_radial_is_from_a_sharp_to_a_soft_end_of_the_range():
-    assert SCENARIO.prospect(PARAMETERS, LockFacts(), ()) == prospect(PARAMETERS.search_plan, WIDTHS, ())
-    sharp, soft = (prospect(PARAMETERS.search_plan, UsualWidths(width_m, 1.0, width_m), ()) for width_m in (0.4, 2.2))
-    both = prospect(PARAMETERS.search_plan, UsualWidths(0.4, 1.0, 2.2), ())
+def test_forecast_before_the_first_radial_is_from_a_sharp_to_a_soft_end_of_the_range():
+    assert SCENARIO.forecast(PARAMETERS, LockFacts(), ()) == search_forecast(PARAMETERS.search_plan, WIDTHS, ())
+    sharp, soft = (search_forecast(PARAMETERS.search_plan, UsualWidths(width_m, 1.0, width_m), ())
+                   for width_m in (0.4, 2.2))
+    both = search_forecast(PARAMETERS.search_plan, UsualWidths(0.4, 1.0, 2.2), ())
     assert (both.attempts, both.interval_m, both.line_s) == (
         (sharp.attempts[0], soft.attempts[1]), (sharp.interval_m[0], soft.interval_m[1]),
         (sharp.line_s[0], soft.line_s[1]))
@@ -206,7 +207,7 @@ def test_prospect_before_the_first_radial_is_from_a_sharp_to_a_soft_end_of_the_r
 
 def test_scan_has_no_interval_and_no_cautions_and_its_radials_say_nothing_of_each_other():
     scan = replace(PARAMETERS, method="scan", attempts_limit=6)
-    assert SCENARIO.prospect(scan, LockFacts(), ()).interval_m is None and SCENARIO.cautions(scan, LockFacts()) == ()
+    assert SCENARIO.forecast(scan, LockFacts(), ()).interval_m is None and SCENARIO.cautions(scan, LockFacts()) == ()
     assert SCENARIO.concluded(scan, [radial(1, 5.0, 4.0, worked_at_m=(4.0,), failed_at_m=(6.0,))]) == ()
     assert SCENARIO.can_go_on(SCENARIO.lines(scan, CAR)[0], scan, None, None) is False
 

@@ -166,9 +166,9 @@ def test_picture_shows_where_the_key_was_held():
     assert len(invalid.points) == 1
 
 
-def test_prospect_counts_trials_and_rests_of_keys_that_sleep_soon_late_or_never():
-    prospect = SCENARIO.prospect(SleepTimeParameters(), LockFacts(), ())
-    few, many = prospect.attempts
-    shortest_s, longest_s = prospect.line_s
+def test_forecast_counts_trials_and_rests_of_keys_that_sleep_soon_late_or_never():
+    forecast = SCENARIO.forecast(SleepTimeParameters(), LockFacts(), ())
+    few, many = forecast.attempts
+    shortest_s, longest_s = forecast.line_s
     assert 4 <= few < many <= 24 and shortest_s < 600.0 and longest_s > 3600.0
     assert shortest_s < SCENARIO.expected_line_s(SleepTimeParameters()) < longest_s

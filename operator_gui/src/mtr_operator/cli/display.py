@@ -15,7 +15,7 @@ from mtr_operator.domain.robot_status import Mode, RobotStatus
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 from mtr_operator.report.table import line_text
 
-from .planning import Outlook
+from .planning import RunForecast
 
 _SEVERITY = {2: " warning", 3: " error"}
 _SILENCE_REPEATED_S = 10.0
@@ -25,7 +25,7 @@ _BAR = "{n_fmt} of {total_fmt} |{bar:20}| {remaining} left{postfix}"
 class Display(RunObserver):
     """Shows lines done, the present action, and each sentence of the robot once; scenario: None without lines.
 
-    Attributes: outlook: says after each line what is still to be expected; None: nothing.
+    Attributes: forecast: says after each line what is still to be expected; None: nothing.
     """
 
     def __init__(self, scenario: AnyScenario | None, stream: TextIO | None = None,
@@ -38,7 +38,7 @@ class Display(RunObserver):
         self._notified: dict[str, str] = {}
         self._silence_shown_s = 0.0
         self._robot_session_id = 0
-        self.outlook: Outlook | None = None
+        self.forecast: RunForecast | None = None
 
     def close(self) -> None:
         """End the bar; safe to call twice."""
@@ -49,8 +49,8 @@ class Display(RunObserver):
     def on_plan(self, done: int, total: int) -> None:
         """See RunObserver."""
         self.say(f"{total - done} of {total} lines to measure")
-        if self.outlook is not None:
-            self.outlook.on_plan(done)
+        if self.forecast is not None:
+            self.forecast.on_plan(done)
         if self._scenario is not None and self._stream.isatty():
             self._bar = tqdm.tqdm(total=total, initial=done, unit=self._scenario.line_word, file=self._stream,
                                   dynamic_ncols=True, bar_format=_BAR)
@@ -66,7 +66,7 @@ class Display(RunObserver):
         """See RunObserver."""
         if self._scenario is not None:
             self.say(f"[{done}/{total}] {line_text(self._scenario, result, self._parameters)}")
-        expected = "" if self.outlook is None else self.outlook.after_line(done)
+        expected = "" if self.forecast is None else self.forecast.after_line(done)
         if expected:
             self.say(expected)
         if self._bar is not None:
@@ -74,8 +74,8 @@ class Display(RunObserver):
 
     def on_status(self, status: RobotStatus) -> None:
         """See RunObserver."""
-        if self.outlook is not None:
-            self.outlook.on_status(status)
+        if self.forecast is not None:
+            self.forecast.on_status(status)
         if status.robot_session_id != self._robot_session_id:
             self._robot_session_id = status.robot_session_id
             self._logged.clear()

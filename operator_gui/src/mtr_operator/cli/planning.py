@@ -37,15 +37,15 @@ def plan_lines(scenario: AnyScenario, planned: Plan) -> Iterator[str]:
     """Lines, time, attempts and intervals, and a warning for each thing that the parameters cannot give."""
     count = len(planned.stretches)
     yield f"{count} lines ({scenario.line_word}), about {duration_text(planned.duration_s)} of robot time"
-    if planned.prospect is not None:
-        few, many = (count * attempts for attempts in planned.prospect.attempts)
-        yield planned.prospect.text
+    if planned.forecast is not None:
+        few, many = (count * attempts for attempts in planned.forecast.attempts)
+        yield planned.forecast.text
         yield f"attempts in all: {few if few == many else f'{few} to {many}'}"
     for caution in planned.cautions:
         yield f"warning: {caution}"
 
 
-class Outlook:
+class RunForecast:
     """What is still to be expected of one test, from the model and from what is measured."""
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, facts: LockFacts, progress: Progress):
@@ -85,8 +85,8 @@ class Outlook:
         return f"expected: about {duration_text(left_s)} left; {self._lines_text()}" if left_s else ""
 
     def _lines_text(self) -> str:
-        prospect = self._scenario.prospect(self._parameters, self._facts, self._progress.results)
-        return "nobody knows how many attempts" if prospect is None else prospect.text
+        forecast = self._scenario.forecast(self._parameters, self._facts, self._progress.results)
+        return "nobody knows how many attempts" if forecast is None else forecast.text
 
 
 def duration_text(seconds: float) -> str:

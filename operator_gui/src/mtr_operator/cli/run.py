@@ -46,7 +46,7 @@ from .handle import HandleQuestion
 from .identity import RunIdentity
 from .interrupt import Interrupt
 from .links import car_link, lives_in_real_time, phone_feed, robot_link
-from .planning import Outlook
+from .planning import RunForecast
 from .records.evidence import write_for
 from .release import PresenceQuestion, Release
 
@@ -141,8 +141,8 @@ class CommandLineRun:
             loop.supervision = self._supervision(display, enter, loop.status)
             rejected_before = loop.status.rejected_messages
             self._progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)
-            display.outlook = Outlook(self._scenario, self._parameters, car.facts, self._progress)
-            display.say(display.outlook.before(loop.status))
+            display.forecast = RunForecast(self._scenario, self._parameters, car.facts, self._progress)
+            display.say(display.forecast.before(loop.status))
             try:
                 with events.told_to(self._recording.event), run_told(events, self._progress.has_findings), \
                         JournalBeside(store) as journal:

@@ -8,9 +8,9 @@ from typing import Any, Generator, Generic, Protocol, Sequence, TypeVar
 from .actions.car import Car
 from .actions.robot import Robot
 from .actions.tolerances import Tolerances
+from .forecast import Forecast
 from .geometry.ray import Ray
 from .ports import LockFacts
-from .prospect import Prospect
 from .results.line_result import LineResult
 from .results.picture import Picture
 from .results.quantity import Quantity
@@ -137,7 +137,7 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
         distances of one measurand are compared. Empty for a boundary, the default."""
         return ""
 
-    def prospect(self, parameters: Parameters, facts: LockFacts, results: Sequence[Result]) -> Prospect | None:
+    def forecast(self, parameters: Parameters, facts: LockFacts, results: Sequence[Result]) -> Forecast | None:
         """What each line is likely to take and to tell, with what the lines so far say; None without a model of it."""
         return None
 

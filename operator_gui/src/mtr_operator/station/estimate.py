@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Sequence
 
 from mtr_operator.domain.actions.car_size import Nearness, nearness_of, size_cautions
+from mtr_operator.domain.forecast import Forecast
 from mtr_operator.domain.geometry.pose import wrap_angle
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import LockFacts
-from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.domain.robot_status import CarDimensions
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
@@ -37,14 +37,14 @@ class Plan:
 
     Attributes:
         stretches: where the key would be carried. preparation_s, lines_s: expected robot times.
-        prospect: of each line, None without a model of it. cautions: what the parameters cannot give.
+        forecast: of each line, None without a model of it. cautions: what the parameters cannot give.
         nearness: why the robot must not go as near as the test wants; None when nothing speaks against it.
     """
 
     stretches: tuple[Stretch, ...]
     preparation_s: float
     lines_s: tuple[float, ...]
-    prospect: Prospect | None = None
+    forecast: Forecast | None = None
     cautions: tuple[str, ...] = ()
     nearness: Nearness | None = None
 
@@ -75,7 +75,7 @@ def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimen
         tuple(Stretch(ray.point(near_m), ray.point(far_m), str(line.number)) for line, ray in zip(lines, rays)),
         (0.0 if is_mapped else MAPPING_S) + (SELF_CHECK_S if parameters.self_check else 0.0),
         tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways),
-        scenario.prospect(parameters, facts, ()), (*scenario.cautions(parameters, facts), *size_cautions(rays, car)),
+        scenario.forecast(parameters, facts, ()), (*scenario.cautions(parameters, facts), *size_cautions(rays, car)),
         nearness_of(rays, near_m, car))
 
 

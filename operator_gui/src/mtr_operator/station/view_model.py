@@ -9,9 +9,9 @@ from typing import Callable
 from mtr_operator.domain.actions.standstill import since_boot_s
 from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.eventlog.event_list import EventList
+from mtr_operator.domain.forecast import Forecast
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.ports import LockFacts, LockState
-from mtr_operator.domain.prospect import Prospect
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
 from mtr_operator.domain.verdict.judgement import TestJudgement
@@ -161,10 +161,10 @@ class ViewModel:
         return self._time_left.left_s(self._clock()) if self.phase is Phase.MEASURING else None
 
     @property
-    def prospect(self) -> Prospect | None:
+    def forecast(self) -> Forecast | None:
         """What each line is likely to take and to tell, with what the lines so far say."""
         test = self.test
-        return None if test is None else test.scenario.prospect(test.parameters, self.facts, self.results)
+        return None if test is None else test.scenario.forecast(test.parameters, self.facts, self.results)
 
     @property
     def facts(self) -> LockFacts:

@@ -16,7 +16,7 @@ from mtr_simulation.car.honest.radio.key_antenna import Attitude
 
 from .carried_key import NS, TICK_S, CarriedKey
 from .errors import RadioErrors
-from .foresight import Foresight
+from .margin_forecast import MarginForecast
 
 # Statuses without news are skipped, within two limits: the link must not appear interrupted (LINK_GAP_S), and poses
 # between two Statuses must be interpolable (MAX_GAP_S).
@@ -46,7 +46,7 @@ class RadioWorld:
         self._press: tuple[int, Command] | None = None
         self._handle = False
         self._waiting: list[Moved] = []
-        self._foresight = Foresight(car, errors.heading_rad)
+        self._margin_forecast = MarginForecast(car, errors.heading_rad)
 
     @property
     def time_ns(self) -> int:
@@ -98,7 +98,7 @@ class RadioWorld:
         for time_ns, does in self._instants():
             place = self._key.at(time_ns)
             if does is None:
-                self._car.poll(time_ns, place, *self._foresight.margins_db(time_ns, place, self._key))
+                self._car.poll(time_ns, place, *self._margin_forecast.margins_db(time_ns, place, self._key))
             elif isinstance(does, Command):
                 self._car.press(time_ns, does, place, self._attitude())
             else:

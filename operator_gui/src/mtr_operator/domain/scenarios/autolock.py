@@ -11,10 +11,10 @@ from ..actions.distance import Distance, recorded_values
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid, LineLeft, LineStopped
 from ..estimation.passes.delay import has_two_speeds
+from ..forecast import Forecast
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
 from ..ports import LockFacts
-from ..prospect import Prospect
 from ..results.carried import carried_values
 from ..results.line_result import LineStatus, MeasuredDistance
 from ..results.picture import Picture, PointRole, PointSet, Stretch, bars_along, intervals_along
@@ -26,7 +26,7 @@ from .autolock_parameters import AutolockParameters
 from .autolock_pass import AxisPass, Course, Measured
 from .autolock_result import LOCK, UNLOCK, AutolockResult
 from .autolock_resume import can_go_on
-from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_prospect, pass_speeds, speed_cautions
+from .autolock_speeds import FURTHER_M, TURNING_S, USUAL_CYCLE_S, pass_forecast, pass_speeds, speed_cautions
 
 # A line that nobody can decide ends some time.
 # Of a pass that is not in steps: the least that its column tells from 0.
@@ -113,10 +113,10 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         """See Scenario."""
         return can_go_on(line.ray, parameters, robot, car)
 
-    def prospect(self, parameters: AutolockParameters, facts: LockFacts,
-                 results: Sequence[AutolockResult]) -> Prospect:
+    def forecast(self, parameters: AutolockParameters, facts: LockFacts,
+                 results: Sequence[AutolockResult]) -> Forecast:
         """See Scenario: the axes measured so far know the static boundary best."""
-        return pass_prospect(parameters, facts.told_every_s, self.expected_line_s(parameters), results)
+        return pass_forecast(parameters, facts.told_every_s, self.expected_line_s(parameters), results)
 
     def unreached(self, parameters: AutolockParameters, result: AutolockResult,
                   word: str) -> tuple[float | None, float | None]:

@@ -8,7 +8,7 @@ from typing import Iterator, Sequence
 from ..estimation.interval import SIGMAS_OF_LEVEL
 from ..estimation.passes.delay import has_two_speeds
 from ..estimation.passes.speeds import intercept_sigma, pass_sigma, proposed_slow_speed, proposed_speed
-from ..prospect import Prospect
+from ..forecast import Forecast
 from .autolock_parameters import MIN_SPEED_MPS, AutolockParameters
 from .autolock_result import AutolockResult
 
@@ -42,8 +42,8 @@ def expected_sigma(parameters: AutolockParameters, cycle_s: float) -> float:
     return intercept_sigma(min(speeds_mps), max(speeds_mps), USUAL_POLL_S, cycle_s)
 
 
-def pass_prospect(parameters: AutolockParameters, cycle_s: float, line_s: float,
-                  results: Sequence[AutolockResult]) -> Prospect:
+def pass_forecast(parameters: AutolockParameters, cycle_s: float, line_s: float,
+                  results: Sequence[AutolockResult]) -> Forecast:
     """Of each axis; the interval is that of the static boundary, before others are measured from its own passes."""
     known_m = [(high_m - low_m) / 2.0 for result in results
                for low_m, high_m in ((result.unlock_static_low_m, result.unlock_static_high_m),
@@ -55,7 +55,7 @@ def pass_prospect(parameters: AutolockParameters, cycle_s: float, line_s: float,
     else:
         interval_m = 2 * (SIGMAS_OF_LEVEL * sigma_m,) if math.isfinite(sigma_m) else None
     passes = parameters.passes + (parameters.last_step_m is not None)
-    return Prospect((passes, passes), interval_m, (line_s, line_s))
+    return Forecast((passes, passes), interval_m, (line_s, line_s))
 
 
 def speed_cautions(parameters: AutolockParameters, cycle_s: float) -> Iterator[str]:

@@ -11,10 +11,10 @@ from ..actions.line_watch import LineWatch
 from ..actions.robot import Robot
 from ..actions.trouble import LineInvalid
 from ..errors import InvalidParameter
+from ..forecast import Forecast
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
 from ..ports import LockFacts
-from ..prospect import Prospect
 from ..requests import Direction
 from ..results.carried import carried_values
 from ..results.document import Texts
@@ -25,13 +25,13 @@ from ..scenario import Scenario
 from ..supervision.announcements import BUTTONS
 from .key_press_parameters import KeyPressParameters
 from .key_press_result import ADAPTIVE, CONFIRMING, PRESS, KeyPressResult
-from .line_search import campaign, prospect, search
+from .line_search import campaign, forecast, search
 from .line_search.result import SHARES
 from .line_search.silence import ask_when_lasting
 from .press.button import press_once
 from .press.picture import picture_of
 from .press.radial import LASTING_SILENCE, LIMITS, WIDTHS, RadialTrial
-from .press.scan_prospect import scan_prospect, scan_s
+from .press.scan_forecast import scan_forecast, scan_s
 
 
 @dataclass
@@ -100,14 +100,14 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         """See Scenario."""
         if parameters.method != ADAPTIVE:
             return ()
-        return tuple(prospect.cautions(parameters.search_plan, WIDTHS, LIMITS))
+        return tuple(forecast.cautions(parameters.search_plan, WIDTHS, LIMITS))
 
-    def prospect(self, parameters: KeyPressParameters, facts: LockFacts,
-                 results: Sequence[KeyPressResult]) -> Prospect:
+    def forecast(self, parameters: KeyPressParameters, facts: LockFacts,
+                 results: Sequence[KeyPressResult]) -> Forecast:
         """See Scenario."""
         if parameters.method == ADAPTIVE:
-            return prospect.prospect(parameters.search_plan, WIDTHS, results)
-        return scan_prospect(parameters, results)
+            return forecast.search_forecast(parameters.search_plan, WIDTHS, results)
+        return scan_forecast(parameters, results)
 
     def unreached(self, parameters: KeyPressParameters, result: KeyPressResult,
                   word: str) -> tuple[float | None, float | None]:
@@ -133,7 +133,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
     def expected_line_s(self, parameters: KeyPressParameters) -> float:
         """See Scenario: a scan's Car is taken to react at the middle one of the places."""
         if parameters.method == ADAPTIVE:
-            return sum(prospect.prospect(parameters.search_plan, WIDTHS, ()).line_s) / 2.0
+            return sum(forecast.search_forecast(parameters.search_plan, WIDTHS, ()).line_s) / 2.0
         return scan_s(parameters, len(parameters.press_distances_m) // 2)
 
 

@@ -14,9 +14,9 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..figure_text import figure_text
 from ..fitting.prose import Prose
+from ..forecast_text import forecast_text
 from ..i18n import duration, number
 from ..names import domain_word, locks_text, scenario_title
-from ..prospect_text import prospect_text
 from ..sentences import translated
 from ..theme.scale import M, S
 from ..theme.state import show_state
@@ -119,8 +119,8 @@ class MeasurementFacts(QFrame):
         # Nobody knows it while the robot is silent.
         left_s = None if model.is_stale else model.left_s
         left = "" if left_s is None else self.tr("about {time} left").format(time=duration(left_s))
-        prospect = prospect_text(model.prospect) if model.phase is Phase.MEASURING else ""
-        return "\n".join(filter(None, (left, prospect)))
+        forecast = forecast_text(model.forecast) if model.phase is Phase.MEASURING else ""
+        return "\n".join(filter(None, (left, forecast)))
 
     def _action_text(self, model: ViewModel) -> str:
         if model.phase is Phase.STOPPING:

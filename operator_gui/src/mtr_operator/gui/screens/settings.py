@@ -20,6 +20,7 @@ from mtr_operator.station.view_model import ViewModel
 
 from ..fitting.prose import Prose
 from ..fitting.scroller import Scroller
+from ..forecast_text import forecast_text
 from ..forms.given_form import GivenForm
 from ..forms.hold_button import HoldButton
 from ..forms.identity_form import IdentityForm
@@ -33,7 +34,6 @@ from ..pictures.layers.lines_layer import LinesLayer
 from ..pictures.layers.sight_layer import ObstaclesLayer
 from ..pictures.layers.surroundings import GridLayer, ScaleLayer
 from ..pictures.picture_panel import PicturePanel
-from ..prospect_text import prospect_text
 from ..sentences import in_window_words, parameter_sentence
 from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
@@ -212,7 +212,7 @@ class SettingsScreen(QWidget):
             return self.tr("No preview of the lines while the parameters are not right.")
         lines = self.tr("{count} lines ({word}), about {time}.").format(
             count=len(plan.stretches), word=domain_word(self._scenario.line_word), time=duration(plan.duration_s))
-        lines = " ".join(filter(None, (lines, prospect_text(plan.prospect))))
+        lines = " ".join(filter(None, (lines, forecast_text(plan.forecast))))
         if not is_mapped:
             lines += " " + self.tr("The Car is not measured yet; its size is a guess.")
         battery = self._model.robot.status.battery_percent if self._model.robot else None

@@ -1793,6 +1793,34 @@
     </message>
 </context>
 <context>
+    <name>Forecast</name>
+    <message>
+        <location filename="../forecast_text.py" line="15"/>
+        <source>Attempts on each line: {count}.</source>
+        <translation>Pokusů na každé přímce: {count}.</translation>
+    </message>
+    <message>
+        <location filename="../forecast_text.py" line="21"/>
+        <source>The distances will have no 95 % interval.</source>
+        <translation>Vzdálenosti nebudou mít 95% interval.</translation>
+    </message>
+    <message>
+        <location filename="../forecast_text.py" line="22"/>
+        <source>Expected 95 % interval: {interval} m.</source>
+        <translation>Očekávaný 95% interval: {interval} m.</translation>
+    </message>
+    <message>
+        <location filename="../forecast_text.py" line="32"/>
+        <source>{low} to {high}</source>
+        <translation>{low} až {high}</translation>
+    </message>
+    <message>
+        <location filename="../forecast_text.py" line="18"/>
+        <source>Expected 95 % interval of the coverage: {interval} %.</source>
+        <translation>Očekávaný 95% interval pokrytí: {interval} %.</translation>
+    </message>
+</context>
+<context>
     <name>GivenForm</name>
     <message>
         <location filename="../forms/given_form.py" line="37"/>
@@ -3786,34 +3814,6 @@
         <location filename="../header/presence_banner.py" line="26"/>
         <source>I am present (F9)</source>
         <translation>Jsem přítomen (F9)</translation>
-    </message>
-</context>
-<context>
-    <name>Prospect</name>
-    <message>
-        <location filename="../prospect_text.py" line="15"/>
-        <source>Attempts on each line: {count}.</source>
-        <translation>Pokusů na každé přímce: {count}.</translation>
-    </message>
-    <message>
-        <location filename="../prospect_text.py" line="21"/>
-        <source>The distances will have no 95 % interval.</source>
-        <translation>Vzdálenosti nebudou mít 95% interval.</translation>
-    </message>
-    <message>
-        <location filename="../prospect_text.py" line="22"/>
-        <source>Expected 95 % interval: {interval} m.</source>
-        <translation>Očekávaný 95% interval: {interval} m.</translation>
-    </message>
-    <message>
-        <location filename="../prospect_text.py" line="32"/>
-        <source>{low} to {high}</source>
-        <translation>{low} až {high}</translation>
-    </message>
-    <message>
-        <location filename="../prospect_text.py" line="18"/>
-        <source>Expected 95 % interval of the coverage: {interval} %.</source>
-        <translation>Očekávaný 95% interval pokrytí: {interval} %.</translation>
     </message>
 </context>
 <context>

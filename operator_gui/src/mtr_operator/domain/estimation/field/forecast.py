@@ -37,7 +37,7 @@ class ZoneForecast:
     is_reached: bool
 
 
-def forecast(half_width: float, presses_limit: int, spread: float) -> ZoneForecast:
+def zone_forecast(half_width: float, presses_limit: int, spread: float) -> ZoneForecast:
     """For the half width wanted, 0 to 1."""
     needed = math.ceil(spread * max(half_width ** -2 - BEFORE ** -2, 0.0))
     presses = max(needed, min(MIN_PRESSES, presses_limit))

@@ -28,7 +28,7 @@ _WAY_HALF_WAVELENGTHS = 1.5
 
 
 @dataclass(frozen=True)
-class Forecast:
+class RadialForecast:
     """Of one radial.
 
     Attributes:
@@ -43,17 +43,17 @@ class Forecast:
     is_reached: bool
 
 
-def forecast(plan: SearchPlan, width_m: float) -> Forecast:
+def radial_forecast(plan: SearchPlan, width_m: float) -> RadialForecast:
     """For a transition of a width from 90 to 10 %; robot_time_s takes d50 in the middle of the range."""
     scale_m, span_m = width_m / WIDTH_PER_SCALE, plan.maximum_m - plan.minimum_m
     search = SEARCH + max(0.0, math.log2(span_m / max(width_m, 2.0 * plan.interval_m)))
     one_press_m = 2.0 * scale_m * SIGMAS_OF_LEVEL / math.sqrt(EFFICIENCY)
     presses = max(math.ceil(search + (one_press_m / plan.interval_m) ** 2), min(MIN_PRESSES, plan.attempts_limit))
     if presses <= plan.attempts_limit:
-        return Forecast(presses, _robot_time(plan, presses), plan.interval_m, True)
+        return RadialForecast(presses, _robot_time(plan, presses), plan.interval_m, True)
     informative = max(plan.attempts_limit - search, 1.0)
-    return Forecast(plan.attempts_limit, _robot_time(plan, plan.attempts_limit), one_press_m / math.sqrt(informative),
-                    False)
+    return RadialForecast(plan.attempts_limit, _robot_time(plan, plan.attempts_limit),
+                          one_press_m / math.sqrt(informative), False)
 
 
 def _robot_time(plan: SearchPlan, presses: int) -> float:

@@ -8,8 +8,8 @@ from ...actions.car import Car
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
 from ...distance_feed import REPORTED
+from ...forecast import Forecast
 from ...ports import LockFacts
-from ...prospect import Prospect
 from ...results.document import Texts
 from ...results.line_result import LineStatus
 from ...results.picture import Picture
@@ -84,11 +84,11 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
         """See summary_of."""
         return summary_of(results)
 
-    def prospect(self, parameters: DigitalKeyParameters, facts: LockFacts,
-                 results: Sequence[DigitalKeyResult]) -> Prospect | None:
+    def forecast(self, parameters: DigitalKeyParameters, facts: LockFacts,
+                 results: Sequence[DigitalKeyResult]) -> Forecast | None:
         """See Scenario: each place takes the same."""
         each_s = self.expected_line_s(parameters)
-        return Prospect((1, 1), None, (each_s, each_s), None)
+        return Forecast((1, 1), None, (each_s, each_s), None)
 
     def expected_line_s(self, parameters: DigitalKeyParameters) -> float:
         """See Scenario: with the way from the neighbour."""

@@ -6,14 +6,14 @@ from typing import Generator, Sequence
 
 from ...actions.car import Car
 from ...actions.robot import Robot
+from ...forecast import Forecast
 from ...ports import LockFacts
-from ...prospect import Prospect
 from ...results.picture import Picture
 from ...robot_status import CarDimensions
 from ...scenario import Scenario
 from ...supervision.announcements import HANDLES
-from ..line_search import campaign, prospect, search
-from ..line_search.prospect import SearchLimits, UsualWidths
+from ..line_search import campaign, forecast, search
+from ..line_search.forecast import SearchLimits, UsualWidths
 from ..line_search.result import SHARES
 from .axis_trial import AxisTrial, HandleAxis, axes_of
 from .border_picture import picture_of
@@ -71,12 +71,12 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
 
     def cautions(self, parameters: HandleRequestParameters, facts: LockFacts) -> Sequence[str]:
         """See Scenario."""
-        return tuple(prospect.cautions(parameters.search_plan, _WIDTHS, _LIMITS))
+        return tuple(forecast.cautions(parameters.search_plan, _WIDTHS, _LIMITS))
 
-    def prospect(self, parameters: HandleRequestParameters, facts: LockFacts,
-                 results: Sequence[HandleRequestResult]) -> Prospect | None:
+    def forecast(self, parameters: HandleRequestParameters, facts: LockFacts,
+                 results: Sequence[HandleRequestResult]) -> Forecast | None:
         """See Scenario."""
-        return prospect.prospect(parameters.search_plan, _WIDTHS, results)
+        return forecast.search_forecast(parameters.search_plan, _WIDTHS, results)
 
     def judged_shares(self, parameters: HandleRequestParameters) -> tuple[int, ...]:
         """See Scenario."""
@@ -94,7 +94,7 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
 
     def expected_line_s(self, parameters: HandleRequestParameters) -> float:
         """See Scenario."""
-        return sum(prospect.prospect(parameters.search_plan, _WIDTHS, ()).line_s) / 2.0
+        return sum(forecast.search_forecast(parameters.search_plan, _WIDTHS, ()).line_s) / 2.0
 
 
 SCENARIO = HandleRequest()

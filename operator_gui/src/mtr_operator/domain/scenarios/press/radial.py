@@ -10,7 +10,7 @@ from ...results.document import Texts
 from ..key_press_parameters import KeyPressParameters
 from ..key_press_result import PRESS, KeyPressResult
 from ..line_search.attempt import AttemptMade, AttemptsMade
-from ..line_search.prospect import SearchLimits, UsualWidths
+from ..line_search.forecast import SearchLimits, UsualWidths
 from ..line_search.silence import MAX_SILENT_LINES
 from ..line_search.trial import Trial
 from .button import press_once

@@ -10,10 +10,10 @@ from ...actions.car import Car
 from ...actions.distance import recorded_values
 from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
+from ...forecast import Forecast
 from ...geometry.axes import axes_around
 from ...geometry.ray import Ray
 from ...ports import LockFacts
-from ...prospect import Prospect
 from ...results.carried import carried_values
 from ...results.figure import figure_of
 from ...results.line_result import LineStatus
@@ -35,7 +35,7 @@ _DIGITS = 6
 _OF_ANSWER = ("cause", "key_number", "doors")
 # From a request until an unlock is read and believed, and the press that locks the Car again.
 _ANSWER_S, _LOCKED_S = 0.4, 1.5
-# Sleep times of a prospect, in parts of the longest rest; the last key never sleeps.
+# Sleep times of a forecast, in parts of the longest rest; the last key never sleeps.
 _PARTS = (0.01, 0.03, 0.1, 0.3, 0.9, 2.0)
 
 
@@ -105,16 +105,16 @@ class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult]):
                      figures=tuple(figure_of(distance) for _, distance in known)),
             PointSet("Invalid", PointRole.INVALID, invalid)))
 
-    def prospect(self, parameters: SleepTimeParameters, facts: LockFacts,
-                 results: Sequence[SleepTimeResult]) -> Prospect:
+    def forecast(self, parameters: SleepTimeParameters, facts: LockFacts,
+                 results: Sequence[SleepTimeResult]) -> Forecast:
         """Of keys that sleep soon, late or never."""
         tests = [tried(parameters.wait_plan, part * parameters.longest_wait_s) for part in _PARTS]
         counts, seconds = [len(trials) for trials in tests], [_seconds(parameters, trials) for trials in tests]
-        return Prospect((min(counts), max(counts)), None, (min(seconds), max(seconds)))
+        return Forecast((min(counts), max(counts)), None, (min(seconds), max(seconds)))
 
     def expected_line_s(self, parameters: SleepTimeParameters) -> float:
         """See Scenario."""
-        return statistics.fmean(self.prospect(parameters, LockFacts(), ()).line_s)
+        return statistics.fmean(self.forecast(parameters, LockFacts(), ()).line_s)
 
 
 def _result(line: HeldPlace, parameters: SleepTimeParameters, key: StillKey) -> SleepTimeResult:

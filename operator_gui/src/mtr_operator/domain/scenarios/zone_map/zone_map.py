@@ -16,9 +16,9 @@ from ...actions.trouble import LineInvalid, LineLeft
 from ...estimation.field.zone_search import ZoneSearch
 from ...estimation.interval import FloatArray
 from ...estimation.press.radial_search import PRESSES_IN_DOUBT
+from ...forecast import Forecast
 from ...geometry.pose import Point, Pose
 from ...ports import LockFacts
-from ...prospect import Prospect
 from ...results.document import Texts
 from ...results.line_result import LineStatus
 from ...results.picture import Picture
@@ -28,9 +28,9 @@ from ...supervision.announcements import BUTTONS
 from ..line_search.silence import MAX_SILENT_LINES, ask_when_lasting
 from ..press.button import press_once
 from .field import boundaries, place_array, search_in
+from .forecast import MOVE_S, cautions_of, forecast_of, press_s
 from .map_picture import picture_of
 from .parameters import ZoneMapParameters
-from .prospect import MOVE_S, cautions_of, press_s, prospect_of
 from .result import REACH, ZoneMapResult
 from .zones import Place, Zone, zones_around
 
@@ -105,9 +105,9 @@ class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
         """See Scenario."""
         return tuple(cautions_of(parameters))
 
-    def prospect(self, parameters: ZoneMapParameters, facts: LockFacts, results: Sequence[ZoneMapResult]) -> Prospect:
+    def forecast(self, parameters: ZoneMapParameters, facts: LockFacts, results: Sequence[ZoneMapResult]) -> Forecast:
         """See Scenario."""
-        return prospect_of(parameters, results)
+        return forecast_of(parameters, results)
 
     def judged_shares(self, parameters: ZoneMapParameters) -> tuple[int, ...]:
         """See Scenario."""

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Iterator, Sequence
 
-from ...estimation.field.forecast import SHARP, SOFT, USUAL, forecast
-from ...prospect import Prospect
+from ...estimation.field.forecast import SHARP, SOFT, USUAL, zone_forecast
+from ...forecast import Forecast
 from .parameters import ZoneMapParameters
 from .result import ZoneMapResult
 
@@ -24,9 +24,9 @@ def press_s(parameters: ZoneMapParameters) -> float:
             + parameters.response_timeout_s / 2.0)
 
 
-def prospect_of(parameters: ZoneMapParameters, results: Sequence[ZoneMapResult]) -> Prospect:
+def forecast_of(parameters: ZoneMapParameters, results: Sequence[ZoneMapResult]) -> Forecast:
     """From a field that ends sharply to a soft one; as the zones so far, if there are some."""
-    sharp, soft = (forecast(parameters.coverage_percent / _PER_CENT, parameters.presses_limit, spread)
+    sharp, soft = (zone_forecast(parameters.coverage_percent / _PER_CENT, parameters.presses_limit, spread)
                    for spread in (SHARP, SOFT))
     presses, halves = (sharp.presses, soft.presses), (sharp.half_width, soft.half_width)
     known = [(result.presses, (result.coverage_high - result.coverage_low) / 2.0) for result in results
@@ -35,17 +35,17 @@ def prospect_of(parameters: ZoneMapParameters, results: Sequence[ZoneMapResult])
         counts, widths = [count for count, _ in known], [half for _, half in known]
         presses, halves = (min(counts), max(counts)), (min(widths), max(widths))
     each_s = press_s(parameters)
-    return Prospect(presses, None, (presses[0] * each_s, presses[1] * each_s),
+    return Forecast(presses, None, (presses[0] * each_s, presses[1] * each_s),
                     (_PER_CENT * halves[0], _PER_CENT * halves[1]))
 
 
 def cautions_of(parameters: ZoneMapParameters) -> Iterator[str]:
     """A sentence when the interval cannot be reached with the presses allowed, and what would."""
     wanted = parameters.coverage_percent / _PER_CENT
-    found = forecast(wanted, parameters.presses_limit, USUAL)
+    found = zone_forecast(wanted, parameters.presses_limit, USUAL)
     if found.is_reached:
         return
-    enough = forecast(wanted, _MAX_PRESSES, USUAL)
+    enough = zone_forecast(wanted, _MAX_PRESSES, USUAL)
     more = f"allow {enough.presses} presses (presses_limit), or " if enough.is_reached else ""
     percent = min(math.ceil(_PER_CENT * found.half_width), int(_MAX_PERCENT))
     yield (f"{parameters.presses_limit} presses in each zone reach an interval of the coverage of {percent} %; "

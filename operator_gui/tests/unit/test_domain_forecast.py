@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from mtr_operator.domain.estimation.field.forecast import SHARP, SOFT, USUAL, forecast
+from mtr_operator.domain.estimation.field.forecast import SHARP, SOFT, USUAL, zone_forecast
 from mtr_operator.domain.ports import LockFacts
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -25,19 +25,19 @@ def radial(number, d50_m, d95_m):
 
 
 def test_search_takes_more_presses_and_tells_less_where_the_range_ends_softly():
-    prospect = KEY_PRESS.prospect(PARAMETERS, FACTS, ())
-    assert prospect.attempts[0] < prospect.attempts[1] == 24
-    assert prospect.interval_m[0] == 0.25 < prospect.interval_m[1]
-    assert prospect.line_s[0] < prospect.line_s[1]
-    assert KEY_PRESS.expected_line_s(PARAMETERS) == pytest.approx(sum(prospect.line_s) / 2.0)
-    assert prospect.text.startswith(
-        f"attempts on each line: {prospect.attempts[0]} to 24; 95 % interval \N{PLUS-MINUS SIGN}0.25 to ")
+    forecast = KEY_PRESS.forecast(PARAMETERS, FACTS, ())
+    assert forecast.attempts[0] < forecast.attempts[1] == 24
+    assert forecast.interval_m[0] == 0.25 < forecast.interval_m[1]
+    assert forecast.line_s[0] < forecast.line_s[1]
+    assert KEY_PRESS.expected_line_s(PARAMETERS) == pytest.approx(sum(forecast.line_s) / 2.0)
+    assert forecast.text.startswith(
+        f"attempts on each line: {forecast.attempts[0]} to 24; 95 % interval \N{PLUS-MINUS SIGN}0.25 to ")
 
 
 def test_radials_that_are_measured_say_what_the_others_will_take():
-    before = KEY_PRESS.prospect(PARAMETERS, FACTS, ())
-    sharp = KEY_PRESS.prospect(PARAMETERS, FACTS, [radial(1, 5.0, 4.9), radial(2, 6.0, 5.9)])
-    soft = KEY_PRESS.prospect(PARAMETERS, FACTS, [radial(1, 5.0, 3.0), radial(2, 6.0, 4.0)])
+    before = KEY_PRESS.forecast(PARAMETERS, FACTS, ())
+    sharp = KEY_PRESS.forecast(PARAMETERS, FACTS, [radial(1, 5.0, 4.9), radial(2, 6.0, 5.9)])
+    soft = KEY_PRESS.forecast(PARAMETERS, FACTS, [radial(1, 5.0, 3.0), radial(2, 6.0, 4.0)])
     assert sharp.attempts[1] < before.attempts[1] and sharp.interval_m[1] < before.interval_m[1]
     assert soft.interval_m[0] > before.interval_m[0]
 
@@ -71,10 +71,10 @@ def test_side_to_which_a_search_has_no_bound_is_not_taken_for_near_the_car():
 
 
 def test_passes_at_two_speeds_have_an_interval_and_one_pass_has_none():
-    one = AUTOLOCK.prospect(AutolockParameters(), FACTS, ())
+    one = AUTOLOCK.forecast(AutolockParameters(), FACTS, ())
     assert (one.attempts, one.interval_m) == ((1, 1), None)
     assert one.text == "attempts on each line: 1; no 95 % interval"
-    two = AUTOLOCK.prospect(AutolockParameters(passes=2), FACTS, ())
+    two = AUTOLOCK.forecast(AutolockParameters(passes=2), FACTS, ())
     assert two.attempts == (2, 2)
     assert 0.0 < two.interval_m[0] <= 1.96 * 1.05 * AutolockParameters().boundary_sigma_m
     assert two.line_s[0] > one.line_s[0] and two.line_s[0] == AUTOLOCK.expected_line_s(AutolockParameters(passes=2))
@@ -82,13 +82,13 @@ def test_passes_at_two_speeds_have_an_interval_and_one_pass_has_none():
 
 def test_scan_takes_presses_from_the_first_place_to_the_last_and_gives_no_interval():
     scan = KeyPressParameters.from_mapping({"attempts": 2})
-    prospect = KEY_PRESS.prospect(scan, FACTS, ())
+    forecast = KEY_PRESS.forecast(scan, FACTS, ())
     places = len(scan.press_distances_m)
-    assert prospect.attempts == (2, 2 * (places - 1) + 2) and prospect.interval_m is None
-    assert prospect.line_s[0] < KEY_PRESS.expected_line_s(scan) < prospect.line_s[1]
+    assert forecast.attempts == (2, 2 * (places - 1) + 2) and forecast.interval_m is None
+    assert forecast.line_s[0] < KEY_PRESS.expected_line_s(scan) < forecast.line_s[1]
     one, more = (replace(radial(number, None, None), method="scan", attempts=attempts)
                  for number, attempts in ((1, 5), (2, 7)))
-    assert KEY_PRESS.prospect(scan, FACTS, [one, more]).attempts == (5, 7)
+    assert KEY_PRESS.forecast(scan, FACTS, [one, more]).attempts == (5, 7)
 
 
 def zone(number, presses, low, high):
@@ -96,24 +96,24 @@ def zone(number, presses, low, high):
 
 
 def test_zone_takes_more_presses_and_tells_less_of_its_coverage_where_the_field_falls_softly():
-    prospect = ZONE_MAP.prospect(ZoneMapParameters(presses_limit=60), FACTS, ())
-    assert 24 < prospect.attempts[0] < prospect.attempts[1] == 60
-    assert prospect.coverage_percent[0] <= 10.0 < prospect.coverage_percent[1] < 13.0
-    assert prospect.interval_m is None and prospect.line_s[0] < prospect.line_s[1]
-    assert prospect.text.endswith(
+    forecast = ZONE_MAP.forecast(ZoneMapParameters(presses_limit=60), FACTS, ())
+    assert 24 < forecast.attempts[0] < forecast.attempts[1] == 60
+    assert forecast.coverage_percent[0] <= 10.0 < forecast.coverage_percent[1] < 13.0
+    assert forecast.interval_m is None and forecast.line_s[0] < forecast.line_s[1]
+    assert forecast.text.endswith(
         " to 60; 95 % interval of the coverage \N{PLUS-MINUS SIGN}10 to \N{PLUS-MINUS SIGN}11 %")
 
 
 @pytest.mark.parametrize(("width", "low", "high"), [(0, 0.12, 0.14), (1, 0.15, 0.17), (2, 0.16, 0.18)])
 def test_zone_s_forecast_is_what_was_measured_with_24_presses(width, low, high):
-    found = forecast(0.01, 24, (SHARP, USUAL, SOFT)[width])
+    found = zone_forecast(0.01, 24, (SHARP, USUAL, SOFT)[width])
     assert low < found.half_width < high and not found.is_reached and found.presses == 24
 
 
 def test_zones_that_are_measured_say_what_the_others_will_take():
-    prospect = ZONE_MAP.prospect(ZoneMapParameters(), FACTS, [zone(1, 16, 0.40, 0.70), zone(2, 9, 0.45, 0.63)])
-    assert prospect.attempts == (9, 16)
-    assert prospect.coverage_percent == pytest.approx((9.0, 15.0))
+    forecast = ZONE_MAP.forecast(ZoneMapParameters(), FACTS, [zone(1, 16, 0.40, 0.70), zone(2, 9, 0.45, 0.63)])
+    assert forecast.attempts == (9, 16)
+    assert forecast.coverage_percent == pytest.approx((9.0, 15.0))
 
 
 def test_coverage_out_of_reach_is_told_with_the_presses_and_the_interval_that_would_do():

@@ -23,7 +23,7 @@ _SAME_PLACE_M = 1e-3
 _SAME_HEADING_RAD = 1e-3
 
 
-class Foresight:
+class MarginForecast:
     """Prefetched margins of one test. heading_rad: heading error of the robot."""
 
     def __init__(self, car: HonestInstants, heading_rad: float):

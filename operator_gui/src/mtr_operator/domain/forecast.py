@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Prospect:
+class Forecast:
     """Of one line, from a Car that is easy to measure to one that is not.
 
     Attributes:

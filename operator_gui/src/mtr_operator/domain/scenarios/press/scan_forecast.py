@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Sequence
 
-from ...prospect import Prospect
+from ...forecast import Forecast
 from ..key_press_parameters import KeyPressParameters
 from ..key_press_result import KeyPressResult
 
 
-def scan_prospect(parameters: KeyPressParameters, results: Sequence[KeyPressResult]) -> Prospect:
+def scan_forecast(parameters: KeyPressParameters, results: Sequence[KeyPressResult]) -> Forecast:
     """From a Car that obeys at the first place to one that obeys at the last; as the radials so far, if there are some.
 
     A scan gives no interval.
@@ -18,7 +18,7 @@ def scan_prospect(parameters: KeyPressParameters, results: Sequence[KeyPressResu
     attempts = [result.attempts for result in results if not result.invalid_count]
     few, many = ((min(attempts), max(attempts)) if attempts
                  else (1 + confirming, (places - 1) * parameters.attempts + 1 + confirming))
-    return Prospect((few, many), None, (scan_s(parameters, 0), scan_s(parameters, places - 1)))
+    return Forecast((few, many), None, (scan_s(parameters, 0), scan_s(parameters, places - 1)))
 
 
 def scan_s(parameters: KeyPressParameters, failed: int) -> float:
