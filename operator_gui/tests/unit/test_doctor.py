@@ -9,7 +9,7 @@ from mtr_operator.cli import main
 from mtr_operator.doctor import command_line
 from mtr_operator.doctor.computer import PACKAGES, Computer, computer_findings
 from mtr_operator.doctor.files import file_findings
-from mtr_operator.doctor.finding import State
+from mtr_operator.station.checks.finding import State
 from mtr_operator.station.settings import Settings
 from mtr_operator.station.settings_file import SettingsStore
 
@@ -33,7 +33,7 @@ def findings(computer, store):
 
 
 def missing(computer, store):
-    return {each.what: each.sentence for each in findings(computer, store) if each.state is State.MISSING}
+    return {each.what: each.sentence for each in findings(computer, store) if each.state is State.BAD}
 
 
 def test_computer_with_everything_lacks_nothing_and_keeps_no_folder(computer, store, tmp_path):

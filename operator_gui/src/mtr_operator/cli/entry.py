@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 
 from mtr_operator.doctor.computer import Computer, computer_findings
-from mtr_operator.doctor.finding import State
+from mtr_operator.station.checks.finding import State
 
 from .exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
 
@@ -28,6 +28,6 @@ def _say_missing(module: str) -> int:
     """Which packages are not installed; the exit code."""
     print(f"The package {module} is not installed.", file=sys.stderr)
     for finding in computer_findings(Computer()):
-        if finding.state is State.MISSING:
+        if finding.state is State.BAD:
             print(finding.sentence, file=sys.stderr)
     return EXIT_ERROR

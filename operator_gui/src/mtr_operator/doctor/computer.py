@@ -14,7 +14,9 @@ import sys
 from dataclasses import dataclass, field
 from typing import Callable, Iterator, Mapping
 
-from .finding import Finding, State
+from mtr_operator.station.checks.finding import State
+
+from .finding import Finding
 
 # Modules by the package that brings them, all but the contract with the robot on package indexes.
 PACKAGES = {"zmq": "pyzmq", "google.protobuf": "protobuf", "can": "python-can", "cantools": "cantools",
@@ -82,24 +84,24 @@ def display_problem(environment: Mapping[str, str], platform: str) -> str:
 def _packages(computer: Computer) -> Iterator[Finding]:
     missing = [package for module, package in PACKAGES.items() if not computer.is_installed(module)]
     if missing:
-        yield Finding("packages", State.MISSING, f"Not installed: {', '.join(missing)}; pip install them.")
+        yield Finding("packages", State.BAD, f"Not installed: {', '.join(missing)}; pip install them.")
     else:
         yield Finding("packages", State.GOOD, "All that a test needs are installed.")
     if not computer.is_installed("mtr_proto"):
-        yield Finding("contract", State.MISSING, "The package mtr_proto, the contract with the robot, is not installed;"
+        yield Finding("contract", State.BAD, "The package mtr_proto, the contract with the robot, is not installed;"
                       " pip install the folder proto of the project.")
     elif problem := computer.import_problem("mtr_proto.robot_link_pb2"):
-        yield Finding("contract", State.MISSING, f"The package mtr_proto, the contract with the robot, does not work "
+        yield Finding("contract", State.BAD, f"The package mtr_proto, the contract with the robot, does not work "
                       f"with the protobuf that is installed ({problem}); pip install mtr_proto again, with what it "
                       "requires.")
     if not computer.is_installed("PyQt5"):
-        yield Finding("window", State.MISSING, "The window needs PyQt5, which is not installed; pip install PyQt5, or "
+        yield Finding("window", State.BAD, "The window needs PyQt5, which is not installed; pip install PyQt5, or "
                       "use the command run.")
 
 
 def _display(computer: Computer) -> Finding:
     problem = display_problem(computer.environment, computer.platform)
-    return Finding("display", State.MISSING if problem else State.GOOD, problem or "The window can open.")
+    return Finding("display", State.BAD if problem else State.GOOD, problem or "The window can open.")
 
 
 def _adapters(computer: Computer) -> Iterator[Finding]:
@@ -112,7 +114,7 @@ def _adapters(computer: Computer) -> Iterator[Finding]:
         if computer.may_use(path):
             yield Finding("serial port", State.GOOD, f"{path} can be used.")
         else:
-            yield Finding("serial port", State.MISSING, f"{path} is there, and you may not use it; sudo usermod -aG "
+            yield Finding("serial port", State.BAD, f"{path} is there, and you may not use it; sudo usermod -aG "
                           "dialout $USER, then log in again.")
     networks = [pathlib.Path(path) for path in sorted(glob.glob(str(computer.root / _NETWORKS)))]
     for network in networks:
@@ -128,6 +130,6 @@ def _network(network: pathlib.Path) -> Finding:
     except OSError:
         state = "unknown"
     if state == "down":
-        return Finding("CAN network", State.MISSING, f"{network.name} is down; sudo ip link set {network.name} up type "
+        return Finding("CAN network", State.BAD, f"{network.name} is down; sudo ip link set {network.name} up type "
                        "can bitrate 500000, with the Car's bit rate.")
     return Finding("CAN network", State.GOOD, f"{network.name} is up.")

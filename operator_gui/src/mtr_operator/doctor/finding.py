@@ -1,18 +1,14 @@
-"""One thing that was looked at."""
+"""Result of looking at one part of the computer, its files, or the robot."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass
+from typing import Mapping
 
+from mtr_operator.station.checks.finding import State
 
-class State(enum.Enum):
-    """How it is."""
-
-    GOOD = "ok"
-    # May be missing; what it is for then is said.
-    NOTE = "note"
-    MISSING = "missing"
+# First word of a printed line.
+SIGNS: Mapping[State, str] = {State.GOOD: "ok", State.NOTE: "note", State.UNKNOWN: "unknown", State.BAD: "bad"}
 
 
 @dataclass(frozen=True)
@@ -22,3 +18,7 @@ class Finding:
     what: str
     state: State
     sentence: str
+
+    def line(self, signs: Mapping[State, str] = SIGNS) -> str:
+        """Return the line for a terminal."""
+        return f"{signs[self.state]:<8}{self.what}: {' '.join(self.sentence.split())}"

@@ -17,9 +17,12 @@ from mtr_operator.domain.ports import LockState, RobotLink
 from mtr_operator.domain.robot_status import EmergencyStop, RobotStatus
 from mtr_operator.station.checks.check_texts import check_advice, check_text, check_title
 from mtr_operator.station.checks.checklist import UNSEEN, Facts, checklist
-from mtr_operator.station.checks.finding import Check, Finding, Item, State
+from mtr_operator.station.checks.finding import Check, Item, State
+from mtr_operator.station.checks.finding import Finding as Found
 from mtr_operator.station.events import RobotSnapshot
 from mtr_operator.station.mailbox import Mailbox
+
+from .finding import Finding
 
 # A robot tells of its preflight once a second, and lets another application take over after 3 s of silence.
 LISTEN_S = 3.0
@@ -30,15 +33,6 @@ _NOT_OF_ROBOT = (Check.WAY, *UNSEEN, Check.BUS, Check.LOCKS, Check.SIGNALS, Chec
 # Twice this and nothing that moves is sent: the robot would stop again and again.
 _LONG_GAP_S = MAX_BLIND_S / 2
 _MS_PER_S = 1000.0
-
-
-@dataclass(frozen=True)
-class Said:
-    """One sentence about the robot. what: a word or two."""
-
-    what: str
-    state: State
-    sentence: str
 
 
 @dataclass(frozen=True)
@@ -81,16 +75,16 @@ def robot_items(heard: Heard) -> tuple[Item, ...]:
     if robot is not None and heard.is_abandoned:
         robot = replace(robot, status=replace(robot.status, controlled_by_other=False))
     return tuple(item for item in checklist(Facts(robot, heard.silent_s))
-                 if item.check not in _NOT_OF_ROBOT and item.finding is not Finding.UNHEARD)
+                 if item.check not in _NOT_OF_ROBOT and item.finding is not Found.UNHEARD)
 
 
-def robot_sentences(heard: Heard, round_trip_s: float) -> Iterator[Said]:
-    """All that is to be said; round_trip_s: of a connection, NaN where there is no network."""
+def robot_sentences(heard: Heard, round_trip_s: float) -> Iterator[Finding]:
+    """Yield a finding for each part of the robot; round_trip_s: of a connection, NaN where there is no network."""
     for item in robot_items(heard):
-        yield Said(check_title(item.check), item.state, f"{check_text(item)} {check_advice(item)}".rstrip())
+        yield Finding(check_title(item.check), item.state, f"{check_text(item)} {check_advice(item)}".rstrip())
         # The first is in the sentence above.
         further = [sentence for state, sentence in item.parts if state is State.BAD][1:]
-        yield from (Said(check_title(item.check), State.BAD, sentence) for sentence in further)
+        yield from (Finding(check_title(item.check), State.BAD, sentence) for sentence in further)
         if item.check is Check.LINK and heard.robot is not None:
             yield _link(heard, round_trip_s)
     if heard.robot is not None:
@@ -99,31 +93,31 @@ def robot_sentences(heard: Heard, round_trip_s: float) -> Iterator[Said]:
         yield _software(heard.robot)
 
 
-def _link(heard: Heard, round_trip_s: float) -> Said:
+def _link(heard: Heard, round_trip_s: float) -> Finding:
     is_slow = heard.longest_gap_s > _LONG_GAP_S or round_trip_s > _LONG_GAP_S
     trip = "" if math.isnan(round_trip_s) else f"A round trip takes {_MS_PER_S * round_trip_s:.1f} ms. "
     advice = (f" The robot stops after {MAX_BLIND_S:g} s of silence: bring laptop and robot nearer, or choose another "
               "channel of the Wi-Fi.") if is_slow else ""
-    return Said("Round trip", State.NOTE if is_slow else State.GOOD,
+    return Finding("Round trip", State.NOTE if is_slow else State.GOOD,
                 f"{trip}{heard.count} messages came, {heard.lost} were lost, the longest gap was "
                 f"{heard.longest_gap_s:.2f} s.{advice}")
 
 
-def _mode(status: RobotStatus) -> Said:
-    return Said("State", State.GOOD, f"The robot says: {status.mode.name.lower().replace('_', ' ')}.")
+def _mode(status: RobotStatus) -> Finding:
+    return Finding("State", State.GOOD, f"The robot says: {status.mode.name.lower().replace('_', ' ')}.")
 
 
-def _control(status: RobotStatus, is_abandoned: bool) -> Said:
+def _control(status: RobotStatus, is_abandoned: bool) -> Finding:
     """Whether that hinders a test the checklist says."""
     if not status.controlled_by_other:
-        return Said("Control", State.GOOD, "No application controls the robot.")
+        return Finding("Control", State.GOOD, "No application controls the robot.")
     who = f"an application with the key of {status.controller_name}" if status.controller_name else "an application"
     if is_abandoned:
-        return Said("Control", State.NOTE, f"The robot waits for {who} that fell silent; the next one takes over.")
-    return Said("Control", State.NOTE, f"The robot obeys {who}.")
+        return Finding("Control", State.NOTE, f"The robot waits for {who} that fell silent; the next one takes over.")
+    return Finding("Control", State.NOTE, f"The robot obeys {who}.")
 
 
-def _software(robot: RobotSnapshot) -> Said:
+def _software(robot: RobotSnapshot) -> Finding:
     """The link's contract has no version: what is added to it a robot of before does not tell."""
     status = robot.status
     untold = [what for what, is_untold in (
@@ -131,5 +125,5 @@ def _software(robot: RobotSnapshot) -> Said:
         ("its emergency stop", status.emergency_stop is EmergencyStop.UNKNOWN)) if is_untold]
     versions = f"The robot runs {status.software_version or 'an unnamed version'}, this application is {__version__}"
     if untold:
-        return Said("Software", State.NOTE, f"{versions}; the robot does not tell {', '.join(untold)}: upgrade it.")
-    return Said("Software", State.GOOD, f"{versions}; the robot tells all that this application asks of the link.")
+        return Finding("Software", State.NOTE, f"{versions}; the robot does not tell {', '.join(untold)}: upgrade it.")
+    return Finding("Software", State.GOOD, f"{versions}; the robot tells all that this application asks of the link.")

@@ -11,9 +11,9 @@ from mtr_operator.station.checks.checklist import hindrances
 from mtr_operator.station.checks.finding import State
 from mtr_operator.station.connection import SIMULATED, LinkOpener, RobotChoice
 
+from .finding import Finding
 from .robot import LISTEN_S, listen, robot_items, robot_sentences
 
-_SIGNS = {State.GOOD: "ok", State.NOTE: "note", State.UNKNOWN: "unknown", State.BAD: "bad"}
 # Wall time that opening a connection may take.
 _TIMEOUT_S = 2.0
 
@@ -30,11 +30,11 @@ def look_at(choice: RobotChoice) -> bool:
             heard = listen(link, LISTEN_S)
             said = list(robot_sentences(heard, _round_trip_s(choice)))
     except ConnectionFailed as error:
-        _print(State.BAD, "Link", str(error))
+        print(Finding("Link", State.BAD, str(error)).line())
         print("No test could begin: the robot is not connected.")
         return False
     for each in said:
-        _print(each.state, each.what, each.sentence)
+        print(each.line())
     is_hindered = bool(hindrances(robot_items(heard)))
     print("No test could begin before what is bad is mended; nothing was sent to the robot." if is_hindered else
           "A test could begin, as far as the robot is concerned; nothing was sent to it.")
@@ -47,7 +47,3 @@ def _round_trip_s(choice: RobotChoice) -> float:
         return math.nan
     from mtr_operator.robot_link.probe import round_trip_s
     return round_trip_s(RobotAddress(choice.host, choice.subscriber_port, choice.publisher_port), _TIMEOUT_S)
-
-
-def _print(state: State, what: str, sentence: str) -> None:
-    print(f"{_SIGNS[state]:<8}{what}: {' '.join(sentence.split())}")
