@@ -1,6 +1,7 @@
 """How intervals are shown: in the table, and in the picture of a search for Key press."""
 # SPDX-License-Identifier: Apache-2.0
 import csv
+import math
 from dataclasses import replace
 
 import pytest
@@ -16,6 +17,8 @@ from mtr_operator.domain.scenarios.key_press_result import KeyPressResult
 from mtr_operator.domain.scenarios.zone_map.parameters import ZoneMapParameters
 from mtr_operator.domain.scenarios.zone_map.result import ZoneMapResult
 from mtr_operator.domain.verdict.assessment import Assessor
+from mtr_operator.history.statistics.texts import signed_number
+from mtr_operator.report.figures import ends_text
 from mtr_operator.report.protocol_page import protocol_png
 from mtr_operator.report.results_csv import results_csv
 from mtr_operator.report.table import line_text, results_table
@@ -156,3 +159,16 @@ def test_boundary_with_an_open_end_has_no_expanded_uncertainty(ends):
     closed, opened = (assessor.assess(Progress("key_press", PARAMETERS.to_mapping(), {}, CAR, [result])).budgets
                       for result in (MEASURED, replace(OPEN, **ends)))
     assert len(closed) == 1 and opened == ()
+
+
+@pytest.mark.parametrize("low, high, text, signed", [
+    (1.0, 2.0, "1.00 to 2.00", "+1.00 to +2.00"), (-0.5, 0.0, "-0.50 to 0.00", "-0.50 to +0.00"),
+    (1.0, math.inf, "at least 1.00", "at least +1.00"), (-math.inf, -2.0, "at most -2.00", "at most -2.00"),
+    (-math.inf, math.inf, "", ""), (math.nan, 2.0, "at most 2.00", "at most +2.00"), (math.nan, math.nan, "", "")])
+def test_end_that_is_not_finite_is_not_written(low, high, text, signed):
+    assert ends_text(low, high) == text and ends_text(low, high, signed_number) == signed
+
+
+def test_ends_have_the_digits_and_the_language_of_their_user():
+    assert ends_text(1.0, 2.0, lambda value, digits: f"{value:.{digits}f}".replace(".", ","),
+                     lambda template: template.replace("to", "bis"), digits=3) == "1,000 bis 2,000"

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 from typing import Sequence
 
 from mtr_operator.domain.results.figure import Figure, Kind
 from mtr_operator.domain.results.line_result import LineResult, MeasuredDistance
+from mtr_operator.history.estimate import Estimate
 from mtr_operator.report import figures
 
 from .i18n import number, translate
@@ -47,12 +47,24 @@ def interval_text(distance: MeasuredDistance) -> str:
 
 def ends_text(low_m: float, high_m: float, digits: int = 2) -> str:
     """Of an interval whose ends may be infinite; empty without any."""
-    ends = {"first": number(low_m, digits), "second": number(high_m, digits)}
-    if math.isfinite(low_m) and math.isfinite(high_m):
-        return _translated("{first} to {second}").format(**ends)
-    if math.isfinite(low_m):
-        return _translated("at least {first}").format(**ends)
-    return _translated("at most {first}").format(first=ends["second"]) if math.isfinite(high_m) else ""
+    return figures.ends_text(low_m, high_m, number, _translated, digits)
+
+
+def difference_text(value: float | None, low: float, high: float) -> tuple[str, str]:
+    """Return a difference and its interval with their signs; empty texts if they are unknown."""
+    return "" if value is None else _signed(value, 2), figures.ends_text(low, high, _signed, _translated)
+
+
+def estimate_text(estimate: Estimate) -> str:
+    """Return the value of an estimate, or its known ends without one."""
+    if estimate.value is not None:
+        return number(estimate.value, 2)
+    return ends_text(estimate.low, estimate.high) or _translated("unknown")
+
+
+def _signed(value: float, digits: int) -> str:
+    """Return a number with its sign, also a plus."""
+    return ("+" if value >= 0.0 else "\N{MINUS SIGN}") + number(abs(value), digits)
 
 
 def _translated(text: str) -> str:

@@ -5,9 +5,10 @@ All are in m: as the columns of results.csv, and as the parameters that they are
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import math
 from typing import Callable, Sequence
 
-from mtr_operator.domain.results.figure import Figure, Kind, figure_of, interval_of
+from mtr_operator.domain.results.figure import Figure, Kind, between, figure_of, interval_of
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance, has_intervals
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
@@ -35,6 +36,7 @@ OF_REPORTED = ("Beside each distance that the phone told stands 1 sigma of where
 # Whoever reads a distance by its sigma does not want it coarser than that.
 _FINE_M, _FINE_DIGITS, _DIGITS, _SIGMA_DIGITS = 0.05, 3, 2, 3
 Number = Callable[[float, int], str]
+Translation = Callable[[str], str]
 
 
 def plain_number(value: float, digits: int) -> str:
@@ -65,14 +67,23 @@ def sigma_text(sigma_m: float | None, number: Number = plain_number) -> str:
     return number(sigma_m, _SIGMA_DIGITS) if sigma_m >= least / 2.0 else f"< {number(least, _SIGMA_DIGITS)}"
 
 
+def ends_text(low: float, high: float, number: Number = plain_number, translated: Translation = lambda text: text,
+              digits: int = _DIGITS) -> str:
+    """Return both ends of an interval, or the end that is finite; empty without any."""
+    figure = between(*(end if math.isfinite(end) else None for end in (low, high)))
+    ends = ("" if end is None else number(end, digits) for end in (figure.first_m, figure.second_m))
+    return "" if figure.kind is Kind.NOT_REACHED else translated(TEMPLATES[figure.kind]).format(
+        **dict(zip(("first", "second"), ends)))
+
+
 def interval_text(distance: MeasuredDistance, number: Number = plain_number,
-                  translated: Callable[[str], str] = lambda text: text) -> str:
+                  translated: Translation = lambda text: text) -> str:
     """Of a boundary; empty without one."""
     figure = interval_of(distance)
     return "" if figure is None else filled(translated(TEMPLATES[figure.kind]), figure, number)
 
 
-def sigma_word(results: Sequence[LineResult], translated: Callable[[str], str] = lambda text: text) -> str:
+def sigma_word(results: Sequence[LineResult], translated: Translation = lambda text: text) -> str:
     """Heading of the uncertainties: those of the key's place alone are called so."""
     return _PLUS_MINUS if has_intervals(results) else f"{translated(KEY)} {_PLUS_MINUS}"
 

@@ -13,7 +13,8 @@ from mtr_operator.history.same_lines import Tests
 from mtr_operator.history.spread import distance_spread
 from mtr_operator.history.statistics.comparison import compare_sets
 from mtr_operator.history.statistics.documents import comparison_document
-from mtr_operator.history.statistics.texts import comparison_lines, interval_text
+from mtr_operator.history.statistics.texts import comparison_lines
+from mtr_operator.report.figures import ends_text
 from mtr_operator.report.table import line_name
 from mtr_operator.terminal import show
 
@@ -70,7 +71,7 @@ def spread(options: argparse.Namespace) -> int:
 def _spread_texts(found: Spread) -> list[str]:
     return [f"mean {found.mean:.3f} m, repeatability {found.repeatability:.3f} m, reproducibility "
             f"{found.reproducibility:.3f} m (1 sigma)",
-            *(f"{part.factor} ({part.levels}): {part.sigma:.3f} m, 95 % {interval_text(part.low, part.high)}"
+            *(f"{part.factor} ({part.levels}): {part.sigma:.3f} m, 95 % {ends_text(part.low, part.high)}"
               for part in found.components), *(f"left out: {sentence}" for sentence in found.left_out)]
 
 
@@ -78,7 +79,7 @@ def _capability_texts(found: Capability | None) -> list[str]:
     if found is None:
         return []
     indices = (("Cpk, by repeatability", found.within), ("Ppk, by reproducibility", found.overall))
-    return [f"{name}: {index.value:.2f}, 95 % {interval_text(index.low, index.high)}" for name, index in indices]
+    return [f"{name}: {index.value:.2f}, 95 % {ends_text(index.low, index.high)}" for name, index in indices]
 
 
 def show_trend(options: argparse.Namespace) -> int:

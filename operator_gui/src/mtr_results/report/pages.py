@@ -13,7 +13,8 @@ import markupsafe
 from mtr_operator.history.line_pairs import Side
 from mtr_operator.history.statistics.comparison import compare_sets
 from mtr_operator.history.statistics.documents import row_document
-from mtr_operator.history.statistics.texts import MEANING, interval_text, row_texts
+from mtr_operator.history.statistics.texts import MEANING, row_texts
+from mtr_operator.report.figures import ends_text
 from mtr_operator.report.table import line_name
 
 from .figure_texts import figure_text
@@ -112,7 +113,7 @@ def page_of_comparison(first: Sequence[Side], second: Sequence[Side], texts: tup
 
 def _interval(row: Row) -> str:
     low_m, high_m = (math.nan if row[end] is None else float(row[end]) for end in ("low_m", "high_m"))
-    return interval_text(low_m, high_m) if row["has_interval"] else ""
+    return ends_text(low_m, high_m) if row["has_interval"] else ""
 
 
 def _metres(value: float | None) -> str:

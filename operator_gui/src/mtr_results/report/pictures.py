@@ -15,8 +15,8 @@ from mtr_operator.history.line_pairs import Side
 from mtr_operator.history.statistics.comparison import Comparison
 from mtr_operator.history.statistics.difference import Change
 from mtr_operator.history.statistics.row import DISTANCE, SIDE, Row
-from mtr_operator.history.statistics.texts import estimate_text, interval_text
-from mtr_operator.report.figures import SIGNS, filled
+from mtr_operator.history.statistics.texts import estimate_text
+from mtr_operator.report.figures import SIGNS, ends_text, filled
 
 from ..statistics.trend import Trend
 from .drawing import Drawing, Point
@@ -163,7 +163,7 @@ def _shown_ends(found: Estimate) -> tuple[float, float] | None:
 
 def _titled(row: Row, name: str) -> str:
     found = getattr(row, name)
-    return f"{row.name}, {name}: {estimate_text(found)} m, 95 % {interval_text(found.low, found.high) or 'unknown'}"
+    return f"{row.name}, {name}: {estimate_text(found)} m, 95 % {ends_text(found.low, found.high) or 'unknown'}"
 
 
 def difference_picture(comparison: Comparison, word: str) -> str:

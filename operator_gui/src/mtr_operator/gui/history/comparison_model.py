@@ -2,17 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 from typing import Any, Sequence
 
 from PyQt5.QtCore import QModelIndex, QObject, Qt
 
-from mtr_operator.history.estimate import Estimate
 from mtr_operator.history.statistics.comparison import Comparison
 from mtr_operator.history.statistics.difference import Change
 from mtr_operator.history.statistics.row import DISTANCE, NEIGHBOURS, UNITS, Row
+from mtr_operator.history.statistics.texts import chance_text
 
-from .. import figure_text
+from ..figure_text import cell_text, difference_text, estimate_text
 from ..i18n import number, translate
 from ..names import domain_word
 from ..sentences import translated
@@ -20,8 +19,6 @@ from .table_model import TableModel
 
 # Columns of words; after them come figures.
 _WORDS = 3
-# Smaller p-values are shown by this bound.
-_MIN_CHANCE = 0.001
 
 
 class ComparisonModel(TableModel):
@@ -52,17 +49,17 @@ class ComparisonModel(TableModel):
 
     def _texts(self, row: Row) -> tuple[str, ...]:
         found = row.difference
-        value = "" if found.value is None else signed(found.value)
-        known = ("", "") if found.reason else (ends_text(found.low, found.high), chance_text(row.adjusted))
+        value, interval = difference_text(found.value, found.low, found.high)
+        chance = "" if found.reason else chance_text(row.adjusted, number)
         unit = f" [{UNITS[row.quantity]}]" if UNITS[row.quantity] else ""
-        return (row_name(self._comparison, row), words_text(row) + unit, result_text(row), value, *known,
-                *self._values(row))
+        return (row_name(self._comparison, row), words_text(row) + unit, result_text(row), value, interval,
+                chance, *self._values(row))
 
     def _values(self, row: Row) -> tuple[str, str]:
         if row.quantity != DISTANCE:
-            return _estimate_text(row.first), _estimate_text(row.second)
+            return estimate_text(row.first), estimate_text(row.second)
         first, second = (self._comparison.tests.figure(test, row.lines[0], row.word) for test in (0, 1))
-        return figure_text.cell_text(first), figure_text.cell_text(second)
+        return cell_text(first), cell_text(second)
 
 
 def row_name(comparison: Comparison, row: Row) -> str:
@@ -90,28 +87,3 @@ def change_text(change: Change) -> str:
     return {Change.FARTHER: translate("Comparison", "farther"), Change.NEARER: translate("Comparison", "nearer"),
             Change.NOT_SHOWN: translate("Comparison", "no difference shown"),
             Change.NOT_KNOWN: translate("Comparison", "not known")}[change]
-
-
-def chance_text(chance: float) -> str:
-    """Return a p-value; small ones have an upper bound instead of zero."""
-    return f"< {number(_MIN_CHANCE, 3)}" if chance < _MIN_CHANCE else number(chance, 3)
-
-
-def signed(value: float) -> str:
-    """Return a number with its sign, also a plus."""
-    return ("+" if value >= 0.0 else "\N{MINUS SIGN}") + number(abs(value), 2)
-
-
-def ends_text(low: float, high: float) -> str:
-    """Return the interval of a difference, or the end that is known."""
-    if math.isfinite(low) and math.isfinite(high):
-        return translate("Figure", "{first} to {second}").format(first=signed(low), second=signed(high))
-    if math.isfinite(low):
-        return translate("Figure", "at least {first}").format(first=signed(low))
-    return translate("Figure", "at most {first}").format(first=signed(high)) if math.isfinite(high) else ""
-
-
-def _estimate_text(estimate: Estimate) -> str:
-    if estimate.value is not None:
-        return number(estimate.value, 2)
-    return figure_text.ends_text(estimate.low, estimate.high) or translate("Figure", "unknown")

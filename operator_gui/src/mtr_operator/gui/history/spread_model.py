@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING, Any, Sequence
 
 from PyQt5.QtCore import QModelIndex, QObject, Qt
 
-from ..figure_text import ends_text, sigma_text
-from ..i18n import number, translate
+from ..figure_text import ends_text, estimate_text, sigma_text
+from ..i18n import translate
 from ..names import domain_word
 from ..sentences import translated
 from .table_model import TableModel
@@ -53,16 +52,7 @@ class SpreadModel(TableModel):
         counted = str(distance.tests) if not distance.without else \
             translate("Spread", "{count} of {all}").format(count=len(values), all=distance.tests)
         return (f"{distance.line.number} ({domain_word(distance.line.place)})", domain_word(distance.word), counted,
-                mean_text(distance), "" if distance.mean.value is None else ends_text(distance.mean.low,
+                estimate_text(distance.mean), "" if distance.mean.value is None else ends_text(distance.mean.low,
                                                                                       distance.mean.high),
                 sigma_text(distance.sigma_m), "" if ends is None else ends_text(*ends, digits=3),
                 ends_text(min(values), max(values)) if values else "")
-
-
-def mean_text(distance: DistanceSpread) -> str:
-    """The value, or what is known of it."""
-    mean = distance.mean
-    if mean.value is not None:
-        return number(mean.value, 2)
-    is_known = math.isfinite(mean.low) or math.isfinite(mean.high)
-    return ends_text(mean.low, mean.high) if is_known else translate("Figure", "unknown")

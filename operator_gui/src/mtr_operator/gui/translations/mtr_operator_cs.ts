@@ -1382,22 +1382,22 @@
 <context>
     <name>Comparison</name>
     <message>
-        <location filename="../history/comparison_model.py" line="90"/>
+        <location filename="../history/comparison_model.py" line="87"/>
         <source>farther</source>
         <translation>dále</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="90"/>
+        <location filename="../history/comparison_model.py" line="87"/>
         <source>nearer</source>
         <translation>blíže</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="91"/>
+        <location filename="../history/comparison_model.py" line="88"/>
         <source>no difference shown</source>
         <translation>rozdíl neprokázán</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="92"/>
+        <location filename="../history/comparison_model.py" line="89"/>
         <source>not known</source>
         <translation>není známo</translation>
     </message>
@@ -1412,7 +1412,7 @@
         <translation>Druhý test</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="73"/>
+        <location filename="../history/comparison_model.py" line="70"/>
         <source>{first} to {last}, moved together</source>
         <translation>{first} až {last}, posunuly se společně</translation>
     </message>
@@ -1420,27 +1420,27 @@
 <context>
     <name>ComparisonModel</name>
     <message>
-        <location filename="../history/comparison_model.py" line="50"/>
+        <location filename="../history/comparison_model.py" line="47"/>
         <source>Second test</source>
         <translation>Druhý test</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="50"/>
+        <location filename="../history/comparison_model.py" line="47"/>
         <source>Difference</source>
         <translation>Rozdíl</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="50"/>
+        <location filename="../history/comparison_model.py" line="47"/>
         <source>Chance among all</source>
         <translation>p mezi všemi</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="50"/>
+        <location filename="../history/comparison_model.py" line="47"/>
         <source>First</source>
         <translation>První</translation>
     </message>
     <message>
-        <location filename="../history/comparison_model.py" line="50"/>
+        <location filename="../history/comparison_model.py" line="47"/>
         <source>Second</source>
         <translation>Druhý</translation>
     </message>
@@ -8297,7 +8297,7 @@
 <context>
     <name>Spread</name>
     <message>
-        <location filename="../history/spread_model.py" line="54"/>
+        <location filename="../history/spread_model.py" line="53"/>
         <source>{count} of {all}</source>
         <translation>{count} z {all}</translation>
     </message>
@@ -8315,32 +8315,32 @@
 <context>
     <name>SpreadModel</name>
     <message>
-        <location filename="../history/spread_model.py" line="46"/>
+        <location filename="../history/spread_model.py" line="45"/>
         <source>Tests</source>
         <translation>Testy</translation>
     </message>
     <message>
-        <location filename="../history/spread_model.py" line="46"/>
+        <location filename="../history/spread_model.py" line="45"/>
         <source>Mean [m]</source>
         <translation>Průměr [m]</translation>
     </message>
     <message>
-        <location filename="../history/spread_model.py" line="46"/>
+        <location filename="../history/spread_model.py" line="45"/>
         <source>95 % of the mean [m]</source>
         <translation>95 % průměru [m]</translation>
     </message>
     <message>
-        <location filename="../history/spread_model.py" line="46"/>
+        <location filename="../history/spread_model.py" line="45"/>
         <source>Std. deviation [m]</source>
         <translation>Směr. odchylka [m]</translation>
     </message>
     <message>
-        <location filename="../history/spread_model.py" line="46"/>
+        <location filename="../history/spread_model.py" line="45"/>
         <source>95 % of it [m]</source>
         <translation>její 95 % [m]</translation>
     </message>
     <message>
-        <location filename="../history/spread_model.py" line="46"/>
+        <location filename="../history/spread_model.py" line="45"/>
         <source>Smallest to largest [m]</source>
         <translation>Nejmenší až největší [m]</translation>
     </message>

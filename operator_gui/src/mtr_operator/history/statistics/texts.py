@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
-import math
 from typing import Iterator, Sequence
 
 from mtr_operator.history.estimate import Estimate
+from mtr_operator.report.figures import Number, ends_text, plain_number
 
 from .comparison import Comparison
 from .row import Row
@@ -13,6 +13,8 @@ from .row import Row
 _HEADINGS = ("", "first", "second", "second - first", "95 %", "chance of all", "")
 _WORDS = (0, len(_HEADINGS) - 1)
 _GAP = "  "
+# Smaller p-values are shown by this bound.
+_MIN_CHANCE = 0.001
 MEANING = ("A quantity differs if the whole 95 % interval of its difference is on one side of zero. A star marks those "
            "that also differ among all, after Holm's correction for their number. If only one end of a distance is "
            "known, only one end of the difference is. The value of a side is the mean over its lines; with passes at "
@@ -45,31 +47,27 @@ def _table(rows: Sequence[Sequence[str]]) -> Iterator[str]:
         yield _GAP.join(cells).rstrip()
 
 
-def interval_text(low: float, high: float, sign: str = "") -> str:
-    """Return both ends, the known end, or an empty text."""
-    if math.isfinite(low) and math.isfinite(high):
-        return f"{low:{sign}.2f} to {high:{sign}.2f}"
-    if math.isfinite(low):
-        return f"at least {low:{sign}.2f}"
-    return f"at most {high:{sign}.2f}" if math.isfinite(high) else ""
-
-
 def estimate_text(estimate: Estimate) -> str:
     """Return the value, or its interval if there is no value."""
     if estimate.value is not None:
         return f"{estimate.value:.2f}"
-    return interval_text(estimate.low, estimate.high) or "unknown"
+    return ends_text(estimate.low, estimate.high) or "unknown"
 
 
 def row_texts(row: Row) -> tuple[str, ...]:
     """Return the cells of a table row: name, both sides, difference, its interval, p-value among all, result."""
     found = row.difference
     return (f"{row.title} {row.word if row.word not in row.title else ''}".rstrip(), estimate_text(row.first),
-            estimate_text(row.second), "" if found.value is None else f"{found.value:+.2f}",
-            "" if found.reason else interval_text(found.low, found.high, "+"),
+            estimate_text(row.second), "" if found.value is None else signed_number(found.value, 2),
+            "" if found.reason else ends_text(found.low, found.high, signed_number),
             "" if found.reason else chance_text(row.adjusted), row.change.value + (" *" if row.is_different else ""))
 
 
-def chance_text(chance: float) -> str:
+def signed_number(value: float, digits: int) -> str:
+    """Return a number with its sign, also a plus."""
+    return f"{value:+.{digits}f}"
+
+
+def chance_text(chance: float, number: Number = plain_number) -> str:
     """Return a p-value; small ones have an upper bound instead of zero."""
-    return "< 0.001" if chance < 0.001 else f"{chance:.3f}"
+    return f"< {number(_MIN_CHANCE, 3)}" if chance < _MIN_CHANCE else number(chance, 3)
