@@ -1,4 +1,4 @@
-"""A Command of the Operator's application as plain data, and what makes one unacceptable."""
+"""A Command of the Operator's application as plain data, and the checks that reject it."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 import math
@@ -12,23 +12,23 @@ from mtr_core.states import Direction
 from . import problems
 from .area.order import AreaOrder, order_problem
 
-# A test area is some ten metres across; a waypoint farther away is a mistake of units or sign.
+# A test area is some ten metres across; a waypoint beyond this distance is a mistake of units or sign.
 MAX_COORDINATE_M = 100.0
-# Two turns: a heading may be wound up a little, one beyond is a mistake of units.
+# Two turns: an unwrapped heading may exceed one turn; a larger value is a mistake of units.
 MAX_HEADING_RAD = 4.0 * math.pi
-# Highest key of any supported mast; the peripherals know the real range.
+# Highest key of any supported mast; the peripherals know the actual range.
 MAX_KEY_HEIGHT_M = 3.0
 MAX_PRESS_DURATION_S = 10.0
 MAX_BUTTONS = 8
-# A remote key has some ten buttons; a number beyond this is none.
+# A remote key has about ten buttons; a larger number is not a button.
 MAX_BUTTON = 100
-# So many of the numbers are quoted in the refusal.
+# A refusal quotes at most this many of the numbers.
 MAX_QUOTED = 10
 
 
 @dataclass(frozen=True)
 class Command:
-    """The desired final state of the robot. None where the application leaves the choice to the robot."""
+    """The desired final state of the robot. None leaves the choice to the robot."""
 
     session_id: int = 0
     id: int = 0
@@ -48,7 +48,7 @@ class Command:
 
 
 def problem_of(command: Command, platform_speed_mps: float) -> Problem:
-    """Why the Command is refused; no problem when it is acceptable."""
+    """Return why the Command is refused; no problem if it is acceptable."""
     return (_waypoint_problem(command.waypoint)
             or _choice_problem(problems.MAXIMUM_SPEED, command.max_speed_mps, 0.01, platform_speed_mps)
             or _choice_problem(problems.KEY_HEIGHT, command.key_height_m, 0.0, MAX_KEY_HEIGHT_M)
@@ -100,5 +100,5 @@ def _choice_problem(sentence: Sentence, value: Optional[float], low: float, high
 
 
 def _range_problem(sentence: Callable[..., Problem], value: float, low: float, high: float) -> Problem:
-    """NaN is out of any range."""
+    """Return the problem of a value outside its range, which includes NaN."""
     return NO_PROBLEM if low <= value <= high else sentence(value=value, low=low, high=high)

@@ -1,4 +1,4 @@
-"""Bytes of the link to a Command."""
+"""Decodes the bytes of the link into a Command."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Optional
@@ -16,16 +16,16 @@ from . import problems
 from .area.order import AreaOrder
 from .command import Command
 
-# A Command takes some 200 bytes.
+# A Command has about 200 bytes.
 MAX_MESSAGE_BYTES = 64 * 1024
 
 
 class UndecodableError(ProblemError):
-    """The bytes are no Command."""
+    """The bytes are not a valid Command."""
 
 
 def decode(data: bytes) -> Command:
-    """Command in the bytes; raises UndecodableError with a sentence."""
+    """Return the Command in the bytes; raises UndecodableError with a sentence."""
     if len(data) > MAX_MESSAGE_BYTES:
         raise UndecodableError(problems.OVERSIZED(size=len(data), maximum=MAX_MESSAGE_BYTES))
     message = link.Command()

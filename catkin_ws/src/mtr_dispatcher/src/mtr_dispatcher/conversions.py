@@ -1,4 +1,4 @@
-"""Plain data of the dispatcher to ROS messages."""
+"""Converts plain data of the dispatcher to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
 from genpy import Time
 
@@ -16,14 +16,14 @@ OWNER = "dispatcher"
 
 def desired_message(desired: SessionState, stamp: Time, default_speed_mps: float,
                     area_problem: Problem = NO_PROBLEM) -> DesiredState:
-    """What the Operator wants, for the other nodes."""
+    """Return the desired state for the other nodes."""
     message = desired_state_message(desired_state(desired, default_speed_mps, area_problem))
     message.header.stamp = stamp
     return message
 
 
 def lock_message(desired: SessionState, stamp: Time) -> MotionLock:
-    """Reason to stand still, for drive control."""
+    """Return the dispatcher's motion lock for drive control."""
     message = MotionLock(owner=OWNER, engaged=bool(desired.stop_reason), reason=desired.stop_reason.text,
                          problems=messages_of(desired.stop_reason, ProblemMessage))
     message.header.stamp = stamp
@@ -31,7 +31,7 @@ def lock_message(desired: SessionState, stamp: Time) -> MotionLock:
 
 
 def area_message(areas: AreaKeeper, stamp: Time) -> TestArea:
-    """The area in force, for drive control and planner."""
+    """Return the area in force for drive control and the planner."""
     message = TestArea(required=areas.required, origin_id=areas.area.origin_id if areas.area is not None else 0,
                        x=[x for x, _ in areas.corners], y=[y for _, y in areas.corners])
     message.header.stamp, message.header.frame_id = stamp, names.MAP

@@ -22,24 +22,24 @@ from .status.interventions import Interventions
 from .status.log_buffer import LogBuffer
 from .status.notices import ERROR, WARNING, ForeignApplications, Notice, RecentNotices, standing_notices
 
-# Word of DriveStatus.
+# Value of DriveStatus.source.
 PLANNER = "planner"
 
 
 class Dispatcher:
-    """Judges Commands, says what the robot shall do, and writes Status.
+    """Judges Commands, determines the desired state, and writes Status.
 
     Attributes:
-        session: who controls the robot.
+        session: control of the robot by one application.
         log: the robot's warnings.
         status_id: newest Status that was written, 0 before the first.
         rejected_messages: undecodable, oversized, expired, refused, foreign or forbidden messages since the start.
         areas: the test area in force.
-        controller: name of the owner of the key whose Commands count, for texts; empty on a link without keys.
+        controller: owner of the key whose Commands count, for texts; empty on a link without keys.
     """
 
     def __init__(self, parameters: Parameters, identity: Identity, areas: Optional[AreaKeeper] = None):
-        """areas: that of a node, which remembers; by default one that begins without an area."""
+        """areas: the node passes one that remembers; the default starts without a remembered area."""
         self.areas = areas or AreaKeeper(not parameters.simulated, corners_from(parameters.test_area_xy))
         self._parameters, self._identity = parameters, identity
         self.session = ControlSession(parameters)
@@ -51,9 +51,9 @@ class Dispatcher:
         self._sent, self._interventions, self._car_map = SentStatuses(), Interventions(), CarMap()
 
     def receive(self, data: bytes, now_s: float, sender: Sender = ANYBODY) -> Tuple[Optional[CommandResult], str]:
-        """Take one message of the link at a time of the steady clock.
+        """Process one message of the link at a time of the steady clock.
 
-        Returns its result (None: no Command) and a sentence for the log, if any.
+        Returns its result, or None if it is not a Command, and a sentence for the log, which may be empty.
         """
         if sender.refusal:
             return CommandResult.FORBIDDEN, self._reject(Notice("key_refused", WARNING, sender.refusal), now_s)
@@ -63,14 +63,14 @@ class Dispatcher:
             self._reject(Notice("bad_message", WARNING, error.problem), now_s)
             return None, str(error)
         if self.session.owner_of(command.session_id) not in (None, sender.key):
-            # Sessions stand in each Status, which every paired key can read.
+            # Each Status contains the session id, which every paired key can read.
             impostor = Notice("key_refused", WARNING, problems.SESSION_OF_ANOTHER(name=sender.name))
             return CommandResult.FORBIDDEN, self._reject(impostor, now_s)
         before = self.session.session_id
         answered_s = self._sent.answered_s((command.seen_status_id, command.seen_robot_time_s))
         result = self.session.take(command, now_s, answered_s, sender.key)
         if self.session.session_id in (0, command.session_id):
-            # A key may have a new name since its session began.
+            # The key may have been renamed since its session began.
             self.controller = sender.name if self.session.session_id else ""
         if result in (CommandResult.TAKEN, CommandResult.REPEATED):
             self.areas.take(command.session_id, command.area)
@@ -82,28 +82,28 @@ class Dispatcher:
         return result, self._event(result, command, before, sender)
 
     def refused_connections(self, count: int, now_s: float) -> str:
-        """Tell the Operator of connections that were refused since the start; the sentence for the log."""
+        """Notify the Operator of the connections refused since the start, and return the sentence for the log."""
         notice = Notice("connections_refused", WARNING, problems.CONNECTIONS_REFUSED(count=count))
         self._recent.add(notice, now_s)
         return notice.problem.text
 
     def connections_cut_off(self, count: int, now_s: float) -> str:
-        """Tell the Operator of connections that were cut off since the start; the sentence for the log."""
+        """Notify the Operator of the connections cut off since the start, and return the sentence for the log."""
         notice = Notice("connections_cut_off", WARNING, problems.CONNECTIONS_CUT_OFF(count=count))
         self._recent.add(notice, now_s)
         return notice.problem.text
 
     def desired(self, now_s: float) -> SessionState:
-        """What the robot shall do at now_s of the steady clock."""
+        """Return the desired state at now_s of the steady clock."""
         return self.session.desired(now_s)
 
     def area_problem(self, pose: Optional[PoseFields]) -> Problem:
-        """Why the robot neither maps nor tests for want of a test area, by the newest pose."""
+        """Return why the robot neither maps nor tests because of its test area, for the newest pose."""
         self.areas.observe(pose)
         return self.areas.problem(pose)
 
     def status(self, inputs: Inputs) -> bytes:
-        """The next Status."""
+        """Return the next Status."""
         self.status_id += 1
         is_one_map = self._car_map.is_map_of(inputs.pose, inputs.car)
         self._sent.add(self.status_id, inputs.now_s, inputs.steady_s)
@@ -119,7 +119,7 @@ class Dispatcher:
             AreaReport(self.areas, self.area_problem(inputs.pose), desired.session_id, is_one_map)))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
-        """What a Status would confirm now; when it changes a Status is due at once."""
+        """Return the values that a Status would confirm now; a change makes a Status due at once."""
         mode, peripherals, check = inputs.mode, inputs.peripherals, inputs.check
         return [self.session.session_id, self.session.command.id,
                 mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id, mode.hold_id),
@@ -151,11 +151,11 @@ class Dispatcher:
             return f"Application {command.session_id:x}{owner} ended its session."
         if self.session.session_id != session_before:
             return f"Application {command.session_id:x}{owner} controls the robot now."
-        # What the robot did, and for whom, is to be found in the log afterwards.
+        # The log shows later which Commands the robot executed, and for whom.
         return f"Command {command.id}{owner} was taken." if owner and result is CommandResult.TAKEN else ""
 
 
 def _planned_mps(inputs: Inputs) -> float:
-    """Speed without a person at the robot; a drive control that is silent drives nobody."""
+    """Return the speed without manual control, m/s; 0 if drive control is silent."""
     drive = inputs.drive
     return abs(drive.linear_mps) if drive is not None and drive.source == PLANNER else 0.0

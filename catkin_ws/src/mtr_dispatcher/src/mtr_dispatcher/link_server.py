@@ -1,4 +1,4 @@
-"""The robot's end of the link: two bound ZeroMQ sockets whose memory nobody outside can fill."""
+"""The robot's end of the link: two bound ZeroMQ sockets whose memory peers cannot fill."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import sys
@@ -13,20 +13,21 @@ from .access.curve import Curve, authenticator, encrypt
 from .access.peer_limits import PeerLimits, allowances
 from .command_codec import MAX_MESSAGE_BYTES
 
-# Whole messages that wait per connection. Parts of an unfinished one are not counted by ZeroMQ: see peer_limits.py.
+# Complete messages that wait per connection. ZeroMQ does not count parts of an unfinished one: see peer_limits.py.
 RECEIVE_QUEUE = 10
 SEND_QUEUE = 100
 MESSAGES_PER_TURN = 100
-# A peer that vanished without closing is noticed by ZeroMQ's own heartbeats.
+# ZeroMQ's heartbeats detect a peer that vanished without closing.
 HEARTBEAT_MS = 1000
 HEARTBEAT_TIMEOUT_MS = 5000
 LINGER_MS = 200
-# Who has not said within it who he is loses the connection.
+# A peer that does not complete its handshake within this time loses the connection.
 HANDSHAKE_MS = 2000
-# Of what has arrived and was not taken yet the system keeps no more; else it takes up to 6 MB of a connection.
+# Bound of the kernel's buffer of unread bytes per connection, which otherwise grows up to 6 MB.
 RECEIVE_BUFFER_BYTES = 64 * 1024
-# How long a thread of Python keeps others waiting, s. Three of them serve strangers who connect: by the default of 5 ms
-# a Command beside a flood of connections took 1.0 ms (p90; p99 3.5) to the dispatcher, and takes 0.3 (1.3) as without.
+# Time after which a Python thread yields to waiting ones, s. Three threads serve connecting strangers. During a flood
+# of connections a Command reached the dispatcher within 1.0 ms (p90; p99 3.5 ms) at the default of 5 ms. With this
+# value it needs 0.3 ms (1.3 ms), as without the flood.
 THREAD_TURN_S = 0.0005
 NO_CONNECTION = -1
 
@@ -36,7 +37,7 @@ class LinkError(RobotError):
 
 
 class Ports(NamedTuple):
-    """Where the link listens."""
+    """Address and ports on which the link listens."""
 
     address: str
     status_port: int
@@ -44,14 +45,14 @@ class Ports(NamedTuple):
 
 
 class Received(NamedTuple):
-    """One message. key: public key (Z85) of who sent it, ZeroMQ's User-Id; empty on a link that is not encrypted."""
+    """One message. key: public key (Z85) of its sender from ZeroMQ's User-Id; empty on a link that is not encrypted."""
 
     data: bytes
     key: str = ""
 
 
 class LinkServer:
-    """Publishes Status on one port and receives Commands on the other; with curve to and from paired keys only."""
+    """Publishes Status on one port and receives Commands on the other; with a curve, only to and from paired keys."""
 
     def __init__(self, ports: Ports, curve: Optional[Curve] = None) -> None:
         self._ports, self._curve = ports, curve
@@ -60,7 +61,7 @@ class LinkServer:
         self._open()
 
     def bind(self) -> None:
-        """Listen on both ports of the address, or raise LinkError with a sentence."""
+        """Listen on both ports of the address; raises LinkError with a sentence."""
         address, status_port, command_port = self._ports
         for socket, port, name in ((self._publisher, status_port, "status_port"),
                                    (self._subscriber, command_port, "command_port")):
@@ -72,24 +73,24 @@ class LinkServer:
                                 f"{error.strerror}.") from None
 
     def rebind(self) -> None:
-        """Cut off everybody and listen anew: what strangers have left in ZeroMQ's memory goes with their connections.
+        """Cut off all connections and listen again, which frees the memory that strangers have filled in ZeroMQ.
 
-        Applications connect again by themselves.
+        Applications reconnect by themselves.
         """
         self._destroy(0)
         self._open()
         self.bind()
 
     def publish(self, status: bytes) -> None:
-        """Send one Status to every application that listens."""
+        """Send one Status to every connected application."""
         self._publisher.send(status)
 
     def cut_off(self) -> Counter[str]:
-        """Connections since the last call that spoke not as the link does, or too much, by what was wrong."""
+        """Return the connections refused or cut off since the last call, counted by cause."""
         return sum((watch.counted() for watch in self._watches), Counter())
 
     def receive(self, timeout_s: float = 0.0) -> List[Received]:
-        """Messages that have arrived, in order; waits up to timeout_s for the first one."""
+        """Return the messages that have arrived, in order; wait up to timeout_s for the first one."""
         if not self._subscriber.poll(math.ceil(1000.0 * max(timeout_s, 0.0))):
             return []
         messages: List[Received] = []
@@ -98,7 +99,8 @@ class LinkServer:
                 frames = self._subscriber.recv_multipart(zmq.NOBLOCK, copy=False)
             except zmq.Again:
                 break
-            # A message of several frames is none of ours; joined, it is counted as undecodable or oversized.
+            # The link has only single-frame messages; joined with a mark, others are counted as undecodable or
+            # oversized.
             data = [frame.bytes for frame in frames]
             joined = data[0] if len(data) == 1 else b"\xff".join([b"", *data])
             messages.append(Received(joined, self._key_of(frames[0])))
@@ -125,12 +127,12 @@ class LinkServer:
         sys.setswitchinterval(THREAD_TURN_S)
         self._context = zmq.Context()
         if self._curve is not None:
-            # Before the sockets, so that nobody is turned away at the start.
+            # The authenticator starts before the sockets, so that no early connection is refused.
             self._authenticator = authenticator(self._context, self._curve)
         self._publisher = self._socket(zmq.PUB)
         self._publisher.setsockopt(zmq.SNDHWM, SEND_QUEUE)
-        # libzmq 4.3.4 aborts (stream_engine_base.cpp, "!_io_error") when a peer goes whose subscriptions have filled
-        # the queue, so the queue has no end; the memory of the process is bounded instead, see memory.py.
+        # libzmq 4.3.4 aborts (stream_engine_base.cpp, "!_io_error") when a peer disconnects whose subscriptions have
+        # filled the queue. So the queue is unlimited, and the memory of the process is bounded instead: see memory.py.
         self._publisher.setsockopt(zmq.RCVHWM, 0)
         self._subscriber = self._socket(zmq.SUB)
         self._subscriber.setsockopt(zmq.RCVHWM, RECEIVE_QUEUE)
@@ -142,7 +144,7 @@ class LinkServer:
 
     def _socket(self, kind: int) -> "zmq.Socket[bytes]":
         socket = self._context.socket(kind)
-        # Beyond it ZeroMQ cuts the connection; on the port of Status it bounds a subscription.
+        # A larger message costs the connection; on the Status port this bounds a subscription.
         socket.setsockopt(zmq.MAXMSGSIZE, MAX_MESSAGE_BYTES)
         socket.setsockopt(zmq.RCVBUF, RECEIVE_BUFFER_BYTES)
         socket.setsockopt(zmq.HEARTBEAT_IVL, HEARTBEAT_MS)
@@ -154,9 +156,9 @@ class LinkServer:
 
 
 def _connection_of(frame: Any) -> int:
-    """Number of the connection that has brought a frame; none of them for a peer that speaks ZMTP 1 or 2.
+    """Return the number of the connection that brought a frame, or NO_CONNECTION for ZMTP 1 or 2.
 
-    Such a peer's messages do not count as taken, so that it is soon cut off: no application is one.
+    Messages of such a peer are not counted as delivered, so it is soon cut off; applications use ZMTP 3.
     """
     try:
         return int(frame.get(zmq.SRCFD))

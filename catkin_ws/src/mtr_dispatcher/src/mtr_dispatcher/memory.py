@@ -1,4 +1,4 @@
-"""Memory of this process, and giving back what is free."""
+"""Memory of this process: measurement, return of free memory, and the upper bound."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import ctypes
@@ -10,24 +10,24 @@ import time
 MIB = 1024 * 1024
 STATM = "/proc/self/statm"
 CHECK_PERIOD_S = 0.05
-# Of the limit, for a process that is too busy with what fills its memory to do anything about it.
+# Multiple of the limit at which a process ends that is too busy to react to the limit itself.
 LAST_RESORT = 1.5
 EXIT_STATUS = 3
 
 
 def resident_mib() -> float:
-    """Memory of this process that lies in RAM (proc(5), statm, second field), MiB."""
+    """Return the resident memory of this process (proc(5), statm, second field), MiB."""
     with open(STATM, encoding="ascii") as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / MIB
 
 
 def give_back() -> None:
-    """Return free memory to the system; glibc keeps it otherwise."""
+    """Return free memory to the system; glibc retains it otherwise."""
     ctypes.CDLL(None).malloc_trim(0)
 
 
 def end_beyond(limit_mib: float) -> None:
-    """Watch from a thread, and end this process at LAST_RESORT times the limit; it is started again with little memory.
+    """Watch the memory in a thread, and end this process at LAST_RESORT times the limit; it is then restarted.
 
     A flood of subscriptions keeps ZeroMQ busy within one call of the main thread.
     """
@@ -38,7 +38,7 @@ def _watch(limit_mib: float) -> None:
     used_mib = 0.0
     while used_mib <= limit_mib:
         time.sleep(CHECK_PERIOD_S)
-        # Strangers may hold all descriptors; then it looks again.
+        # Strangers may use up all file descriptors; then the next check reads it again.
         with contextlib.suppress(OSError):
             used_mib = resident_mib()
     print(f"The dispatcher ends at {used_mib:.0f} MiB; allowed are {limit_mib:.0f}.", file=sys.stderr, flush=True)

@@ -51,13 +51,13 @@ from .status.inputs import STALE_AFTER_S, Inputs
 from .status.notices import ERROR, WARNING
 from .status.texts import cut
 
-# While simulated time waits for the application the Status is sent again, for one that connects meanwhile.
+# While simulated time waits for the application, the Status is repeated for one that connects meanwhile.
 STATUS_AGAIN_WALL_S = 0.1
-# Longest turn on the robot's own clock: bounds how late a confirmation is sent.
+# Longest wait on the robot's own clock, which bounds the delay of a confirmation.
 TURN_S = 0.02
-# Whoever floods the robot with bad messages gets one line of log per kind and this time.
+# Period of the log per kind of bad message, so that a flood does not fill it.
 LOG_PERIOD_S = 10.0
-# New Commands of one owner that the log names one by one: a test has some a second.
+# New Commands of one owner that are logged individually; a test has a few per second.
 LOGGED_PER_S, MAX_LOGGED_BURST = 5.0, 50.0
 
 
@@ -66,7 +66,7 @@ class DispatcherNode:
 
     def __init__(self, parameters: Parameters, core: Dispatcher, server: LinkServer, eyes: Eyes,
                  gate: Optional[Gate] = None):
-        """gate: who may use the link; None when it is not encrypted."""
+        """gate: access control of the link; None if the link is not encrypted."""
         self._parameters, self._core, self._server, self._gate = parameters, core, server, gate
         self._eyes = eyes
         self._refused = 0
@@ -124,7 +124,7 @@ class DispatcherNode:
         while not self._wait.is_over(self._core.session, self._core.status_id) and not rospy.is_shutdown():
             if not self._receive(tick, STATUS_AGAIN_WALL_S, self._is_answered):
                 self._server.publish(self._status)
-                # Renewed, so that the simulator does not take a patient dispatcher for a dead one.
+                # Renew the tick, so that the simulator does not mistake a waiting dispatcher for a dead one.
                 self._ticker.renew()
         if patient and self._wait.operator_gone:
             rospy.logwarn("The application has not answered; time goes on until it is heard again.")
@@ -133,7 +133,7 @@ class DispatcherNode:
         return self._core.session.answered_status_id >= self._core.status_id
 
     def _real_turn(self) -> None:
-        """One period by the steady clock, so that nobody waits when the robot's clock is set."""
+        """Run one period of the steady clock, so that a step of the robot's clock does not prolong it."""
         now = clock.now_ns()
         end_ns = clock.steady_ns() + schedule.DISPATCHER.next_after(now) - now
         left_ns = end_ns - clock.steady_ns()
@@ -151,12 +151,12 @@ class DispatcherNode:
         self._publish_desired(now)
 
     def _receive(self, now_ns: int, timeout_s: float, is_enough: Callable[[], bool] = lambda: False) -> bool:
-        """True when something came; what comes after it is enough is left for the next time."""
+        """Process arrived messages and return True if any came; those after is_enough wait for the next call."""
         self._watch_connections(self._steady_s(now_ns))
         if self._gate is not None:
             self._watch_keys(self._gate, self._steady_s(now_ns))
         has_come = self._unread.come(timeout_s)
-        # The time after waiting: what came while this process was stopped is as old as it is.
+        # Read the time after waiting: messages that came while this process was suspended count with their real age.
         now_s = self._steady_s(now_ns)
         for message in self._unread.until(is_enough):
             self._take(message, now_s)
@@ -178,7 +178,7 @@ class DispatcherNode:
     def _watch_connections(self, now_s: float) -> None:
         found, gate = self._server.cut_off(), self._gate
         for word in HANDSHAKE_FAILURES.values():
-            # Nobody is refused for his handshake on a link without keys.
+            # On a link without keys, failed handshakes are not refusals.
             failed = found.pop(word, 0)
             for _ in range(failed):
                 if gate is not None:
@@ -204,7 +204,7 @@ class DispatcherNode:
             rospy.logwarn(said)
 
     def _bound_memory(self) -> None:
-        """Cut everybody off before strangers fill the memory: ZeroMQ bounds neither parts nor subscriptions."""
+        """Cut off all connections before strangers fill the memory: ZeroMQ bounds neither parts nor subscriptions."""
         used_mib = resident_mib()
         if used_mib <= self._parameters.memory_limit_mib:
             return
@@ -221,7 +221,7 @@ class DispatcherNode:
     def _inputs(self, now_ns: int) -> Inputs:
         reading = clock.reading()
         self._clock_watch.update(reading)
-        # Not read anew: the application takes any change of what lies between the two for a clock that was set.
+        # Use the same reading: the application interprets a change between both clocks as a step of the robot's clock.
         steady_s = reading.steady_of(now_ns) * NS
         pose, car, mode, peripherals, check, drive, motion = (
             topic.fresh_at(now_ns, STALE_AFTER_S) for topic in self._topics)
@@ -262,13 +262,13 @@ def _listed(counts: Mapping[str, int]) -> str:
 
 
 def _written_folders(parameters: Parameters) -> List[pathlib.Path]:
-    """Where nodes of this robot write by themselves, by the environment that all of them were started with."""
+    """Return the folders that nodes of this robot write to by themselves, from their common environment."""
     folders = (rospkg.get_ros_home(), rospkg.get_log_dir(), parameters.memory_folder)
     return [pathlib.Path(folder) for folder in folders if folder]
 
 
 def _areas(parameters: Parameters) -> AreaKeeper:
-    """The test area, which outlives this process within one start of the robot."""
+    """Return the keeper of the test area, which survives a restart of this process within one robot run."""
     run = str(rospy.get_param(names.ROBOT_RUN, ""))
     known = rospy.get_param(names.TEST_AREA_IN_FORCE, {})
     remembered = known.get("area") if run and isinstance(known, dict) and known.get("run") == run else None
@@ -277,8 +277,8 @@ def _areas(parameters: Parameters) -> AreaKeeper:
 
 
 def make(parameters: Parameters) -> DispatcherNode:
-    """The node with its ports open."""
-    # What a Status says of it has to be true.
+    """Return the node with its ports open."""
+    # The Status must report the actual value.
     parameters = replace(parameters, lockstep_operator=parameters.lockstep_operator and clock.is_lockstep())
     robot = described_robot()
     key = robot.key()
@@ -290,18 +290,18 @@ def make(parameters: Parameters) -> DispatcherNode:
     server = LinkServer(Ports(parameters.bind_address, parameters.status_port, parameters.command_port), curve)
     server.bind()
     try:
-        # For a preflight, whose environment is that of whoever makes it.
+        # A preflight reads the folders here, because its own environment may differ.
         rospy.set_param(names.WRITTEN_FOLDERS, [str(folder) for folder in _written_folders(parameters)])
         identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
                             key.x_m, key.y_m)
         return DispatcherNode(parameters, Dispatcher(parameters, identity, _areas(parameters)), server,
                               Eyes(mounted_lidars(robot)), gate)
     except BaseException:
-        # Its thread would keep the process alive.
+        # The server's thread would keep the process alive.
         server.close()
         raise
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("dispatcher", Parameters, make)

@@ -1,4 +1,4 @@
-"""How long simulated time waits for the Operator's application, and what it takes of it at a tick."""
+"""Waiting of simulated time for the Operator's application, and the messages that belong to a tick."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import time
@@ -10,10 +10,10 @@ Message = TypeVar("Message")
 
 
 class OperatorWait:
-    """At each tick: begin, then ask is_over until it is.
+    """Wait for the application: at each tick call begin, then is_over until it returns True.
 
     Attributes:
-        operator_gone: an application in control that owed an answer for too long; nobody waits before its next Command.
+        operator_gone: an application in control did not answer in time; ticks do not wait before its next Command.
     """
 
     def __init__(self, lost_after_wall_s: float, wall_clock: Callable[[], float] = time.monotonic):
@@ -22,18 +22,18 @@ class OperatorWait:
         self.operator_gone = False
 
     def begin(self) -> None:
-        """A Status has been published that wants an answer."""
+        """Start to wait for the answer to a published Status."""
         self._patient_until = self._wall_clock() + self._lost_after_wall_s
 
     def received(self) -> None:
-        """The application in control has sent a Command."""
+        """Note a Command of the application in control."""
         self.operator_gone = False
         self.begin()
 
     def is_over(self, session: ControlSession, status_id: int) -> bool:
-        """True when the tick goes on: the Status is answered, or the application in control is gone.
+        """Return True if the tick may continue: the Status is answered, or the application in control is gone.
 
-        Without an application in control time stands still until one comes.
+        Without an application in control, simulated time stops until one connects.
         """
         if session.answered_status_id >= status_id:
             return True
@@ -43,13 +43,13 @@ class OperatorWait:
 
 
 class Unread(Generic[Message]):
-    """Messages of the link that have come and were not taken yet.
+    """Received messages of the link that are not processed yet.
 
-    In lock-step what comes behind the answer to the newest Status belongs to the next tick: an application that hears
-    nothing for a second says stop, and it was this process, or another one, that stood meanwhile. Were it taken with
-    the answer, how busy the machine is would stop the robot.
+    In lock-step a message after the answer to the newest Status belongs to the next tick. An application that receives
+    nothing for one second sends a stop, although this process or another one was only suspended. If such a stop were
+    processed together with the answer, the load of the machine would stop the robot.
 
-    receive: gives what has come, waiting up to so many seconds.
+    receive: returns the arrived messages, and waits up to the given number of seconds.
     """
 
     def __init__(self, receive: Callable[[float], Sequence[Message]]):
@@ -57,12 +57,12 @@ class Unread(Generic[Message]):
         self._messages: Deque[Message] = collections.deque()
 
     def come(self, timeout_s: float) -> bool:
-        """True when there is one; waits only where nothing is left of before."""
+        """Return True if a message is available; wait only if none is left from the previous call."""
         if not self._messages:
             self._messages.extend(self._receive(timeout_s))
         return bool(self._messages)
 
     def until(self, is_enough: Callable[[], bool]) -> Iterator[Message]:
-        """All of them, or those up to the one that is enough."""
+        """Yield the messages in order, until is_enough returns True."""
         while self._messages and not is_enough():
             yield self._messages.popleft()

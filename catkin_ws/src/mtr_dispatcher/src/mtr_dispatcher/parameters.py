@@ -13,39 +13,39 @@ from .disks.room import FULL_MB
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the dispatcher is started with.
+    """Start parameters of the dispatcher.
 
     Attributes:
         bind_address: address on which both ports listen; "0.0.0.0" for all interfaces.
         status_port: TCP port on which Status is published.
         command_port: TCP port on which Command is received.
-        lockstep_operator: in lock-step time waits for the application's answer to each Status.
+        lockstep_operator: simulated time waits for the application's answer to each Status.
         operator_lost_after_wall_s: wall time after which it stops waiting.
-        link_timeout_s: silence after which the robot stops at the latest; one turn earlier it may.
+        link_timeout_s: silence after which the robot stops at the latest; it may stop one period earlier.
         fast_link_timeout_s: the same while the planner drives faster than fast_mps.
-        fast_mps: see there; above slow_link_mps, by what the speed may exceed its limit.
+        fast_mps: see fast_link_timeout_s; above slow_link_mps by the amount that the speed may exceed its limit.
         slow_after_s: silence after which the maximum speed is lowered to slow_link_mps, until the application has
             answered a newer Status.
-        slow_link_mps: maximum speed then.
+        slow_link_mps: maximum speed after slow_after_s.
         command_lifetime_s: age of the answered Status at which a Command has expired.
         takeover_after_s: silence of the application in control after which another may take over.
-        default_speed_mps: maximum speed when a Command names none; not above platform_speed_mps.
-        platform_speed_mps: highest maximum speed that a Command may ask for (Jackal data sheet).
-        low_battery: charge below which the Operator is warned.
-        emergency_stop: the robot has one that its software sees; one that is silent counts as engaged.
-        warn_without_emergency_stop: the Operator reads that there is none.
-        encrypt_on_loopback: CURVE also where only this computer reaches the link; elsewhere it is always on.
-        allow_unencrypted: no CURVE on another address either; robot and window say so in red.
-        key_folder: of the robot's key pair and the list of paired keys; empty for mtr_link in $ROS_HOME.
-        max_commands_per_s: Commands of one key that are looked at.
+        default_speed_mps: maximum speed when a Command has none; not above platform_speed_mps.
+        platform_speed_mps: highest maximum speed that a Command may request (Jackal data sheet).
+        low_battery: charge, 0 to 1, below which the Operator is warned.
+        emergency_stop: the software can read the robot's emergency stop; a silent one counts as engaged.
+        warn_without_emergency_stop: notify the Operator that the robot has none.
+        encrypt_on_loopback: CURVE also on a loopback address; on any other address it is always on.
+        allow_unencrypted: no CURVE on other addresses either; robot and window show a red warning.
+        key_folder: folder of the robot's key pair and the list of paired keys; empty for mtr_link in $ROS_HOME.
+        max_commands_per_s: rate of Commands that are processed per key.
         memory_limit_mib: memory of the process at which all connections of the link are cut off.
-        memory_folder: of localization and Car locator; with those of ROS and of its logs it is one of those whose disk
-            may not be full; empty: they remember nothing.
-        full_disk_mb: free space below which the Operator reads that a disk is full, and no test begins.
-        disk_period_s: wall time between two looks at it.
+        memory_folder: folder in which localization and Car locator store their memory, checked for disk space like
+            the folders of ROS and its logs; empty: they store nothing.
+        full_disk_mb: free space below which a disk counts as full: the Operator is notified, and no test begins.
+        disk_period_s: wall time between two checks of the disks.
         simulated: the robot is simulated; a real one neither maps nor tests without a test area.
-        test_area_xy: corners x, y, x, y, ... of the test area in m, in the frame in which the robot stands at its start
-            (x ahead, y to the left); empty: the Operator draws it.
+        test_area_xy: corners x, y, x, y, ... of the test area in m, in the frame of the robot at its start (x
+            ahead, y to the left); empty: the Operator draws it.
     """
 
     bind_address: str = "127.0.0.1"
@@ -89,10 +89,10 @@ class Parameters(ParameterSet):
 
     @property
     def is_encrypted(self) -> bool:
-        """True when only paired keys may use the link."""
+        """True if only paired keys may use the link."""
         return self.encrypt_on_loopback or not (is_loopback(self.bind_address) or self.allow_unencrypted)
 
     @property
     def is_exposed(self) -> bool:
-        """True when whoever is in the network may use it."""
+        """True if every computer in the network may use the link."""
         return not self.is_encrypted and not is_loopback(self.bind_address)

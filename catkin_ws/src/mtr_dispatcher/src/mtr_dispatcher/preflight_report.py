@@ -1,20 +1,20 @@
-"""What the last preflight found, as the ROS master keeps it between the preflight and the dispatcher. No ROS inside.
+"""The report of the last preflight, stored in the ROS master for the dispatcher. No ROS inside.
 
-A topic would end with the preflight, which lasts some seconds; a parameter lasts until the robot is started
-anew: robot.launch removes it, for the master may be the one of before.
+A topic would end with the preflight after some seconds; a parameter persists. At a robot start, robot.launch removes
+the parameter, because the master may be older than the robot run.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Dict, NamedTuple, Optional, Tuple
 
-# So many findings are kept, the bad ones first; a preflight with --drive makes some 40.
+# Number of stored findings, the bad ones first; a preflight with --drive yields about 40.
 MAX_ITEMS = 64
-# Of a count in the Status.
+# Upper bound of a count in the Status.
 MAX_COUNT = 2 ** 31
 
 
 class PreflightItem(NamedTuple):
-    """One finding: what was looked at, whether the robot shall not be used like that, and a sentence."""
+    """One finding: name of the check, True if the robot must not be used, and a sentence."""
 
     name: str
     is_bad: bool
@@ -25,11 +25,11 @@ class PreflightReport(NamedTuple):
     """All findings of one preflight.
 
     Attributes:
-        made_s: when it ended, on the robot's steady clock, s.
-        items: the bad ones first, at most MAX_ITEMS of them.
-        checks: how many there were.
-        bad: how many of them were bad.
-        motion_made_s: when sensors were compared in motion last, on the same clock; None: not in this run of the robot.
+        made_s: end of the preflight on the robot's steady clock, s.
+        items: findings, the bad ones first, at most MAX_ITEMS.
+        checks: number of all findings.
+        bad: number of all bad findings.
+        motion_made_s: time of the last sensor comparison in motion on the same clock; None: not in this robot run.
     """
 
     made_s: float
@@ -40,24 +40,24 @@ class PreflightReport(NamedTuple):
 
 
 def report_of(made_s: float, items: Tuple[PreflightItem, ...]) -> PreflightReport:
-    """The report of these findings."""
+    """Return the report of these findings."""
     ordered = sorted(items, key=lambda item: not item.is_bad)
     return PreflightReport(made_s, tuple(ordered[:MAX_ITEMS]), len(items), sum(item.is_bad for item in items))
 
 
 def with_motion(report: Optional[PreflightReport], motion: Optional[PreflightReport]) -> Optional[PreflightReport]:
-    """The report with the time of the findings in motion; None for what was not made."""
+    """Return the report with the time of the findings in motion; None without a report."""
     return report if report is None or motion is None else report._replace(motion_made_s=motion.made_s)
 
 
 def parameter_of(report: PreflightReport) -> Dict[str, Any]:
-    """For the master; report_in reads it."""
+    """Return the value of the master's parameter; report_in parses it."""
     return {"made_s": report.made_s, "checks": report.checks, "bad": report.bad,
             "items": [list(item) for item in report.items]}
 
 
 def report_in(parameter: Any) -> Optional[PreflightReport]:
-    """What the master has, None when it is no report: it holds what anybody has set."""
+    """Parse the master's parameter; None if it is not a report, because any program may have set it."""
     try:
         items = tuple(PreflightItem(str(name), bool(is_bad), str(sentence))
                       for name, is_bad, sentence in parameter["items"][:MAX_ITEMS])

@@ -1,15 +1,15 @@
-"""What the dispatcher says to the Operator."""
+"""Sentences of the dispatcher for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 
-# Why the robot stands
+# Reasons for a stopped robot
 NO_APPLICATION = Sentence("dispatcher.no_application", "No application controls the robot.")
 APPLICATION_SILENT = Sentence("dispatcher.application_silent",
                               "The application has been silent for more than {limit_s} s.")
 STOPPED_BY_OPERATOR = Sentence("dispatcher.stopped_by_operator", "The Operator stopped the robot.")
 COMMAND_REFUSED = Sentence("dispatcher.command_refused", "Command refused: {cause}")
 
-# Messages that moved nothing
+# Messages without effect
 OVERSIZED = Sentence("dispatcher.oversized", "A message of {size} bytes was ignored; allowed are {maximum}.")
 UNDECODABLE = Sentence("dispatcher.undecodable", "A message of {size} bytes that is no Command was ignored.")
 INCOMPLETE = Sentence("dispatcher.incomplete", "A Command without session or id was ignored.")
@@ -19,7 +19,7 @@ FOREIGN_APPLICATION = Sentence(
     "dispatcher.foreign_application",
     "Application {controlling} controls the robot; Commands of application {foreign} are ignored.")
 
-# Who may not use the link
+# Refused senders and connections
 KEY_UNKNOWN = Sentence("dispatcher.key_unknown",
                        "Commands with a key that the robot does not know are ignored; pair anew.")
 VIEWER_COMMAND = Sentence("dispatcher.viewer_command",
@@ -36,7 +36,7 @@ CONNECTIONS_CUT_OFF = Sentence(
 UNENCRYPTED = Sentence("dispatcher.unencrypted",
                        "The link is not encrypted: whoever is in its network can move the robot.")
 
-# What makes a Command unacceptable
+# Checks of a Command
 WAYPOINT_WITHOUT_ID = Sentence("dispatcher.waypoint_without_id", "Waypoint without an id; ids count from 1.")
 WAYPOINT_DIRECTION = Sentence("dispatcher.waypoint_direction",
                               "Waypoint {id}: direction is {value}; allowed are 0, 1 and 2.")

@@ -1,4 +1,4 @@
-"""LiDARs and the planned path for the Operator's picture: kept as bytes, and read only when a Status shows them."""
+"""LiDARs and the planned path for the Operator's picture: stored as bytes, and parsed only when a Status needs them."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Dict, List, Optional
 
@@ -19,12 +19,12 @@ from mtr_description.robot_geometry import RobotGeometry
 from .status.inputs import STALE_AFTER_S, Inputs
 from .status.surroundings import Motion, Obstacle, Surroundings, Sweep, path_of, points_of
 
-# Every second Status has them: five times a second.
+# Every second Status has a picture, which is five times a second.
 _EVERY = 2
 
 
 def mounted_lidars(robot: RobotGeometry) -> LidarMounts:
-    """Mounts of the LiDARs that the robot's description has."""
+    """Return the mounts of the LiDARs in the robot's description."""
     try:
         return robot.lidars()
     except ConfigurationError:
@@ -32,7 +32,7 @@ def mounted_lidars(robot: RobotGeometry) -> LidarMounts:
 
 
 class Eyes:
-    """Takes part in no lock-step: nothing is decided by what a picture shows."""
+    """Newest messages for the picture. They are not synchronised in lock-step, because no decision depends on them."""
 
     def __init__(self, lidars: LidarMounts):
         self._mounts = {names.FRONT_SCAN: lidars.front}
@@ -43,12 +43,12 @@ class Eyes:
         self._subscribers = [self._subscriber(topic) for topic in (*self._mounts, names.MOTION_PATH)]
 
     def _subscriber(self, topic: str) -> rospy.Subscriber:
-        # Messages come 50 times a second, and are looked at five times: the others are not even unpacked.
+        # Messages arrive 50 times a second and are used five times a second: the others are not deserialized.
         return rospy.Subscriber(topic, rospy.AnyMsg, lambda message: self._newest.update({topic: message}),
                                 queue_size=1)
 
     def look(self, inputs: Inputs) -> Optional[Surroundings]:
-        """What is seen now; None in Statuses that do not carry it, and while the robot has no pose."""
+        """Return the surroundings; None in Statuses without a picture, and while the robot has no pose."""
         self._count += 1
         pose = inputs.pose
         if self._count % _EVERY or pose is None:
@@ -69,17 +69,17 @@ class Eyes:
         if path is None or car is None or car.state != CarState.LOCATED or not path.poses:
             return np.empty((0, 2))
         places = np.array([(each.pose.position.x, each.pose.position.y) for each in path.poses], dtype=float)
-        # The planner plans around a located Car in its frame.
+        # The planner plans around a located Car in the Car's frame.
         is_cars = path.header.frame_id == names.CAR
         return path_of(places, Pose2(0.0, 0.0, 0.0) if is_cars else Pose2(car.x, car.y, car.heading).inverse())
 
     def _read(self, topic: str, empty: Any) -> Any:
-        """The newest message of a topic; None before the first, and for one of another type."""
+        """Return the newest message of a topic; None before the first one, and if it has another type."""
         raw = self._newest.get(topic)
         try:
-            # AnyMsg has no public way to its bytes.
+            # AnyMsg has no public access to its bytes.
             return None if raw is None else empty.deserialize(raw._buff)
-        except DeserializationError:  # somebody else publishes another type there; the link goes on
+        except DeserializationError:  # Another program publishes another type on the topic; the link must continue.
             return None
 
 

@@ -1,4 +1,4 @@
-"""Who controls the robot, which of its Commands count, and what they ask for now."""
+"""Control of the robot by one application: accepted Commands and the desired state."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -15,38 +15,38 @@ from .command import Command, problem_of
 from .order_numbers import OrderNumbers
 from .parameters import Parameters
 
-# An application that has lost control may still send, what it sent before included; a window that nobody closed does so
+# An application that has lost control may still send, and earlier messages may still arrive. A forgotten window does so
 # for days, while each test of another laptop opens two sessions.
 REMEMBERED_SESSIONS = 1000
-# An id counts changes of the content, at most some per second: nobody makes so many while the link is interrupted, and
-# no application begins with more.
+# An id counts content changes, at most a few per second. Fewer than MAX_ID_STEP occur during an interruption of the
+# link, and no application starts with an id above MAX_FIRST_ID.
 MAX_ID_STEP = 1000
 MAX_FIRST_ID = 10 ** 9
 
 
 class CommandResult(enum.Enum):
-    """What became of a Command."""
+    """Result of a received Command."""
 
     TAKEN = "taken"            # new content
     REPEATED = "repeated"      # keeps the link alive
-    OUTDATED = "outdated"      # older than what was taken, or of a session that is over
-    EXPIRED = "expired"        # answers a Status that is too old or was never sent, or has an id out of turn
+    OUTDATED = "outdated"      # older than the newest accepted Command, or of a former session
+    EXPIRED = "expired"        # answers a Status that is too old or unknown, or its id is out of sequence
     FOREIGN = "foreign"        # another application controls the robot
-    REFUSED = "refused"        # its content is unacceptable; the robot stops
-    ENDED = "ended"            # goodbye
-    FORBIDDEN = "forbidden"    # whoever sent it may not
-    WATCHED = "watched"        # claims nothing; the Operator's stop can reach the robot
+    REFUSED = "refused"        # unacceptable content; the robot stops
+    ENDED = "ended"            # end of the session
+    FORBIDDEN = "forbidden"    # the sender lacks permission
+    WATCHED = "watched"        # no claim to control; the Operator's stop can reach the robot
 
 
-# Commands that moved nothing and are counted as rejected.
+# Commands without effect that are counted as rejected.
 REJECTIONS = (CommandResult.EXPIRED, CommandResult.FOREIGN, CommandResult.REFUSED)
 
 
 @dataclass(frozen=True)
 class SessionState:
-    """What the robot shall do now. stop_reason is no problem when it may move, without a session by hand only.
+    """Desired state. stop_reason is empty if the robot may move; without a session, only by manual control.
 
-    speed_limit_mps: of a link that is silent for a while, infinite for one that is not.
+    speed_limit_mps: limit while the link is silent for a while, otherwise infinite.
     """
 
     session_id: int
@@ -59,16 +59,16 @@ class SessionState:
 
 
 class ControlSession:
-    """Lets one application control the robot; one that has lost control needs a new session to have it again.
+    """Lets one application control the robot; one that has lost control needs a new session to regain it.
 
     Attributes:
-        session_id: application in control, 0 for none.
+        session_id: session of the application in control, 0 for none.
         owner: key that opened its session; empty on a link without keys.
-        command: newest Command that was taken.
-        refusal: why its newest Command was refused; no problem when it was not.
-        answered_status_id: newest Status that the application in control, or without one a watching one, has answered.
+        command: newest accepted Command.
+        refusal: why the newest Command was refused; no problem if it was accepted.
+        answered_status_id: newest Status answered by the application in control, or without one by a watching one.
         map_orders: numbers of the orders to map the Car.
-        check_orders: numbers of the orders to check it.
+        check_orders: numbers of the orders to check the Car.
     """
 
     def __init__(self, parameters: Parameters):
@@ -85,13 +85,13 @@ class ControlSession:
         self._former: Dict[int, str] = {}
 
     def owner_of(self, session_id: int) -> Optional[str]:
-        """Key that opened this session, which is in control or was before; None for one that is not known."""
+        """Return the key that opened a current or former session, or None if the session is unknown."""
         return self.owner if session_id == self.session_id else self._former.get(session_id)
 
     def take(self, command: Command, now_s: float, answered_s: Optional[float], key: str = "") -> CommandResult:
-        """Judge a Command that arrived at now_s and answers the Status that was sent at answered_s, None for none.
+        """Judge a Command that arrived at now_s; answered_s is the send time of the Status that it answers, or None.
 
-        Both are times of the steady clock. key: of its sender, who owns its session unless that is a new one; empty
+        Both are times of the steady clock. key: of the sender, who owns the Command's session unless it is new; empty
         on a link without keys.
         """
         if command.watches and command.session_id != self.session_id:
@@ -112,13 +112,14 @@ class ControlSession:
         return self._take_in_time(command, answered_s)
 
     def link_alive(self, now_s: float) -> bool:
-        """True while the application in control has seen the robot of less than the time-out ago, also at the next
-        turn: nobody looks in between.
+        """Return True if the newest Status that the application in control has seen is younger than the time-out.
+
+        The time-out is reduced by one period, because it is not checked between two ticks.
         """
         return bool(self.session_id) and self._is_recent(now_s, self._seen_s, self._timeout_s)
 
     def note_speed(self, planned_mps: float, now_s: float) -> None:
-        """Take the planner's speed. A link that was silent too long for it stays so while the robot brakes."""
+        """Note the planner's speed. A link that exceeded the shorter time-out stays dead while the robot brakes."""
         is_fast = not planned_mps <= self._parameters.fast_mps
         if is_fast or self.link_alive(now_s):
             self._is_fast = is_fast
@@ -129,7 +130,7 @@ class ControlSession:
         return min(timeout_s, self._parameters.fast_link_timeout_s) if self._is_fast else timeout_s
 
     def is_watched(self, now_s: float) -> bool:
-        """True while an application watches, whose Stop takes control: a person may drive the robot by hand."""
+        """Return True while an application watches. Manual control is allowed then, because its Stop takes control."""
         return self._is_recent(now_s, self._watched_s, self._parameters.link_timeout_s)
 
     @staticmethod
@@ -137,7 +138,7 @@ class ControlSession:
         return is_fresh(now_s - seen_s, timeout_s - DISPATCHER.period_ns * NS)
 
     def desired(self, now_s: float) -> SessionState:
-        """What the robot shall do at now_s."""
+        """Return the desired state at now_s."""
         alive = self.link_alive(now_s)
         map_order = self.map_orders.number_of(self.session_id, self.command.map_car_id)
         check_order = self.check_orders.number_of(self.session_id, self.command.check_car_id)
@@ -161,7 +162,7 @@ class ControlSession:
         self.answered_status_id = max(self.answered_status_id, command.seen_status_id)
         if command.id < self._newest_id:
             return CommandResult.OUTDATED
-        # The application has seen the robot at that time, and not later.
+        # The application has seen the robot's state of that time, not of the arrival time.
         self._seen_s = max(self._seen_s, answered_s)
         return self._accept(command)
 
@@ -184,7 +185,7 @@ class ControlSession:
         return CommandResult.WATCHED
 
     def _take_late(self, command: Command) -> CommandResult:
-        """A Command that comes too late moves nothing; one that only stops is never too late."""
+        """Reject a late Command; a late stop of the session in control still stops the robot."""
         if command.stop and command.session_id == self.session_id and command.id > self._newest_id:
             self._accept(command)
         return CommandResult.EXPIRED
@@ -200,7 +201,7 @@ class ControlSession:
         return True
 
     def _end(self, command: Command, answered_s: Optional[float]) -> CommandResult:
-        # A goodbye only stops, so it may be as old as the Statuses that are remembered.
+        # A goodbye only stops the robot, so it may answer any Status whose send time is stored.
         if answered_s is None:
             return CommandResult.EXPIRED
         if command.session_id != self.session_id or command.id < self._newest_id:
@@ -211,7 +212,7 @@ class ControlSession:
         return CommandResult.ENDED
 
     def _newest_id_of(self, command: Command) -> int:
-        """Newest id of the Command's session; of one that is not in control what its first may be."""
+        """Return the newest id of the Command's session, or the highest allowed first id if it is not in control."""
         return self._newest_id if command.session_id == self.session_id else MAX_FIRST_ID
 
     def _become_former(self) -> None:
@@ -223,7 +224,7 @@ class ControlSession:
 
 def desired_state(desired: SessionState, default_speed_mps: float, area_problem: Problem = NO_PROBLEM
                   ) -> DesiredState:
-    """The same for the other nodes; where the Command leaves a choice it is made here."""
+    """Return the desired state for the other nodes, with defaults for the choices left open by the Command."""
     command = desired.command
     speed_mps = default_speed_mps if command.max_speed_mps is None else command.max_speed_mps
     return DesiredState(
@@ -236,7 +237,7 @@ def desired_state(desired: SessionState, default_speed_mps: float, area_problem:
 
 
 def is_same(one: Optional[SessionState], other: SessionState) -> bool:
-    """True when both ask for the same; a repetition of a Command changes nothing."""
+    """Return True if both states request the same; a repeated Command changes nothing."""
     return one is not None and _order(one) == _order(other)
 
 

@@ -22,7 +22,7 @@ POLL_MS = 20
 
 
 class Application:
-    """The Operator's end of the link, with a key pair or without encryption."""
+    """The Operator's end of the link, encrypted with a key pair or not encrypted."""
 
     def __init__(self, robot_key, keys):
         self.session_id = secrets.randbits(62) | 1
@@ -37,7 +37,7 @@ class Application:
             socket.connect(f"tcp://127.0.0.1:{rospy.get_param('~' + port)}")
 
     def step(self):
-        """The newest Status, answered with an order to move; None when none came."""
+        """Return the newest Status after answering it with a waypoint, or None without one."""
         newest = None
         while self.statuses.poll(0 if newest else POLL_MS):
             newest = link.Status.FromString(self.statuses.recv())
@@ -53,7 +53,7 @@ class Application:
 
 
 class DispatcherEncrypted(unittest.TestCase):
-    """Against one dispatcher; nobody controls it when a test begins."""
+    """Tests of one running dispatcher; no application is in control when a test begins."""
 
     @classmethod
     def setUpClass(cls):
@@ -68,11 +68,11 @@ class DispatcherEncrypted(unittest.TestCase):
 
     def setUp(self):
         self.folder.change(lambda known: AuthorisedKeys())
-        # Whoever was in control falls silent.
+        # Wait until the application in control has timed out.
         self.until(lambda _: self.lock.engaged)
 
     def application(self, name="", role=Role.CONTROLLER):
-        """One that is paired under this name; without a name its key is unknown."""
+        """Return an application that is paired under this name; without a name its key is unknown."""
         keys = zmq.curve_keypair()
         if name:
             entry = Entry(name, role, "2026-11-23", keys[0].decode())
@@ -85,7 +85,7 @@ class DispatcherEncrypted(unittest.TestCase):
         return made
 
     def until(self, condition, *applications):
-        """The first application's newest Status when the condition holds."""
+        """Return the first application's newest Status as soon as the condition holds."""
         status, end_s = None, time.monotonic() + LIMIT_S
         while time.monotonic() < end_s:
             if not applications:
@@ -99,7 +99,7 @@ class DispatcherEncrypted(unittest.TestCase):
 
     def test_paired_controller_moves_the_robot_until_its_key_is_revoked(self):
         jana, petr = self.application("Jana"), self.application("Petr")
-        # The lock is told at once, who controls with the next Status.
+        # The lock is published at once, the controller's name with the next Status.
         status = self.until(lambda status: status and status.controller_name == "Jana" and not self.lock.engaged, jana)
         self.assertEqual(status.session_id, jana.session_id)
         self.folder.change(lambda known: known.without("Jana"))
@@ -118,7 +118,7 @@ class DispatcherEncrypted(unittest.TestCase):
 
 
 def codes(status):
-    """Codes of the notifications."""
+    """Return the codes of the notifications."""
     return {notice.code for notice in status.notifications}
 
 

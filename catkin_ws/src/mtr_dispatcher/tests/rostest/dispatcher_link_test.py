@@ -31,13 +31,13 @@ class Application:
         self._commands.connect(f"tcp://127.0.0.1:{command_port}")
 
     def status(self):
-        """The next Status."""
+        """Return the next Status."""
         if not self._statuses.poll(1000 * LIMIT_S):
             raise AssertionError("The robot is silent.")
         return link.Status.FromString(self._statuses.recv())
 
     def status_where(self, condition):
-        """The first Status that fulfils the condition."""
+        """Return the first Status that fulfils the condition."""
         deadline = time.monotonic() + LIMIT_S
         while time.monotonic() < deadline:
             status = self.status()
@@ -51,7 +51,7 @@ class Application:
                                          seen_robot_time_s=status.sent_time_s, **content).SerializeToString())
 
     def send_bytes(self, data):
-        """Anything."""
+        """Send bytes that need not be a Command."""
         self._commands.send(data)
 
     def insist(self, condition, **content):
@@ -70,7 +70,7 @@ class Application:
 
 
 class DispatcherLink(unittest.TestCase):
-    """Each test is one application's session, from its first Command to its goodbye."""
+    """Each test is one application's session, from its first Command to its end."""
 
     @classmethod
     def setUpClass(cls):
@@ -99,7 +99,7 @@ class DispatcherLink(unittest.TestCase):
         self.application.close()
 
     def eventually(self, condition):
-        """True as soon as the condition holds."""
+        """Wait until the condition holds; return False after LIMIT_S."""
         deadline = time.monotonic() + LIMIT_S
         while not condition() and time.monotonic() < deadline:
             rospy.rostime.wallsleep(0.005)
@@ -155,7 +155,7 @@ class DispatcherLink(unittest.TestCase):
         self.assertTrue(self.eventually(lambda: self.lock.engaged))
         watching = Application(rospy.get_param("~status_port"), rospy.get_param("~command_port"))
         watching.insist(lambda status: status.session_id == 0 and not self.lock.engaged, watches=True)
-        # Nothing moves but by hand.
+        # Only manual control is possible.
         self.assertTrue(self.desired.stop and not self.desired.session_id)
         watching.close()
         self.assertTrue(self.eventually(lambda: self.lock.engaged))

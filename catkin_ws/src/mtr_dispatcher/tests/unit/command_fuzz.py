@@ -1,4 +1,4 @@
-"""Mutated Commands at the dispatcher's core: each is refused or makes sense, whatever the bytes are.
+"""Feeds mutated Commands to the dispatcher's core: each must be refused or result in a valid desired state.
 
 Usage: command_fuzz.py [--cases N] [--seed N] [--out FOLDER]
 """
@@ -31,7 +31,7 @@ MUST = ("uncaught exceptions", "hangs of more than 1 s", "accepted nonsense")
 
 
 def command(chance: random.Random, newest: Dispatcher, now_s: float) -> bytes:
-    """A Command with some fields as nobody would send them, and sometimes bytes as nobody would."""
+    """Return the bytes of a Command with invalid values in some fields, in some cases corrupted."""
     status_id, newest_id, session_id = newest.status_id, newest.session._newest_id, newest.session.session_id or 1
     answered = chance.choice([status_id, status_id, status_id, chance.choice(IDS)])
     seen_s = chance.choice([now_s, now_s, now_s - 0.9, now_s - 3.0, chance.choice(NUMBERS)])
@@ -57,7 +57,7 @@ def command(chance: random.Random, newest: Dispatcher, now_s: float) -> bytes:
 
 
 def mutated(chance: random.Random, data: bytes) -> bytes:
-    """The bytes, in one of four cases with some of them wrong, missing or repeated."""
+    """Return the bytes, in one of four cases truncated, changed or repeated."""
     kind, place = chance.randrange(12), chance.randrange(len(data))
     if kind == 0:
         return data[:place]
@@ -67,7 +67,7 @@ def mutated(chance: random.Random, data: bytes) -> bytes:
 
 
 def nonsense_of(core: Dispatcher, now_s: float) -> str:
-    """What of the desired state cannot be meant; empty when there is nothing."""
+    """Return the first invalid part of the desired state, or an empty text."""
     state = core.desired(now_s)
     desired = desired_message(state, None, 0.5)
     lock = lock_message(state, None)
@@ -87,7 +87,7 @@ def nonsense_of(core: Dispatcher, now_s: float) -> str:
 
 
 class Fuzz:
-    """Runs cases and counts what they come to."""
+    """Runs cases and counts their results."""
 
     def __init__(self, seed: int):
         self.counts: collections.Counter[str] = collections.Counter()
@@ -96,7 +96,7 @@ class Fuzz:
         self._core, self._now_s = Dispatcher(Parameters(), Identity(7, "fuzz", 0.25, 0.0)), 1000.0
 
     def run(self, cases: int) -> None:
-        """Further cases."""
+        """Run further cases."""
         for _ in range(cases):
             began_s = time.process_time()
             try:
@@ -122,7 +122,7 @@ class Fuzz:
 
 
 def main() -> int:
-    """Command line; 1 when something was found."""
+    """Run the command line; return 1 if a problem was found."""
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--cases", type=int, default=100_000, help="default %(default)s")
     parser.add_argument("--seed", type=int, default=1, help="default %(default)s")

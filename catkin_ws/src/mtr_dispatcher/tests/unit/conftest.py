@@ -1,4 +1,4 @@
-"""Makes the fuzzer importable by the tests beside it."""
+"""Makes the fuzzer and the helpers of this folder importable."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys

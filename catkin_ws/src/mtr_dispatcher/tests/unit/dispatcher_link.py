@@ -1,4 +1,4 @@
-"""A dispatcher under a steady clock, as tests of the link use it."""
+"""A dispatcher with an adjustable steady clock, for tests of the link."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_dispatcher.core import Dispatcher
 from mtr_dispatcher.parameters import Parameters
@@ -10,7 +10,7 @@ START_S = 100.0
 
 
 class Link:
-    """A dispatcher whose steady clock goes on by itself; the robot's clock is what lies above it."""
+    """A dispatcher with a steady clock that the test sets; offset_s: the robot's clock minus the steady one."""
 
     def __init__(self, offset_s=1000.0):
         self.core = Dispatcher(Parameters(), Identity(7, "1.2.3", 0.25, 0.0))

@@ -1,4 +1,4 @@
-"""Peers of an encrypted link on the loopback interface, for tests: paired ones, strangers, and a clock that stands."""
+"""Peers of an encrypted link on the loopback interface, for tests: paired ones and strangers."""
 # SPDX-License-Identifier: Apache-2.0
 import socket
 import time
@@ -27,7 +27,7 @@ def free_ports():
 
 
 class Robot:
-    """A link server with a folder of keys, and its gate."""
+    """A link server with a key folder and its gate."""
 
     def __init__(self, folder):
         self.folder = KeyFolder(folder)
@@ -38,13 +38,13 @@ class Robot:
         self.server.bind()
 
     def pair(self, name="Jana", role=Role.CONTROLLER):
-        """A new key pair, accepted by the robot."""
+        """Return a new key pair that the robot accepts."""
         keys = KeyPair(*zmq.curve_keypair())
         self.folder.change(lambda known: known.with_entry(Entry(name, role, "2026-11-23", keys.public.decode())))
         return keys
 
     def messages(self, wanted, act=lambda: None):
-        """Messages until one of them is wanted; `act` is called before each look."""
+        """Return the messages until one of them is wanted; `act` is called before each poll."""
         found, end_s = [], time.monotonic() + LIMIT_S
         while not any(message.data == wanted for message in found):
             assert time.monotonic() < end_s, f"{wanted} has not arrived"
@@ -53,7 +53,7 @@ class Robot:
         return found
 
     def failed(self, number=1):
-        """Words of failed handshakes, so many at least."""
+        """Return the causes of failed handshakes, at least `number` of them."""
         words, end_s = [], time.monotonic() + LIMIT_S
         while len(words) < number:
             assert time.monotonic() < end_s, f"only {words} failed"
@@ -63,7 +63,7 @@ class Robot:
 
 
 class Peer:
-    """Somebody who publishes on the Command port. keys: None for no encryption."""
+    """A peer that publishes on the Command port. keys: None for no encryption."""
 
     def __init__(self, context, robot, keys, robot_key=None):
         self.socket = context.socket(zmq.PUB)
@@ -80,5 +80,5 @@ class Peer:
 
     @property
     def is_in(self):
-        """True when the robot has let it in."""
+        """True if the robot has admitted the peer."""
         return self.event == zmq.EVENT_HANDSHAKE_SUCCEEDED

@@ -1,4 +1,4 @@
-"""Keys, roles, rates and the window of pairing, without a socket."""
+"""Keys, roles, rates and the pairing window, without a socket."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -116,7 +116,7 @@ def core():
 
 
 def order(number=1, session_id=5, at=(1, NOW_S), **content):
-    """at: id and time of the Status that it answers."""
+    """at: id and time of the answered Status."""
     return link.Command(session_id=session_id, id=number, seen_status_id=at[0], seen_robot_time_s=at[1],
                         **content).SerializeToString()
 

@@ -1,4 +1,4 @@
-"""The test area: hostile orders are refused with a sentence, and the one in force outlives sessions and the process."""
+"""The test area: hostile orders are refused with a sentence; the area in force survives sessions and restarts."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -214,7 +214,7 @@ def test_area_of_the_launch_file_keeps_its_origin_over_a_restart_of_the_dispatch
     after = AreaKeeper(True, SQUARE, remembered=kept)
     after.observe(pose(ORIGIN + 1))
     assert after.problem(pose(ORIGIN + 1)).code == "dispatcher.fixed_area_of_other_origin"
-    # Another area in the launch file is another one.
+    # Another area in the launch file replaces the stored one.
     other = AreaKeeper(True, circle(5), remembered=kept)
     other.observe(pose(ORIGIN + 1))
     assert not other.problem(pose(ORIGIN + 1))

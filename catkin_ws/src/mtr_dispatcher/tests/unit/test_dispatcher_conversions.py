@@ -1,4 +1,4 @@
-"""Desired state to ROS messages."""
+"""Conversion of the desired state to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

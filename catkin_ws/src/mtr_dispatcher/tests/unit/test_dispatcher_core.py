@@ -1,4 +1,4 @@
-"""Bytes in, Status out: the dispatcher's core with real protobuf and ROS messages."""
+"""The dispatcher's core with real protobuf and ROS messages: bytes in, Status out."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -30,7 +30,7 @@ def core():
 
 
 def inputs(now_s, **known):
-    """In these tests both clocks show the same."""
+    """Return inputs with equal times of both clocks."""
     return Inputs(now_s, steady_s=now_s, **known)
 
 
@@ -80,7 +80,7 @@ def test_waypoint_without_coordinates_is_not_a_place():
     assert math.isnan(decode(command_bytes(waypoint=link.Waypoint(id=1, x=1.0))).waypoint.pose.y)
 
 
-# An end of a group that nobody has begun: the stop behind it would be dropped.
+# An end-of-group tag without its start: parsers would drop the stop after it.
 HALVES = link.Command(session_id=5, id=6), link.Command(stop=True)
 CUT_IN_TWO = b"\x0c".join(each.SerializeToString() for each in HALVES)
 
@@ -165,7 +165,7 @@ def test_pose_is_not_valid_before_localization_and_car_are(core, valid, car_stat
 
 
 def located(**pose):
-    """Pose and Car in one map of revision 3, the Car by mapping order 8."""
+    """Return a pose and a Car in one map of revision 3, the Car located by mapping order 8."""
     return {"pose": LocalizedPose(valid=True, **{"x": 4.0, "map_revision": 3, **pose}),
             "car": CarEstimate(state=CarEstimate.LOCATED, map_car_id=8, revision=2)}
 
@@ -175,7 +175,7 @@ def test_pose_in_another_map_than_the_cars_is_not_valid_and_has_no_place(core, r
     assert status(core, **located()).state.pose_valid
     state = status(core, **located(map_revision=revision)).state
     assert not state.pose_valid and not state.HasField("x") and not state.HasField("position_sigma_m")
-    # A localization that was restarted may number its new map as the old one.
+    # A restarted localization may reuse the old map's number for a new map.
     assert not status(core, **located()).state.pose_valid
 
 

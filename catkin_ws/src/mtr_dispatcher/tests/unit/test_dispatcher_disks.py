@@ -1,4 +1,4 @@
-"""Room on the robot's disks: whose it is, and when one counts as full."""
+"""Free space on the robot's disks: the disk of a folder, and the limit of a full one."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 

@@ -1,4 +1,4 @@
-"""The encrypted link on the loopback interface: who is let in, whose Commands count, what strangers can do to it."""
+"""The encrypted link on the loopback interface: admission, accepted Commands, and attacks of strangers."""
 # SPDX-License-Identifier: Apache-2.0
 import socket
 
@@ -31,7 +31,7 @@ def robot(tmp_path):
 
 
 def arrived(robot, peer, data=b"hello"):
-    """The message of a peer, as the robot has it."""
+    """Return the message of a peer as received by the robot."""
     found = robot.messages(data, lambda: peer.socket.send(data))
     return next(message for message in found if message.data == data)
 
@@ -56,7 +56,7 @@ def test_client_without_encryption_is_refused_and_counted(robot, context):
 
 
 def test_plain_greeting_is_refused_and_counted(robot):
-    """It stays, unlike ZeroMQ's own client, which may be gone before the robot has read what it is."""
+    """The plain connection stays open; ZeroMQ's own client may close it before the robot has read its greeting."""
     with socket.create_connection(("127.0.0.1", robot.ports[1])) as plain:
         plain.sendall(PLAIN_GREETING)
         assert robot.failed() == [NOT_ENCRYPTED]
@@ -114,7 +114,7 @@ def test_viewer_sees_status_and_commands_nothing(robot, context):
 
 
 def test_recorded_conversation_is_worth_nothing(robot, context):
-    """A relay records what a paired laptop sends; replayed to the robot it brings no message."""
+    """A relay records the messages of a paired laptop; when they are replayed, the robot receives no message."""
     keys = robot.pair()
     with socket.create_server(("127.0.0.1", 0)) as relay:
         port = relay.getsockname()[1]
@@ -141,7 +141,7 @@ def test_recorded_conversation_is_worth_nothing(robot, context):
             robot.messages(b"secret order", pass_on)
         laptop.close(0)
     assert b"secret order" not in recorded
-    # Whatever was still under way goes with the old connections.
+    # Messages that are still in transit end with the old connections.
     robot.server.rebind()
     with socket.create_connection(("127.0.0.1", robot.ports[1]), timeout=LIMIT_S) as replay:
         replay.sendall(recorded)

@@ -16,7 +16,7 @@ def test_no_mutated_command_raises_hangs_or_is_accepted_as_nonsense():
 
 def test_figures_are_rows_as_those_of_other_proofs(monkeypatch, tmp_path):
     monkeypatch.setattr("sys.argv", ["command_fuzz.py", "--cases", "50", "--out", str(tmp_path)])
-    # The bound of its memory is one of the whole process.
+    # The memory bound would apply to the whole test process.
     monkeypatch.setattr(command_fuzz, "resource", SimpleNamespace(RLIMIT_AS=0, setrlimit=lambda *_: None))
     assert command_fuzz.main() == 0
     table = json.loads((tmp_path / "fuzz_commands.json").read_text(encoding="utf-8"))["table"]

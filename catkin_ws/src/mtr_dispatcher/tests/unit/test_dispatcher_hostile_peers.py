@@ -1,4 +1,4 @@
-"""Peers that bring more than messages: cut off one by one, while memory stays and another peer is heard. D1"""
+"""Peers that bring more than messages are cut off one by one; memory is bounded, and other peers are served. D1"""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import json
@@ -21,7 +21,7 @@ from mtr_dispatcher.access.peer_limits import (
 )
 from mtr_dispatcher.link_server import LinkServer, Ports
 
-# The link alone, in a process of its own whose memory is told at the end.
+# The link alone in its own process, which reports its memory at the end.
 SERVE = """
 import json, sys, select, time
 from collections import Counter
@@ -41,9 +41,9 @@ print(json.dumps({"grown_mib": peak - before, "cut": cut, "heard": heard}))
 server.close()
 """
 LIMIT_S = 20.0
-# What a hostile peer sends if it is let; without a limit ZeroMQ made some 30 times as much of it (64 bytes a frame).
+# Bytes that a hostile peer sends if it is not stopped; without a limit ZeroMQ used 30 times as much (64 bytes a frame).
 FLOOD_BYTES = 20_000_000
-# Peers of other tests connect anew, for a while, to ports of 127.0.0.1 that have become free; here they do not count.
+# Peers of other tests may reconnect for a while to reused ports of 127.0.0.1; a separate address excludes them.
 OWN_ADDRESS = "127.7.1.1"
 MAX_GROWTH_MIB = 64.0
 GREETING = b"\xff" + bytes(8) + b"\x7f\x03\x00" + b"NULL".ljust(20, b"\0") + bytes(32)
@@ -51,7 +51,7 @@ ENDLESS_PARTS = b"\x01\x00" * 32768
 
 
 def ready(kind):
-    """ZMTP's READY command of a socket of a kind."""
+    """Return ZMTP's READY command for a kind of socket."""
     body = b"\x05READY\x0bSocket-Type" + len(kind).to_bytes(4, "big") + kind
     return b"\x04" + bytes([len(body)]) + body
 
@@ -66,7 +66,7 @@ class Served:
         assert self._process.stdout.readline() == "ready\n"
 
     def end(self, act):
-        """Let it go on until it has heard an order and cut somebody off; what it has seen. act: called meanwhile."""
+        """Let it run until it has received an order and cut off a peer; return its report. act: called meanwhile."""
         self._process.stdin.write("\n")
         self._process.stdin.flush()
         while self._process.poll() is None:
@@ -86,7 +86,7 @@ def served():
 
 
 def greeted(port, kind, address="127.0.0.1"):
-    """A raw connection past its handshake."""
+    """Return a raw connection after its handshake."""
     connection = socket.create_connection((address, port), timeout=LIMIT_S)
     connection.sendall(GREETING + ready(kind))
     answer = b""
@@ -98,7 +98,7 @@ def greeted(port, kind, address="127.0.0.1"):
 
 
 def flood(connection, pieces):
-    """Bytes sent until the robot cuts the connection."""
+    """Send until the robot cuts the connection or FLOOD_BYTES are sent; return the number of sent bytes."""
     sent = 0
     with connection, contextlib.suppress(ConnectionError):
         for piece in pieces:
@@ -110,7 +110,7 @@ def flood(connection, pieces):
 
 
 def subscriptions():
-    """Each other than the one before."""
+    """Yield subscriptions, all different."""
     for first in range(0, 1 << 24, 4096):
         yield b"".join(b"\x00\x06\x01x" + number.to_bytes(4, "big") for number in range(first, first + 4096))
 
@@ -129,7 +129,7 @@ def test_peer_that_brings_more_than_messages_is_cut_off_and_memory_stays(served,
 
 
 def test_message_of_a_peer_with_an_old_protocol_is_received():
-    """ZMTP 2.0, whose messages do not say of which connection they are; ZeroMQ takes them on a link without keys."""
+    """ZMTP 2.0 messages do not identify their connection; ZeroMQ accepts them on a link without keys."""
     ports = free_ports()
     server = LinkServer(Ports("127.0.0.1", *ports))
     server.bind()
@@ -154,7 +154,7 @@ def test_one_connection_too_many_is_cut_off_and_those_before_stay():
         first, second = (greeted(port, b"PUB", OWN_ADDRESS) for _ in range(LIMITS.connections))
         with first, second, socket.socket() as third:
             third.settimeout(LIMIT_S)
-            # On a busy machine it is cut off before it knows that it is connected.
+            # On a busy machine the connection is cut off before connect returns.
             with contextlib.suppress(ConnectionError):
                 third.connect((OWN_ADDRESS, port))
                 while third.recv(4096):

@@ -1,4 +1,4 @@
-"""The robot's folder of keys: what is in it, who may read and write it, and a disk that fails."""
+"""The robot's key folder: contents, permissions, and a failing disk."""
 # SPDX-License-Identifier: Apache-2.0
 import errno
 import os

@@ -1,4 +1,4 @@
-"""What the link does while messages are lost, clocks are set and strangers send."""
+"""The link during lost messages, clock steps and messages of strangers."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -101,7 +101,7 @@ def test_robot_without_a_session_has_no_speed_limit_of_the_link():
 
 
 class Air:
-    """A TCP connection over Wi-Fi: each loss costs the time until it is repeated, and what follows waits for it."""
+    """A TCP connection over Wi-Fi: a lost packet is repeated after a delay, and later ones wait for it."""
 
     def __init__(self, loss, delay_s, pause_s=0.0):
         self._random, self._loss, self._delay_s, self._pause_s = random.Random(1), loss, delay_s, pause_s
@@ -111,7 +111,7 @@ class Air:
         arrival_s, repeat_s = now_s + self._delay_s * self._random.uniform(0.2, 1.0), 0.2
         while self._random.random() < self._loss:
             arrival_s, repeat_s = arrival_s + repeat_s, 2.0 * repeat_s
-        # Once in half a minute the laptop changes the access point.
+        # Every half minute the laptop changes the access point.
         if now_s % 30.0 < self._pause_s:
             arrival_s += self._pause_s
         self._newest_s = max(self._newest_s, arrival_s)
@@ -142,7 +142,7 @@ def test_ordinary_wifi_neither_slows_the_robot_for_long_nor_stops_it(loss, delay
         stopped += was_moving and not robot.moves()
         was_moving = robot.moves()
         robot.steady_s = START_S + 0.02 * steps
-    # The robot waits for the first answer. A stop instead of the limit would be one at each slow phase.
+    # The robot waits for the first answer. A stop instead of the limit would occur in each slow phase.
     assert slow / steps <= slow_share and stopped <= stops + 1
 
 

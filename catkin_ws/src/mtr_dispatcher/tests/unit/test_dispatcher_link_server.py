@@ -14,7 +14,7 @@ from mtr_dispatcher.parameters import Parameters
 
 RECEIVE_LIMIT_S = 5.0
 BEFORE = b"before"
-# sys.getswitchinterval
+# Default of sys.getswitchinterval.
 PYTHONS_OWN_S = 0.005
 
 
@@ -33,7 +33,7 @@ def link():
     sender = context.socket(zmq.PUB)
     sender.connect(f"tcp://127.0.0.1:{ports[1]}")
     deadline = time.monotonic() + RECEIVE_LIMIT_S
-    # A message that is sent before the robot's subscription has come is dropped.
+    # A message that is sent before the robot's subscription arrives is dropped.
     while not server.receive(0.01) and time.monotonic() < deadline:
         sender.send(BEFORE)
     yield server, sender

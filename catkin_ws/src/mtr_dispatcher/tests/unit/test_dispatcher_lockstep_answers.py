@@ -1,4 +1,4 @@
-"""In lock-step a tick takes the answer to its Status, and leaves what the application sent after it to the next one."""
+"""In lock-step a tick processes the answer to its Status, and leaves later messages to the next tick."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 
@@ -20,27 +20,27 @@ FIRST_NS, PERIOD_NS = 100_000_000_000, 100_000_000
 
 
 class Wire:
-    """The link of an application that sends what it is told; each look takes all that has come, as the real one."""
+    """An application's link with given Commands; each poll returns all arrived messages, like the real one."""
 
     def __init__(self):
         self.sent, self.looks = [], 0
         self._numbers = iter(range(1, 100))
 
     def send(self, seen_status_id, seen_s, **content):
-        """A Command."""
+        """Send a Command."""
         command = link.Command(session_id=SESSION, id=next(self._numbers), seen_status_id=seen_status_id,
                                seen_robot_time_s=seen_s, **content)
         self.sent.append(Received(command.SerializeToString(), ""))
 
     def receive(self, timeout_s):
-        """What has come."""
+        """Return the arrived messages."""
         self.looks += 1
         assert self.looks < 20, "it waits for an answer that has come"
         came, self.sent = self.sent, []
         return came
 
     def cut_off(self):
-        """Nobody."""
+        """Return no connections."""
         return collections.Counter()
 
 
@@ -51,7 +51,7 @@ def wire():
 
 @pytest.fixture
 def node(wire, monkeypatch):
-    """One without topics, whose time is the tick's."""
+    """A node without topics, whose time is the time of the tick."""
     monkeypatch.setattr(node_module.clock, "steady_at", lambda time_ns: time_ns)
     monkeypatch.setattr(node_module.rospy, "is_shutdown", lambda: False)
     monkeypatch.setattr(node_module.rospy, "loginfo", lambda *_: None)
@@ -63,7 +63,7 @@ def node(wire, monkeypatch):
 
 
 def tick(node, number, send):
-    """One tick; send: what the application does when it has the Status. What the robot shall do then."""
+    """Run one tick, in which `send` answers the Status; return the desired state after it."""
     tick_ns = FIRST_NS + number * PERIOD_NS
     time_s = tick_ns * 1e-9
     node._core.status(Inputs(time_s, steady_s=time_s))
@@ -74,7 +74,7 @@ def tick(node, number, send):
 
 def test_stop_of_an_application_that_heard_nothing_while_this_process_stood_does_not_stop_the_robot(node, wire):
     def answer_and_then_stop(status_id, time_s):
-        # For a second of the wall's no Status came, as nobody took the answer.
+        # The application received no Status for one second of wall time, because its answer was not processed.
         wire.send(status_id, time_s, max_speed_mps=0.4)
         wire.send(status_id, time_s, max_speed_mps=0.4, stop=True)
 

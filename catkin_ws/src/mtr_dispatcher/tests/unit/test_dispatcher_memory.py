@@ -17,7 +17,7 @@ LIMIT_S = 30.0
 
 
 def ended(tens, then_s):
-    """The process that has taken so many times 10 MiB, and lives on for so long."""
+    """Return the ended process that allocated `tens` times 10 MiB and then lived for `then_s`."""
     return subprocess.run([sys.executable, "-c", FILL.format(tens=tens, then_s=then_s)], timeout=LIMIT_S, check=False,
                           capture_output=True, text=True)
 

@@ -1,4 +1,4 @@
-"""What the Operator reads of the robot's parts."""
+"""Notices about the robot's parts for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from http.client import CannotSendRequest
@@ -41,7 +41,7 @@ def test_operator_reads_which_node_cannot_start_and_why_until_it_has():
 
 
 def disk_watch(free_mb):
-    """A look at two folders, of disks with this room; one that is not named tells nothing."""
+    """Return a watch of two folders whose disks have this free space; the disk of a missing folder cannot be read."""
     def usage(path):
         if str(path) not in free_mb:
             raise FileNotFoundError(path)

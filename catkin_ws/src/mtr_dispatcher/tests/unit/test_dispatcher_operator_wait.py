@@ -1,4 +1,4 @@
-"""How long simulated time waits for the Operator's application."""
+"""Waiting of simulated time for the Operator's application."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

@@ -1,4 +1,4 @@
-"""The socket of pairing on the loopback interface: who knows the code is paired, and it can do nothing else."""
+"""The socket of pairing on the loopback interface: a laptop with the code is paired, and nothing else is possible."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import socket
@@ -23,7 +23,7 @@ from mtr_dispatcher.access.pairing_window import (
 from mtr_proto.keys import KeyPair
 from mtr_proto.pairing import ANSWER_BYTES, HELLO_BYTES, WELCOME_BYTES, LaptopSide, Paired, PairingError, WrongCode
 
-# rosdep does not know it (setup/README.md), so that a robot with what the packages declare may lack it.
+# rosdep has no key for it (setup/README.md), so a robot with only the declared dependencies may lack it.
 pytest.importorskip("spake2")
 
 LIMIT_S = 5.0
@@ -32,7 +32,7 @@ LAPTOP = KeyPair(*zmq.curve_keypair())
 
 
 class Robot:
-    """A pairing that runs in a thread, on a clock that only waiting moves."""
+    """A pairing that runs in a thread, on a clock that advances only by waiting."""
 
     def __init__(self, keep=lambda hello: None, role=Role.CONTROLLER, *, now_s=0.0, begins=True):
         self.keys, self.said, self.waited, self.now_s = KeyPair(*zmq.curve_keypair()), [], [], now_s
@@ -53,7 +53,7 @@ class Robot:
         self.result = self.server.run(self.window)
 
     def ended(self):
-        """What came of it."""
+        """Return the result of the pairing."""
         self.thread.join(LIMIT_S)
         assert not self.thread.is_alive()
         return self.result
@@ -70,18 +70,18 @@ def received(connection, length):
 
 
 def waiting(port):
-    """A laptop's connection, of which the robot may not know yet."""
+    """Return a laptop's connection, which the robot may not have accepted yet."""
     return socket.create_connection(("127.0.0.1", port), timeout=LIMIT_S)
 
 
 def try_code(port, code):
-    """A laptop that types a code."""
+    """Connect a laptop and try a code."""
     with waiting(port) as connection:
         return try_code_on(connection, code)
 
 
 def try_code_on(connection, code):
-    """The same, which is connected already."""
+    """Try a code on an open connection."""
     side = LaptopSide(code, LAPTOP.public, "Jana's laptop")
     connection.sendall(side.hello())
     connection.sendall(side.proof(received(connection, ANSWER_BYTES)))
@@ -145,7 +145,7 @@ def test_other_bytes_are_no_try_and_the_person_is_still_paired(data):
     with socket.create_connection(("127.0.0.1", robot.port), timeout=LIMIT_S) as connection:
         connection.sendall(data)
         if len(data) < HELLO_BYTES:
-            # Of more bytes the robot has closed by itself, perhaps before this.
+            # With more bytes the robot closes by itself, perhaps earlier than this.
             connection.shutdown(socket.SHUT_WR)
         with contextlib.suppress(ConnectionResetError):
             assert connection.recv(1) == b""

@@ -1,4 +1,4 @@
-"""What a preflight found, from the ROS master into the Status."""
+"""The report of a preflight, from the ROS master into the Status."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -76,7 +76,7 @@ def test_time_of_the_findings_in_motion_is_told_beside_the_report():
     master.update()
     assert master.preflight == REPORT._replace(motion_made_s=40.0)
     assert statuses(master.preflight)[-1].preflight.motion_made_s == 40.0
-    # A preflight at rest leaves the findings in motion as they are.
+    # A preflight at rest does not change the findings in motion.
     parameters[names.PREFLIGHT_REPORT] = parameter_of(REPORT._replace(made_s=95.0))
     master.update()
     assert (master.preflight.made_s, master.preflight.motion_made_s) == (95.0, 40.0)

@@ -1,4 +1,4 @@
-"""Who controls the robot and which Commands count."""
+"""Control of the robot and acceptance of Commands."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -29,7 +29,7 @@ def session():
 
 
 def take(session, order, now_s=100.0):
-    """Statuses are sent without end, each at the time that is its stamp."""
+    """Take an order; every Status up to NEWEST_STATUS was sent at the time of its stamp."""
     sent = order.seen_status_id <= NEWEST_STATUS and math.isfinite(order.seen_robot_time_s)
     return session.take(order, now_s, order.seen_robot_time_s if sent else None)
 
@@ -56,7 +56,7 @@ def test_repetition_keeps_the_link_alive(session):
 def test_silence_beyond_the_limit_stops_and_the_same_command_resumes(session):
     take(session, command())
     assert session.desired(100.89).stop_reason == NO_PROBLEM
-    lost = session.desired(100.91)  # the next turn would be later than 101.0
+    lost = session.desired(100.91)  # the next period would end after 101.0
     assert not lost.link_alive and "silent" in lost.stop_reason.text and lost.session_id == 1
     assert take(session, command(seen_s=105.0), 105.0) is CommandResult.REPEATED
     assert session.desired(105.0).stop_reason == NO_PROBLEM
@@ -100,7 +100,7 @@ def test_second_application_takes_over_after_silence(session):
 def test_application_that_has_lost_control_does_not_take_it_back_by_itself(session):  # D3
     take(session, command(1, 1, waypoint=waypoint(5.0, 0.0, 0.0)))
     take(session, command(2, 1, seen_s=103.1), 103.1)
-    # Its blind stop and the order after it raise its id.
+    # Its blind stop and the next order increase its id.
     for number, content in ((2, {"stop": True}), (3, {"waypoint": waypoint(5.0, 0.0, 0.0)})):
         assert take(session, command(1, number, seen_s=103.2, **content), 103.2) is CommandResult.OUTDATED
     take(session, command(2, 2, seen_s=103.3, end_session=True), 103.3)
@@ -276,7 +276,7 @@ def test_watching_application_claims_nothing_and_lets_a_person_drive(session):
     assert take(session, command(watches=True)) is CommandResult.WATCHED
     desired = session.desired(100.0)
     assert (desired.session_id, desired.link_alive, desired.stop_reason) == (0, False, NO_PROBLEM)
-    # No other node moves by itself.
+    # The other nodes do not move the robot either.
     assert desired_state(desired, 0.5).stop
     assert take(session, command(session_id=2)) is CommandResult.TAKEN
     assert session.session_id == 2

@@ -1,4 +1,4 @@
-"""What the robot sees, made small for the Operator's picture."""
+"""View of the robot for the Operator's picture, reduced in size."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -98,7 +98,7 @@ def test_numbers_that_are_none_reach_nobody():
 
 
 class Bytes:
-    """An AnyMsg as it comes."""
+    """A received AnyMsg."""
 
     def __init__(self, message):
         import io

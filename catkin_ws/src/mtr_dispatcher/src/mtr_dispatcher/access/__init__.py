@@ -1,2 +1,2 @@
-"""Who may use the link: keys, roles, pairing and rates."""
+"""Access to the link: keys, roles, pairing and rates."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Encryption of the link wherever somebody else could reach it, and who is let in; says what it is. No ROS inside."""
+"""Encryption and access control, for a link that another computer can reach. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import time
@@ -14,9 +14,9 @@ from .key_folder import FOLDER_NAME, KeyFolder
 
 def admission(parameters: Parameters, home: pathlib.Path, inform: Callable[[str], None],
               warn: Callable[[str], None]) -> Tuple[Optional[Curve], Optional[Gate]]:
-    """The robot's keys, and what admits paired ones; None for both on a link without encryption.
+    """Return the robot's keys and the gate for paired keys, or None for both on a link without encryption.
 
-    home: where the folder of keys is, unless the parameters name one. inform, warn: take what the log shall say.
+    home: parent of the key folder, unless the parameters name one. inform, warn: receive sentences for the log.
     """
     if not parameters.is_encrypted:
         if parameters.is_exposed:

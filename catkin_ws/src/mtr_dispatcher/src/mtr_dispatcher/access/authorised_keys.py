@@ -1,4 +1,4 @@
-"""The keys that the robot accepts, each with its owner's name, role and day of pairing, as a text that persons read."""
+"""The keys that the robot accepts, each with its owner's name, role and day of pairing, as human-readable text."""
 # SPDX-License-Identifier: Apache-2.0
 import datetime
 import enum
@@ -11,7 +11,7 @@ from mtr_core.errors import RobotError
 from mtr_proto.keys import fingerprint, is_key
 from mtr_proto.pairing import plain_name
 
-# A fleet has some laptops; each entry takes some 150 bytes.
+# Chosen limit: a fleet has a few laptops, and each entry needs about 150 bytes.
 MAX_KEYS = 64
 MAX_BYTES = 64 * 1024
 HEADER = ("# Keys that may use the robot's link; `rosrun mtr_dispatcher pair` adds, `rosrun mtr_dispatcher keys` lists "
@@ -19,11 +19,11 @@ HEADER = ("# Keys that may use the robot's link; `rosrun mtr_dispatcher pair` ad
 
 
 class KeysError(RobotError):
-    """The list of keys is damaged, or has no such entry."""
+    """The list of keys is damaged, or lacks the requested entry."""
 
 
 class Role(enum.Enum):
-    """What a key's owner may do."""
+    """Rights of a key's owner."""
 
     CONTROLLER = "controller"
     VIEWER = "viewer"
@@ -41,16 +41,18 @@ class Entry:
 
 @dataclass(frozen=True)
 class AuthorisedKeys:
-    """The list, in the order of pairing; names and keys are unique."""
+    """The list in the order of pairing; names and keys are unique."""
 
     entries: Tuple[Entry, ...] = ()
 
     def of(self, key: str) -> Optional[Entry]:
-        """The entry of a key, None for one that is unknown."""
+        """Return the entry of a key, or None if the key is unknown."""
         return next((entry for entry in self.entries if entry.key == key), None)
 
     def with_entry(self, entry: Entry) -> "AuthorisedKeys":
-        """With one more, or the same key anew; a name that another key has gets a number.
+        """Return the list with this entry added; it replaces an entry with the same key.
+
+        If another key already has the name, a number is appended to it.
 
         Raises:
             KeysError: the list is full.
@@ -64,10 +66,10 @@ class AuthorisedKeys:
         return AuthorisedKeys((*others, Entry(name, entry.role, entry.date, entry.key)))
 
     def without(self, name: str) -> "AuthorisedKeys":
-        """Without the key of this owner.
+        """Return the list without the key of this owner.
 
         Raises:
-            KeysError: nobody has this name.
+            KeysError: no key has this owner.
         """
         if name not in {entry.name for entry in self.entries}:
             names = ", ".join(entry.name for entry in self.entries) or "none"
@@ -75,24 +77,24 @@ class AuthorisedKeys:
         return AuthorisedKeys(tuple(entry for entry in self.entries if entry.name != name))
 
     def to_text(self) -> str:
-        """For the file."""
+        """Return the text of the file."""
         listed = [{"name": entry.name, "role": entry.role.value, "date": entry.date, "key": entry.key}
                   for entry in self.entries]
         text: str = yaml.safe_dump({"keys": listed}, sort_keys=False, allow_unicode=True, width=200)
         return HEADER + text
 
     def lines(self) -> Tuple[str, ...]:
-        """For a person, one line a key."""
+        """Return one line per key for display."""
         width = max((len(entry.name) for entry in self.entries), default=0)
         return tuple(f"{entry.name:{width}}  {entry.role.value:10}  {entry.date}  {fingerprint(entry.key)}"
                      for entry in self.entries)
 
 
 def keys_in(text: str) -> AuthorisedKeys:
-    """The list in a file's text.
+    """Parse the list in a file's text.
 
     Raises:
-        KeysError: it is no such list; then nobody is accepted rather than somebody wrong.
+        KeysError: the text is not a valid list; the caller then accepts no key rather than a wrong one.
     """
     if len(text) > MAX_BYTES:
         raise KeysError(f"It is larger than {MAX_BYTES // 1024} KiB.")
@@ -108,7 +110,7 @@ def keys_in(text: str) -> AuthorisedKeys:
 
 def _entry(item: Any) -> Entry:
     day = item["date"]
-    # YAML reads a day without quotes as one.
+    # YAML parses an unquoted day as a date.
     date = day.isoformat() if isinstance(day, datetime.date) else str(day)
     if not is_key(item["key"]):
         raise ValueError("key")

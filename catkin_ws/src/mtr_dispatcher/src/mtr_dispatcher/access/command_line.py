@@ -17,13 +17,13 @@ from .key_folder import FOLDER_NAME, KeyFolder
 from .pairing_server import Offer, PairingServer
 from .pairing_window import DEFAULT_SECONDS, PairingLimits, PairingWindow
 
-# ZeroMQ's word for it, which bind_address may be, is a star.
+# ZeroMQ writes this address as a star, and bind_address may use the star.
 EVERYWHERE = "0.0.0.0"
 DONE, NOT_PAIRED, ERROR, INTERRUPTED = 0, 1, 2, 130
 
 
 def pair(arguments: Optional[List[str]] = None, known: Optional[Dict[str, Any]] = None) -> int:
-    """`rosrun mtr_dispatcher pair`; the exit status. known: parameters of the running dispatcher."""
+    """Run `rosrun mtr_dispatcher pair` and return the exit status. known: parameters of the running dispatcher."""
     known = known or {}
     parser = argparse.ArgumentParser(prog="pair",
                                      description="Shows a code; the laptop on which it is typed is paired.")
@@ -47,7 +47,7 @@ def pair(arguments: Optional[List[str]] = None, known: Optional[Dict[str, Any]] 
 
 
 def keys(arguments: Optional[List[str]] = None, known: Optional[Dict[str, Any]] = None) -> int:
-    """`rosrun mtr_dispatcher keys`; the exit status."""
+    """Run `rosrun mtr_dispatcher keys` and return the exit status."""
     parser = argparse.ArgumentParser(prog="keys", description="Lists the paired keys, or revokes one.")
     parser.add_argument("--revoke", metavar="NAME", help="the key of this owner is accepted no more, at once")
     _add_keys(parser, known or {})
@@ -60,7 +60,7 @@ def keys(arguments: Optional[List[str]] = None, known: Optional[Dict[str, Any]] 
 
 
 def default_folder() -> pathlib.Path:
-    """Where ROS keeps what is this computer's own."""
+    """Return the default key folder within ROS_HOME, where ROS stores the data of this computer."""
     return pathlib.Path(os.environ.get("ROS_HOME") or pathlib.Path.home() / ".ros") / FOLDER_NAME
 
 
@@ -73,7 +73,7 @@ def _add_keys(parser: argparse.ArgumentParser, known: Dict[str, Any]) -> None:
 def _pair(options: argparse.Namespace) -> int:
     folder, role = KeyFolder(options.keys), Role(options.role)
     own, code = folder.own_keys(), new_code()
-    # What is missing is said now, and not when a laptop comes.
+    # A missing prerequisite is reported now, not when a laptop connects.
     RobotSide(code, own.public)
 
     def keep(hello: Hello) -> None:

@@ -1,8 +1,8 @@
-"""Watches the connections of a port from a thread: cuts off who brings too much, counts who is not let in.
+"""Watches the connections of a port in a thread: cuts off excessive senders and counts refused connections.
 
-ZeroMQ bounds neither the parts of an unfinished message nor subscriptions, and while it takes them in it does not come
-back to its caller. The system counts the bytes of each connection (TCP_INFO), and a connection that is shut down is one
-that ZeroMQ forgets with all that it had brought.
+ZeroMQ bounds neither the parts of an unfinished message nor subscriptions, and it does not return to its caller while
+it reads them. The kernel counts the received bytes of each connection (TCP_INFO). When a connection is shut down,
+ZeroMQ drops everything that it brought.
 """
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
@@ -20,11 +20,10 @@ from .peer_limits import PeerLimits
 
 NOT_ENCRYPTED, GONE = "not encrypted for this robot", "gone before the end of the handshake"
 TOO_MUCH = "more than messages"
-# A peer without a key, or with the wrong key of the robot; an unknown key of its own was counted by the authenticator.
-# One that finds by itself that the robot speaks another language may be gone before the robot has read its greeting;
-# so is one that only looks whether the port is open.
+# NOT_ENCRYPTED: the peer has no key, or the wrong key of the robot. The authenticator counts unknown keys of peers.
+# GONE: the peer closed first, because it detected a protocol mismatch itself or only probed the port.
 HANDSHAKE_FAILURES = {zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL: NOT_ENCRYPTED, zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL: GONE}
-# ZeroMQ waits, with everybody's messages, while some 2000 events are not taken (measured, 4.3.4).
+# ZeroMQ blocks all messages while about 2000 monitor events are pending (measured, 4.3.4).
 EVENTS_PER_TURN = 500
 # linux/tcp.h, struct tcp_info: tcpi_bytes_received.
 _BYTES_RECEIVED = struct.Struct("=Q")
@@ -34,7 +33,7 @@ _NO_LINGERING = struct.pack("=ii", 1, 0)
 
 
 class ConnectionWatch:
-    """Of one bound socket; to be closed before it."""
+    """Watch of one bound socket; close it before the socket."""
 
     def __init__(self, monitored: Any, limits: PeerLimits):
         self._limits = limits
@@ -48,7 +47,7 @@ class ConnectionWatch:
         self._thread.start()
 
     def counted(self) -> Counter[str]:
-        """Connections that were refused or cut off since the last call, by what was wrong."""
+        """Return the connections that were refused or cut off since the last call, counted by cause."""
         with self._lock:
             counted, self._counted = self._counted, Counter()
         return counted
@@ -88,13 +87,14 @@ class ConnectionWatch:
                 self._cut_off(number, why)
 
     def _cut_off(self, number: int, why: str) -> None:
-        # Before the peer can see it.
+        # Count first, so that the count includes the connection as soon as the peer notices the cut.
         self._count(why)
         peer = self._peers.pop(number)
         self._limits.close(number)
         with contextlib.suppress(OSError), _socket_of(number) as connection:
             if connection.getpeername() == peer:
-                # ZeroMQ reads the end and closes; without lingering the peer is told at once, whatever it still sends.
+                # ZeroMQ reads the end of the stream and closes; without lingering the peer is reset at once, even while
+                # it sends.
                 connection.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _NO_LINGERING)
                 connection.shutdown(socket.SHUT_RDWR)
 
@@ -104,18 +104,18 @@ class ConnectionWatch:
 
 
 def _socket_of(number: int) -> socket.socket:
-    """The connection with ZeroMQ's file descriptor, which stays open when this one is closed; OSError for a file."""
+    """Return a duplicate of ZeroMQ's connection; closing it leaves the original open. OSError for a file."""
     duplicate = os.dup(number)
     try:
         return socket.socket(fileno=duplicate)
     except OSError:
-        # ZeroMQ has closed its own, and the number is a file's by now.
+        # ZeroMQ has closed its descriptor, and the number now belongs to a file.
         os.close(duplicate)
         raise
 
 
 def _received_bytes(number: int, peer: Any) -> int:
-    """All that a connection has brought; 0 when the descriptor is another's by now, or the system does not count."""
+    """Return the bytes that a connection has received; 0 if its descriptor was reused, or without kernel support."""
     with contextlib.suppress(OSError), _socket_of(number) as connection:
         if connection.getpeername() == peer:
             told = connection.getsockopt(socket.IPPROTO_TCP, socket.TCP_INFO, _TCP_INFO_BYTES)

@@ -1,4 +1,4 @@
-"""CURVE on the robot's sockets: its key pair, and ZeroMQ's authenticator (ZAP, RFC 27) that asks the gate."""
+"""CURVE on the robot's sockets: its key pair, and ZeroMQ's authenticator (ZAP, RFC 27), which queries the gate."""
 # SPDX-License-Identifier: Apache-2.0
 import ipaddress
 import logging
@@ -9,26 +9,26 @@ from zmq.auth.thread import ThreadAuthenticator
 
 from mtr_proto.keys import KeyPair
 
-# Any domain, and a name for it: libzmq asks the authenticator only on sockets that have one.
+# The authenticator accepts any domain, but libzmq queries it only for sockets with a non-empty one.
 DOMAIN = "link"
 LOCALHOST = "localhost"
 
 
 class Curve(NamedTuple):
-    """What encrypts the link. admits: asked with a public key (Z85) at each connection, in another thread."""
+    """Encryption of the link. admits: called in another thread with a public key (Z85) at each connection."""
 
     keys: KeyPair
     admits: Callable[[str], bool]
 
 
 class _Provider:
-    """As zmq.auth asks for it."""
+    """Credentials provider for zmq.auth."""
 
     def __init__(self, admits: Callable[[str], bool]):
         self._admits = admits
 
     def callback(self, _domain: str, key: bytes) -> bool:
-        """True when the key may connect; whatever goes wrong is a no, and the thread goes on."""
+        """Return True if the key may connect; any error is a refusal, so that the thread keeps running."""
         try:
             return self._admits(key.decode("ascii"))
         except Exception:
@@ -37,7 +37,7 @@ class _Provider:
 
 
 def authenticator(context: Any, curve: Curve) -> ThreadAuthenticator:
-    """A thread that answers ZeroMQ's questions about this context; to be stopped before the context ends."""
+    """Start the thread that authenticates peers of this context; stop it before the context ends."""
     thread = ThreadAuthenticator(context)
     thread.start()
     thread.configure_curve_callback(DOMAIN, _Provider(curve.admits))
@@ -45,7 +45,7 @@ def authenticator(context: Any, curve: Curve) -> ThreadAuthenticator:
 
 
 def encrypt(socket: Any, curve: Curve) -> None:
-    """Let nobody on a socket, before it is bound, but whom the authenticator accepts."""
+    """Restrict a socket to peers that the authenticator accepts; call it before the socket is bound."""
     socket.setsockopt(zmq.CURVE_SERVER, 1)
     socket.setsockopt(zmq.CURVE_PUBLICKEY, curve.keys.public)
     socket.setsockopt(zmq.CURVE_SECRETKEY, curve.keys.secret)
@@ -53,12 +53,12 @@ def encrypt(socket: Any, curve: Curve) -> None:
 
 
 def is_possible() -> bool:
-    """True when this libzmq was built with it."""
+    """Return True if this libzmq was built with CURVE."""
     return bool(zmq.has("curve"))
 
 
 def is_loopback(address: str) -> bool:
-    """True for an address that only this computer reaches."""
+    """Return True for an address that only this computer can reach."""
     try:
         return ipaddress.ip_address(address).is_loopback
     except ValueError:

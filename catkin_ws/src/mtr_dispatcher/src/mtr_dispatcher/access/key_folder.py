@@ -1,4 +1,4 @@
-"""The robot's folder of keys: its own pair, and the list of those that it accepts, both for its owner alone."""
+"""The robot's key folder: its own pair and the list of accepted keys, both readable by their owner only."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import fcntl
@@ -20,10 +20,10 @@ _Signature = Optional[Tuple[int, int, int, int]]
 
 
 class KeyFolder:
-    """Used by the dispatcher, by pairing and by the list's command at once; threads may share one.
+    """Key folder, shared by the dispatcher, pairing and the `keys` command. Instances are thread-safe.
 
     Attributes:
-        distrust: why nobody is accepted although there is a list; empty when all is well.
+        distrust: why all keys are refused although a list exists; empty if the list is valid.
     """
 
     def __init__(self, folder: pathlib.Path):
@@ -33,26 +33,27 @@ class KeyFolder:
         self.distrust = ""
 
     def own_keys(self) -> KeyPair:
-        """The robot's pair, made at the first start; raises KeysError with a sentence."""
+        """Return the robot's pair, generated at the first start; raises KeysError with a sentence."""
         try:
             return own_key_pair(self._folder / OWN_KEYS, zmq.curve_keypair)
         except LinkKeyError as error:
             raise KeysError(str(error)) from None
 
     def authorised(self) -> AuthorisedKeys:
-        """The list as it is in the file now; empty, and `distrust` says why, when the file cannot be trusted."""
+        """Return the list in the file; if the file cannot be trusted, it is empty and `distrust` has the cause."""
         with self._lock:
             signature = self._signature()
             if signature is None or signature != self._read[0]:
                 try:
                     self._read = (signature, self._load())
                 except OSError as error:
-                    # Without a signature it is read again: too many files may be open just now.
+                    # Without a signature the file is read again later: the limit of open files may be reached
+                    # temporarily.
                     self._read = (None, self._nobody(str(error.strerror)))
             return self._read[1]
 
     def change(self, changed: Callable[[AuthorisedKeys], AuthorisedKeys]) -> AuthorisedKeys:
-        """Write what `changed` makes of the list; raises KeysError with a sentence, and then nothing is changed."""
+        """Write the list that `changed` returns; if this fails, raise KeysError with a sentence and change nothing."""
         try:
             private_folder(self._folder)
             with self._alone():
@@ -79,7 +80,7 @@ class KeyFolder:
             status, rights = os.stat(self._list), os.stat(self._folder).st_mode
         except OSError:
             return None
-        # Rights can change too, and then whether it can be trusted.
+        # A change of the permissions affects whether the file can be trusted.
         return status.st_ino, status.st_ctime_ns, status.st_size, rights
 
     def _load(self) -> AuthorisedKeys:

@@ -1,4 +1,4 @@
-"""The socket of pairing: plain TCP with four messages of fixed length, one connection at a time, and nothing else."""
+"""The socket of pairing: plain TCP with four messages of fixed length, one connection at a time."""
 # SPDX-License-Identifier: Apache-2.0
 import socket
 import time
@@ -11,9 +11,9 @@ from mtr_proto.pairing import HELLO_BYTES, PROOF_BYTES, Hello, PairingError, Rob
 from .authorised_keys import Role
 from .pairing_window import PairingWindow
 
-# Of one connection, from being accepted to its end, unless the window closes before; a laptop needs 0.1 s.
+# Longest time of one connection from its acceptance on, unless the window closes earlier; a laptop needs 0.1 s.
 CONNECTION_S = 5.0
-# Connections that wait meanwhile.
+# Connections that may wait meanwhile.
 BACKLOG = 4
 
 
@@ -22,7 +22,7 @@ class PairingFailed(RobotError):
 
 
 class Clock(NamedTuple):
-    """The steady clock, s, and how to wait."""
+    """The steady clock in s, and its wait function."""
 
     now_s: Callable[[], float] = time.monotonic
     wait: Callable[[float], None] = time.sleep
@@ -32,7 +32,7 @@ SYSTEM_CLOCK = Clock()
 
 
 class Offer(NamedTuple):
-    """What whoever knows the code gets: the robot's public key, and a role."""
+    """Data for a laptop that proves it has the code: the robot's public key and a role."""
 
     code: str
     keys: KeyPair
@@ -42,7 +42,7 @@ class Offer(NamedTuple):
 class PairingServer:
     """Pairs one laptop.
 
-    keep: writes who was paired, before the laptop hears of it. say: for the person at the robot.
+    keep: stores the paired key, before the laptop receives its confirmation. say: shows a line at the robot.
     """
 
     def __init__(self, offer: Offer, keep: Callable[[Hello], None], say: Callable[[str], None],
@@ -51,7 +51,7 @@ class PairingServer:
         self._listener: Optional[socket.socket] = None
 
     def listen(self, address: str, port: int) -> int:
-        """Open the socket; its port, which the system chooses for 0. Raises PairingFailed with a sentence."""
+        """Open the socket and return its port, which the system chooses for 0. Raises PairingFailed with a sentence."""
         try:
             self._listener = socket.create_server((address, port), backlog=BACKLOG)
         except OSError as error:
@@ -59,7 +59,7 @@ class PairingServer:
         return int(self._listener.getsockname()[1])
 
     def run(self, window: PairingWindow) -> Optional[Hello]:
-        """Wait until somebody is paired, or the window closes: None."""
+        """Wait until a laptop is paired and return its greeting, or None if the window closes."""
         if self._listener is None:
             raise PairingFailed("Pairing does not listen.")
         with self._listener as listener:
@@ -70,7 +70,7 @@ class PairingServer:
         return None
 
     def _next(self, listener: socket.socket, window: PairingWindow) -> Optional[Hello]:
-        """One connection, after the pause that wrong tries have earned; None also when the window closes meanwhile."""
+        """Serve one connection, after the pause for wrong tries; return None also when the window closes meanwhile."""
         self._clock.wait(window.pause_s(self._clock.now_s()))
         left_s = window.left_s(self._clock.now_s())
         if not left_s:
@@ -79,7 +79,7 @@ class PairingServer:
         try:
             connection, peer = listener.accept()
         except OSError:
-            # Nobody came, or whoever came was gone at once.
+            # No connection came, or the peer closed it at once.
             return None
         with connection:
             return self._try(connection, str(peer[0]), window)
@@ -98,7 +98,7 @@ class PairingServer:
             return None
         except (PairingError, OSError) as error:
             window.strange += 1
-            # The first is told; whoever floods gets no line each.
+            # Only the first one is reported, so that a flood does not fill the screen.
             if window.strange == 1:
                 self._say(f"A connection from {peer} was no pairing: {error}")
             return None
@@ -111,7 +111,7 @@ class PairingServer:
         return hello
 
     def _received(self, connection: socket.socket, length: int, end_s: float) -> bytes:
-        """So many bytes, and never more; raises OSError or PairingError."""
+        """Receive exactly this many bytes; raises OSError or PairingError."""
         data = b""
         while len(data) < length:
             left_s = end_s - self._clock.now_s()

@@ -1,4 +1,4 @@
-"""How long and how often somebody may try to be paired. No sockets and no clock inside."""
+"""Limits of pairing in time and tries. No sockets and no clock inside."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 
@@ -6,13 +6,13 @@ from mtr_core.errors import check_range
 
 MIN_SECONDS, MAX_SECONDS, DEFAULT_SECONDS = 10.0, 600.0, 120.0
 MAX_TRIES = 3
-# After the first wrong try; it doubles with each.
+# Pause after the first try; it doubles with each further one.
 FIRST_PAUSE_S = 2.0
 
 
 @dataclass(frozen=True)
 class PairingLimits:
-    """What the person at the robot has chosen. seconds: how long the window is open."""
+    """Limits chosen by the person at the robot. seconds: time for which the window is open."""
 
     seconds: float = DEFAULT_SECONDS
     tries: int = MAX_TRIES
@@ -22,12 +22,12 @@ class PairingLimits:
 
 
 class PairingWindow:
-    """Open from its making; times are of the steady clock.
+    """Open from its construction on; times are of the steady clock.
 
     Attributes:
-        tries: begun ones. A try counts from its beginning: who breaks off has had its guess.
-        strange: connections that spoke no pairing.
-        paired: one succeeded.
+        tries: started tries. A try counts from its start, because a peer that breaks off has used its guess.
+        strange: connections that did not use the pairing protocol.
+        paired: a try succeeded.
     """
 
     def __init__(self, limits: PairingLimits, now_s: float):
@@ -36,22 +36,22 @@ class PairingWindow:
         self.paired = False
 
     def left_s(self, now_s: float) -> float:
-        """How long it stays open, 0 when it is closed: paired, out of time, or out of tries."""
+        """Return how long the window stays open in s; 0 if a laptop is paired, or time or tries are used up."""
         if self.paired or self.tries >= self._limits.tries:
             return 0.0
         return max(self._end_s - now_s, 0.0)
 
     def pause_s(self, now_s: float) -> float:
-        """How long the next try has to wait."""
+        """Return how long the next try has to wait, in s."""
         return max(self._next_s - now_s, 0.0)
 
     def begin_try(self, now_s: float) -> None:
-        """Somebody gets an answer that depends on the code."""
+        """Count a try before its peer gets an answer that depends on the code."""
         self.tries += 1
         self._next_s = now_s + FIRST_PAUSE_S * 2.0 ** (self.tries - 1)
 
     def why_closed(self) -> str:
-        """A sentence for the person at the robot."""
+        """Return a sentence for the person at the robot."""
         if self.paired:
             return ""
         if self.tries >= self._limits.tries:

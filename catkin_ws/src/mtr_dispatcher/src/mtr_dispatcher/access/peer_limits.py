@@ -1,24 +1,25 @@
-"""What one connection may bring without a message coming of it, and who may open one. No sockets inside."""
+"""Limits of the connections of a port, and of the bytes of each beyond its complete messages. No sockets inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import threading
 from typing import Dict, List, Mapping, NamedTuple, Tuple
 
-# What is wrong with a connection.
+# Causes for cutting off a new connection.
 TOO_MANY = "too many at once"
 TOO_SOON = "again too soon"
 
 
 class Allowance(NamedTuple):
-    """Of one port.
+    """Limits of one port.
 
     Attributes:
-        burst_bytes: that a connection may bring at once beyond its messages: parts of an endless one, subscriptions.
-        bytes_per_s: that it may bring beyond them for ever: heartbeats, headers.
-        connections: at once.
-        pause_s: for which an address opens no new one after one of its connections had to be cut off.
-        overhead_bytes: of each frame of a message that has arrived, at least; what it took on the line beside its data.
-        check_period_s: from one look at the connections to the next; what one brings meanwhile is in memory.
+        burst_bytes: bytes that a connection may bring at once beyond its messages: unfinished messages,
+            subscriptions.
+        bytes_per_s: rate at which it may continuously bring bytes beyond its messages: heartbeats, headers.
+        connections: maximum number of simultaneous connections.
+        pause_s: time for which an address may not connect again after one of its connections was cut off.
+        overhead_bytes: least bytes on the line per frame of a complete message in addition to its data.
+        check_period_s: period of the check; what a connection brings within it is already in memory.
     """
 
     burst_bytes: float
@@ -29,24 +30,24 @@ class Allowance(NamedTuple):
     check_period_s: float
 
 
-# ZeroMQ keeps 64 bytes for a frame of 2: the burst becomes 8 MiB at most.
+# ZeroMQ allocates 64 bytes for a frame of 2 bytes, so the burst becomes at most 8 MiB.
 COMMAND_BURST_BYTES = 256 * 1024
-# A subscription of 5 bytes on the line takes some 200 in ZeroMQ's tree; applications have one.
+# A subscription of 5 bytes on the line needs about 200 bytes in ZeroMQ's tree; an application has one.
 STATUS_BURST_BYTES = 16 * 1024
-# Heartbeats are some 100 bytes a second.
+# Heartbeats need about 100 bytes a second.
 IDLE_BYTES_PER_S = 2048.0
 MAX_CONNECTIONS = 100
-# Who floods connects anew at once, some hundred times a second.
+# A flooding peer reconnects immediately, several hundred times a second.
 PAUSE_S = 1.0
-# On the loopback interface a flood of parts brings some 20 MB in this time, one of subscriptions 3 MB, which are 70 to
-# 110 MB in ZeroMQ's tree; in a fifth of it they are 15 to 30 MB (24 November 2026).
+# On the loopback interface a flood of parts brings about 20 MB in 50 ms, and a flood of subscriptions 3 MB. The
+# subscriptions need 70 to 110 MB in ZeroMQ's tree, and 15 to 30 MB for 10 ms (24 November 2026).
 COMMAND_CHECK_PERIOD_S, STATUS_CHECK_PERIOD_S = 0.05, 0.01
-# Of ZMTP 3 (RFC 23), and of a CURVE message (RFC 26): its name, nonce, authenticator and flags besides.
+# Frame overhead of ZMTP 3 (RFC 23), and of a CURVE message (RFC 26) with its name, nonce, authenticator and flags.
 PLAIN_FRAME_BYTES, CURVE_FRAME_BYTES = 2, 35
 
 
 def allowances(is_encrypted: bool) -> Tuple[Allowance, Allowance]:
-    """Of the port of Status and of that of Commands."""
+    """Return the limits of the Status port and of the Command port."""
     frame_bytes = CURVE_FRAME_BYTES if is_encrypted else PLAIN_FRAME_BYTES
     return (Allowance(STATUS_BURST_BYTES, IDLE_BYTES_PER_S, MAX_CONNECTIONS, PAUSE_S, frame_bytes,
                       STATUS_CHECK_PERIOD_S),
@@ -55,7 +56,7 @@ def allowances(is_encrypted: bool) -> Tuple[Allowance, Allowance]:
 
 
 class _Account:
-    """One connection: its address, the bytes that became messages, and those that were forgiven."""
+    """One connection: its address, the bytes of its complete messages, and the bytes that bytes_per_s has allowed."""
 
     def __init__(self, address: str, now_s: float) -> None:
         self.address, self.seen_s = address, now_s
@@ -63,9 +64,9 @@ class _Account:
 
 
 class PeerLimits:
-    """Thread-safe: one thread reads the counters, another takes the messages.
+    """Limits of the connections of one port. Thread-safe: one thread reads the counters, another receives the messages.
 
-    A connection is any number of its own, as its file descriptor.
+    A connection is identified by any unique number, such as its file descriptor.
     """
 
     def __init__(self, allowance: Allowance):
@@ -80,7 +81,7 @@ class PeerLimits:
         return self._allowance.check_period_s
 
     def open(self, connection: int, address: str, now_s: float) -> str:
-        """Note a new connection; why it is to be cut off, empty for one that may stay."""
+        """Register a new connection and return why it has to be cut off, or an empty text."""
         with self._lock:
             self._accounts[connection] = _Account(address, now_s)
             if now_s - self._paused.get(address, -math.inf) < self._allowance.pause_s:
@@ -93,14 +94,14 @@ class PeerLimits:
             self._accounts.pop(connection, None)
 
     def delivered(self, connection: int, frames: int, size_bytes: int) -> None:
-        """A message of a connection has arrived."""
+        """Count a complete message of a connection."""
         with self._lock:
             account = self._accounts.get(connection)
             if account is not None:
                 account.delivered += size_bytes + frames * self._allowance.overhead_bytes
 
     def excessive(self, received_bytes: Mapping[int, int], now_s: float) -> List[int]:
-        """Connections that have brought too much, by all that each has brought, at a time of the steady clock."""
+        """Return the connections that have brought too much, by their total bytes, at a time of the steady clock."""
         with self._lock:
             found = [connection for connection, received in received_bytes.items()
                      if self._is_excessive(connection, received, now_s)]
@@ -114,7 +115,7 @@ class PeerLimits:
         if account is None:
             return False
         owed = received - account.delivered - account.forgiven
-        # A message may be taken before the counter is read that counts it: nothing is forgiven in advance.
+        # A message may be counted before the system's counter that includes it is read: allow nothing in advance.
         account.forgiven += min(max(owed, 0.0), (now_s - account.seen_s) * self._allowance.bytes_per_s)
         account.seen_s = now_s
         return received - account.delivered - account.forgiven > self._allowance.burst_bytes

@@ -1,12 +1,12 @@
-"""How often each peer may do something: token buckets, a bounded number of them."""
+"""Rate limits per peer: a bounded number of token buckets."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, Hashable, Tuple
 
 
 class Rates:
-    """One bucket a peer, full at first; the peers that were quiet longest are forgotten.
+    """One bucket per peer, full at first; the peers that were silent longest are dropped.
 
-    rate_per_s: what a peer may do for ever. burst: what it may do at once after a pause.
+    rate_per_s: sustained rate of a peer. burst: number of acts allowed at once after a pause.
     """
 
     def __init__(self, rate_per_s: float, burst: float, max_peers: int = 256):
@@ -14,7 +14,7 @@ class Rates:
         self._buckets: Dict[Hashable, Tuple[float, float]] = {}
 
     def allow(self, peer: Hashable, now_s: float) -> bool:
-        """Count one act of a peer at a time of the steady clock; False when it is one too many."""
+        """Count one act of a peer at a time of the steady clock; return False if it exceeds the limit."""
         filled, before_s = self._buckets.pop(peer, (self._burst, now_s))
         filled = min(self._burst, filled + max(now_s - before_s, 0.0) * self._rate_per_s)
         allowed = filled >= 1.0

@@ -1,4 +1,4 @@
-"""Parameters of the dispatcher that runs on this robot, for the commands beside it."""
+"""Parameters of the dispatcher that runs on this robot, for the commands `pair` and `keys`."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import socket
@@ -11,7 +11,7 @@ PATIENCE_S = 2.0
 
 
 def parameters() -> Dict[str, Any]:
-    """What the master knows; nothing without one, for keys are kept without a running robot too."""
+    """Return the dispatcher's parameters, or none without a ROS master, because both commands also work without it."""
     uri = os.environ.get("ROS_MASTER_URI") or f"http://127.0.0.1:{MASTER_PORT}"
     before = socket.getdefaulttimeout()
     socket.setdefaulttimeout(PATIENCE_S)

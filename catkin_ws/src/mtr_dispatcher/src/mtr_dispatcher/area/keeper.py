@@ -16,7 +16,7 @@ class Area:
 
     Attributes:
         session_id, id: order that set it; 0: the launch file.
-        origin_id: origin of map to which the corners refer; 0: that of the first pose.
+        origin_id: origin of map to which the corners refer; 0: the origin of the first pose.
     """
 
     session_id: int
@@ -35,15 +35,15 @@ class AreaKeeper:
     """Keeps the area in force, which outlives sessions and the process.
 
     Attributes:
-        required: a real robot: without an area it neither maps nor tests.
-        is_fixed: the launch file has set the area; applications do not change it.
+        required: the robot is real and neither maps nor tests without an area.
+        is_fixed: the launch file has set the area; applications cannot change it.
         area: in force, None without one.
     """
 
     def __init__(self, required: bool, fixed: Sequence[Point] = (),
                  remembered: Optional[Mapping[str, Any]] = None,
                  remember: Callable[[Dict[str, Any]], None] = lambda area: None):
-        """remembered: of a process before in this start of the robot; remember: is called with each change."""
+        """remembered: stored by an earlier process of this robot run. remember: called with each change."""
         self.required, self.is_fixed = required, bool(fixed)
         self._remember = remember
         known = _from_memory(remembered)
@@ -53,7 +53,7 @@ class AreaKeeper:
             self.area = known if is_same else Area(0, 0, 0, tuple(fixed))
 
     def take(self, session_id: int, order: Optional[AreaOrder]) -> None:
-        """Accept the area of an acceptable Command; one that repeats an id changes nothing."""
+        """Accept the area of an acceptable Command; a repeated id changes nothing."""
         if order is None or self.is_fixed:
             return
         if self.area is not None and (self.area.session_id, self.area.id) == (session_id, order.id):
@@ -61,17 +61,17 @@ class AreaKeeper:
         self._set(Area(session_id, order.id, order.origin_id, tuple(zip(order.x, order.y))))
 
     def observe(self, pose: Optional[Origin]) -> None:
-        """A launch file's area refers to where the robot was when it started."""
+        """Refer a launch file's area to the origin of the first pose."""
         if self.area is not None and not self.area.origin_id and pose is not None and pose.origin_id:
             self._set(replace(self.area, origin_id=pose.origin_id))
 
     @property
     def corners(self) -> Tuple[Point, ...]:
-        """Of the area in force; none when there is none."""
+        """Corners of the area in force; empty without an area."""
         return self.area.corners if self.area is not None else ()
 
     def problem(self, pose: Optional[Origin]) -> Problem:
-        """Why the robot neither maps nor tests."""
+        """Return why the robot neither maps nor tests."""
         if not self.corners:
             return problems.NO_AREA() if self.required else NO_PROBLEM
         if pose is not None and self.area is not None and pose.origin_id != self.area.origin_id:
@@ -85,7 +85,7 @@ class AreaKeeper:
 
 
 def _from_memory(remembered: Optional[Mapping[str, Any]]) -> Optional[Area]:
-    """None for what this class has not written."""
+    """Return the stored area, or None if this class did not write the data."""
     try:
         if not remembered:
             return None

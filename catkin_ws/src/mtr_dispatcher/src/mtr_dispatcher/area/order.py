@@ -1,4 +1,4 @@
-"""A test area as it is requested, and what makes one unacceptable."""
+"""A requested test area, and the checks that reject it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -11,17 +11,17 @@ from .. import problems
 from .polygons import Point, area_m2, is_simple
 
 MIN_CORNERS, MAX_CORNERS = 3, 64
-# A test area is some ten metres across; a corner farther away is a mistake of units or sign.
+# A test area is some ten metres across; a corner beyond this distance is a mistake of units or sign.
 MAX_CORNER_M = 100.0
-# The robot alone needs 0.3 m2, a way around the smallest car 25 m2; 1 ha is a whole site.
+# The robot alone needs 0.3 m2, a path around the smallest car 25 m2; 1 ha is a whole site.
 SMALLEST_M2, LARGEST_M2 = 4.0, 10_000.0
-# Two corners at one place are a double click.
+# Two corners at the same place are a double click.
 SHORTEST_EDGE_M = 0.01
 
 
 @dataclass(frozen=True)
 class AreaOrder:
-    """A test area as an application sends it: x and y in m in map; without corners it withdraws the area.
+    """A test area as sent by an application: x and y in m in map; without corners it withdraws the area.
 
     Attributes:
         id: unique within the session; a new id is a new area.
@@ -35,7 +35,7 @@ class AreaOrder:
 
 
 def order_problem(order: Optional[AreaOrder]) -> Problem:
-    """Why the area is refused; no problem when it is acceptable, or withdraws one."""
+    """Return why the area is refused; no problem if it is acceptable or withdraws the area."""
     if order is None:
         return NO_PROBLEM
     if order.id == 0:
@@ -63,7 +63,7 @@ def corners_problem(area_id: int, corners: Sequence[Point]) -> Problem:
 
 
 def corners_from(numbers: Sequence[float]) -> Tuple[Point, ...]:
-    """Corners of x, y, x, y, ... of a launch file; ConfigurationError when they bound no area."""
+    """Return the corners of a launch file's x, y, x, y, ...; ConfigurationError if they are not an acceptable area."""
     corners = tuple((float(x), float(y)) for x, y in zip(numbers[::2], numbers[1::2]))
     if len(numbers) % 2:
         raise ConfigurationError(f"Parameter test_area_xy has {len(numbers)} numbers; it must list x and y of each "

@@ -1,4 +1,4 @@
-"""Polygons in the plane: size, and whether the border crosses itself."""
+"""Polygons in the plane: area, and self-intersection of the border."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 from typing import Iterable, Sequence, Tuple
@@ -7,12 +7,12 @@ Point = Tuple[float, float]
 
 
 def area_m2(corners: Sequence[Point]) -> float:
-    """Area of a simple polygon in either direction of rotation."""
+    """Return the area of a simple polygon of either orientation, m2."""
     return 0.5 * abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in _edges(corners)))
 
 
 def is_simple(corners: Sequence[Point]) -> bool:
-    """True for 3 corners or more whose edges have length and meet at common corners only."""
+    """Return True for at least 3 corners whose edges have a length and meet only at common corners."""
     edges = list(_edges(corners))
     if len(edges) < 3 or any(a == b for a, b in edges):
         return False
@@ -34,12 +34,12 @@ def _edges(corners: Sequence[Point]) -> Iterable[Tuple[Point, Point]]:
 
 
 def _turn(a: Point, b: Point, c: Point) -> float:
-    """Positive for a turn to the left at b."""
+    """Return a positive number for a turn to the left at b, a negative one to the right, 0 for none."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _is_spike(one: Tuple[Point, Point], other: Tuple[Point, Point]) -> bool:
-    """True when an edge goes back along the one before."""
+    """Return True if an edge goes back along the previous one."""
     (a, b), (_, c) = one, other
     back = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1])
     return _turn(a, b, c) == 0.0 and back < 0.0

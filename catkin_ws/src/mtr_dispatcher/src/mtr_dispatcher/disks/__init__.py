@@ -1,2 +1,2 @@
-"""The disks that the robot writes to: how much room is enough, and whether one is full."""
+"""The disks that the robot writes to: required free space, and detection of a full disk."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Room on the disks that the robot writes to: how much is enough for a day, and from when on one is full."""
+"""Free space on the disks that the robot writes to: the reserve for a day, and the limit of a full disk."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import pathlib
@@ -6,19 +6,20 @@ import shutil
 from typing import Callable, Iterable, NamedTuple, Optional, Tuple
 
 MEGA = 1e6
-# A day of logs and some bags: a preflight asks for it, and a recording leaves it. The share is of the whole disk.
+# Space for a day of logs and some bags: a preflight requires it, and a recording keeps it free. RESERVE_SHARE is a
+# fraction of the disk.
 RESERVE_BYTES, RESERVE_SHARE = 1e9, 0.05
-# A chosen limit, twice what one file of the logs may become (setup/robot/tidy_logs). With none at all logs end in the
-# middle, and a node that is started again does not find the Car that was mapped: its memory could not be written.
+# Chosen limit, twice the largest size of one log file (setup/robot/tidy_logs). On a full disk logs are truncated, and a
+# restarted node does not find the mapped Car, because its memory could not be written.
 FULL_MB = 200.0
-# Of the limit: with so much a full disk is none any more, so that a log that grows and is cut does not tell it again.
+# Hysteresis as a multiple of the limit: a log that grows and is cut does not report a full disk again and again.
 FINE_SHARE = 1.25
-# Total, used and free bytes of a path's disk, as shutil.disk_usage says them.
+# Returns total, used and free bytes of a path's disk, like shutil.disk_usage.
 Usage = Callable[[pathlib.Path], Tuple[int, int, int]]
 
 
 class Room(NamedTuple):
-    """Of the disk that a folder lies on, as far as whoever asks may use it."""
+    """Free space on the disk of a folder, as far as the calling user may use it."""
 
     folder: pathlib.Path
     total_bytes: float
@@ -26,12 +27,12 @@ class Room(NamedTuple):
 
     @property
     def reserve_bytes(self) -> float:
-        """What has to be free before a day of work."""
+        """Free space that a day of work requires."""
         return max(RESERVE_BYTES, RESERVE_SHARE * self.total_bytes)
 
 
 def room_at(folder: pathlib.Path, usage: Usage = shutil.disk_usage) -> Optional[Room]:
-    """Of a folder that is there or will be made; None when nothing is told, not even of what it lies in."""
+    """Return the space for a folder that exists or will be created; None if neither it nor a parent can be read."""
     for place in (folder, *folder.parents):
         with contextlib.suppress(OSError):
             total, _, free = usage(place)
@@ -40,7 +41,7 @@ def room_at(folder: pathlib.Path, usage: Usage = shutil.disk_usage) -> Optional[
 
 
 class DiskLimit:
-    """Remembers whether a disk was full, so that one which is nearly so is not told again and again."""
+    """Detects a full disk with hysteresis, so that a disk near the limit is not reported again and again."""
 
     def __init__(self, full_mb: float):
         self._full_mb = full_mb
@@ -48,11 +49,11 @@ class DiskLimit:
 
     @property
     def needed_mb(self) -> float:
-        """What has to be free until a full disk is none any more."""
+        """Free space at which a full disk no longer counts as full."""
         return FINE_SHARE * self._full_mb
 
     def full(self, rooms: Iterable[Room]) -> Optional[Room]:
-        """The first that is full, None when none is."""
+        """Return the first full disk, or None."""
         limit_mb = self.needed_mb if self._was_full else self._full_mb
         found = next((room for room in rooms if room.free_bytes < MEGA * limit_mb), None)
         self._was_full = found is not None

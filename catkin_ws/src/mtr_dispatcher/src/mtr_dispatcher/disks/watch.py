@@ -1,4 +1,4 @@
-"""Whether a disk that the robot writes to is full, asked beside everything else. No ROS inside."""
+"""Detects full disks in a thread. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import shutil
@@ -10,17 +10,17 @@ from .room import DiskLimit, Usage, room_at
 
 
 class FullDisk(NamedTuple):
-    """A disk without room. needed_mb: with so much free it is full no more."""
+    """A disk without space. needed_mb: free space at which it no longer counts as full."""
 
     folder: str
     needed_mb: float
 
 
 class DiskWatch:
-    """Asks from a thread of its own: a disk that is broken or far away answers late, or never.
+    """Polls from its own thread, because a broken or remote disk answers late or never.
 
     Attributes:
-        full: the first full disk, by the order of the folders; None while none is.
+        full: the first full disk in the order of the folders, or None.
     """
 
     def __init__(self, folders: Sequence[pathlib.Path], full_mb: float, period_wall_s: float,
@@ -30,11 +30,11 @@ class DiskWatch:
         self._limit = DiskLimit(full_mb)
 
     def start(self) -> None:
-        """Begin to ask."""
+        """Start to poll."""
         threading.Thread(target=self._run, name="disk watch", daemon=True).start()
 
     def update(self) -> None:
-        """Ask once; a disk that tells nothing counts as one with room."""
+        """Poll once; a disk that cannot be read does not count as full."""
         rooms = (room_at(folder, self._usage) for folder in self._folders)
         found = self._limit.full(room for room in rooms if room is not None)
         self.full = FullDisk(str(found.folder), self._limit.needed_mb) if found else None

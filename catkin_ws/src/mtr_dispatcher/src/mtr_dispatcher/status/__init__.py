@@ -1,2 +1,2 @@
-"""What goes into a Status."""
+"""Contents of a Status."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The test area in a Status, with the place of robot and Car in its frame."""
+"""The test area in a Status, with the poses of robot and Car in its frame."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import NamedTuple
 
@@ -13,7 +13,7 @@ from .texts import problem_messages
 
 
 class AreaReport(NamedTuple):
-    """What a Status tells of the test area."""
+    """Inputs of the test area's state in a Status."""
 
     keeper: AreaKeeper
     problem: Problem
@@ -22,7 +22,7 @@ class AreaReport(NamedTuple):
 
 
 def add_area(state: link.TestAreaState, fresh: Inputs, report: AreaReport) -> None:
-    """Fill the state."""
+    """Fill the state of the test area."""
     keeper, pose, car = report.keeper, fresh.pose, fresh.car
     state.required, state.fixed = keeper.required, keeper.is_fixed
     state.problems.extend(problem_messages(report.problem))

@@ -1,4 +1,4 @@
-"""The robot's messages to the bytes of a Status."""
+"""Builds the bytes of a Status from the robot's messages."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Dict, Iterable, NamedTuple, Optional
@@ -19,16 +19,16 @@ from .surroundings import fill
 from .texts import cut, problem_messages
 
 MAX_ACCURACY_CM = 2 ** 31 - 1
-# Of CarEstimate; the link has the same names.
+# Fields of CarEstimate, with the same names in the proto.
 _SIDE_SIGMAS = ("front_sigma", "rear_sigma", "left_sigma", "right_sigma")
-# Words of DriveStatus.
+# Values of DriveStatus.source.
 MOTION_SOURCES = {"none": link.MOTION_SOURCE_NONE, "locked": link.MOTION_SOURCE_LOCKED,
                   "manual": link.MOTION_SOURCE_MANUAL, "planner": link.MOTION_SOURCE_PLANNER}
 LEFT_OUT = ("surroundings", "preflight", "log", "notifications", "presses")
 
 
 class Identity(NamedTuple):
-    """What does not change while the robot runs. The key's position is in base_link, m."""
+    """Constant data of a robot run. The key's position is in base_link, m."""
 
     robot_session_id: int
     software_version: str
@@ -37,7 +37,7 @@ class Identity(NamedTuple):
 
 
 class Confirmations(NamedTuple):
-    """What the session in control is told of its orders."""
+    """Confirmed orders of the session in control."""
 
     session_id: int
     command_id: int
@@ -46,7 +46,7 @@ class Confirmations(NamedTuple):
 
 
 class Report(NamedTuple):
-    """Everything else that goes into one Status.
+    """All other contents of one Status.
 
     Attributes:
         is_one_map: the robot's pose is in the map in which the Car was located.
@@ -67,7 +67,7 @@ class Report(NamedTuple):
 
 
 def status_bytes(identity: Identity, report: Report) -> bytes:
-    """Serialized Status."""
+    """Return the serialized Status."""
     status = link.Status(
         id=report.status_id, robot_session_id=identity.robot_session_id, sent_time_s=report.fresh.now_s,
         session_id=report.confirmations.session_id, command_id=report.confirmations.command_id,
@@ -100,7 +100,7 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
 
 
 def _bounded(status: link.Status) -> bytes:
-    """The bytes; what a Status can do without is left out of one that is too large for the application."""
+    """Return the bytes, without optional parts if the Status is too large for the application."""
     data = status.SerializeToString()
     for name in LEFT_OUT:
         if len(data) <= MAX_MESSAGE_BYTES:
@@ -131,7 +131,7 @@ def _add_pose(state: link.RobotState, fresh: Inputs, is_one_map: bool) -> None:
     state.stamp_s = pose.header.stamp.to_sec()
     if math.isfinite(pose.speed_mps) and math.isfinite(pose.yaw_rate_radps):
         state.speed, state.yaw_rate_radps = pose.speed_mps, pose.yaw_rate_radps
-    # Between two maps there is no place: the Car's coordinates of one mean nothing in the other.
+    # Poses in two maps cannot be compared: the Car's coordinates in one map have no meaning in the other.
     if fresh.car is None or (fresh.car.state == CarState.LOCATED and not is_one_map):
         return
     found = _in_car(pose, fresh.car)
@@ -169,7 +169,7 @@ def _add_car(dimensions: link.CarDimensions, car: Optional[CarFields]) -> None:
 
 
 def _add_check(message: link.CarCheck, check: Optional[CheckFields], check_car_id: int) -> None:
-    """The answer to an order of the session in control; what the limits are is told always."""
+    """Fill the answer to an order of the session in control; the limits are always reported."""
     if check is None:
         return
     message.limit_m, message.limit_rad = check.limit_m, check.limit_rad

@@ -1,4 +1,4 @@
-"""Whether the robot's pose is in the map in which the Car was located."""
+"""Detects whether the robot's pose is in the map in which the Car was located."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
@@ -8,10 +8,10 @@ from .inputs import CarFields, PoseFields
 
 
 class CarMap:
-    """Remembers the map of the located Car, because its message does not name it.
+    """Stores the map of the located Car, because its message does not name it.
 
-    The state machine applies the same rule: once the pose was in another map, only a new mapping order helps. A
-    restarted localization may number a new map as it did the old one.
+    The state machine applies the same rule: after a pose in another map, only a new mapping order helps. A
+    restarted localization may reuse the number of the old map for a new one.
     """
 
     def __init__(self) -> None:
@@ -20,7 +20,7 @@ class CarMap:
         self._is_lost = False
 
     def is_map_of(self, pose: Optional[PoseFields], car: Optional[CarFields]) -> bool:
-        """Process the messages of one Status; False when pose and Car are of different maps."""
+        """Process the messages of one Status; return False if pose and Car are in different maps."""
         if pose is None or car is None:
             return False
         if car.state != CarState.LOCATED:

@@ -31,13 +31,13 @@ class CarPose(NamedTuple):
 
 
 def base_in_car(base: UncertainPose, car: UncertainPose) -> CarPose:
-    """Pose of base_link in car from both poses in map.
+    """Return the pose of base_link in car from both poses in map.
 
-    Their errors are independent: the Car's covariance is that of its fit alone, and the drift of the way round it is in
-    the robot's covariance, which grows from the start on.
+    Their errors are independent: the Car's covariance contains only the error of its fit. The drift of the drive around
+    the Car is in the robot's covariance, which grows from the start on.
     """
     car_from_base = car.pose.inverse() @ base.pose
-    # The error of the Car's heading moves the robot across the line from the Car's centre.
+    # An error of the Car's heading moves the robot perpendicularly to the line from the Car's centre.
     lever_x, lever_y = base.pose.y - car.pose.y, car.pose.x - base.pose.x
     p, q = base.covariance, car.covariance
     var_x = p[0] + q[0] + lever_x * lever_x * q[8] - 2.0 * lever_x * q[2]

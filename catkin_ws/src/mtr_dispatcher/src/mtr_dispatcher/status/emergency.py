@@ -1,4 +1,4 @@
-"""How the robot's emergency stop stands, by the motion locks of its owners."""
+"""State of the robot's emergency stop, from the motion locks of its owners."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 from typing import Dict, NamedTuple
@@ -6,12 +6,12 @@ from typing import Dict, NamedTuple
 from mtr_core.emergency_latch import EmergencyLatch
 from mtr_core.liveness import is_fresh
 
-# Age of an owner's newest word at which it counts as silent, and the emergency stop as engaged.
+# Age of an owner's newest message at which it counts as silent, and the emergency stop as engaged.
 SILENT_AFTER_S = 0.5
 
 
 class EmergencyStop(enum.IntEnum):
-    """As in the link's proto."""
+    """Values of the link's proto."""
 
     ABSENT = 1
     RELEASED = 2
@@ -19,16 +19,16 @@ class EmergencyStop(enum.IntEnum):
 
 
 class Word(NamedTuple):
-    """Whether an owner's emergency stop counts as engaged after what it said last, and when on the steady clock."""
+    """Engagement by an owner's newest message, and its reception time on the steady clock."""
 
     engaged: bool
     said_s: float
 
 
 class EmergencyWatch:
-    """Collects the words of all owners of an emergency stop; one that fell silent while engaged is latched.
+    """Collects the messages of all owners of an emergency stop; one that fell silent while engaged is latched.
 
-    expected: the robot has one; until an owner is received it counts as engaged.
+    expected: the robot has an emergency stop; until an owner's first message it counts as engaged.
     """
 
     def __init__(self, expected: bool):
@@ -37,12 +37,12 @@ class EmergencyWatch:
         self._latch = EmergencyLatch(SILENT_AFTER_S)
 
     def received(self, owner: str, engaged: bool, now_s: float) -> None:
-        """An owner says whether its emergency stop is engaged."""
+        """Process an owner's message."""
         self._latch.take(owner, engaged, now_s)
         self._words[owner] = Word(owner in self._latch, now_s)
 
     def at(self, now_s: float) -> EmergencyStop:
-        """How it stands; an owner that was received once and is silent counts as engaged."""
+        """Return the state; a known owner that is silent counts as engaged."""
         words = list(self._words.values())
         if not words:
             return EmergencyStop.ENGAGED if self._expected else EmergencyStop.ABSENT

@@ -1,4 +1,4 @@
-"""What the dispatcher knows of the robot when it writes a Status: the fields that it reads of the nodes' messages."""
+"""Inputs of a Status: the fields of the nodes' messages that the dispatcher reads."""
 # SPDX-License-Identifier: Apache-2.0
 from types import MappingProxyType
 from typing import Any, Mapping, NamedTuple, Optional, Protocol, Sequence
@@ -10,7 +10,7 @@ from ..preflight_report import PreflightReport
 from .emergency import EmergencyStop
 from .surroundings import Surroundings
 
-# Age at which a periodic message no longer tells the present.
+# Age at which a periodic message no longer counts as current.
 STALE_AFTER_S = 0.5
 
 
@@ -21,7 +21,7 @@ class Stamped(Protocol):
 
 
 class PoseFields(Stamped, Protocol):
-    """Of LocalizedPose: base_link in map, m and rad, and its motion."""
+    """Fields of LocalizedPose: base_link in map, m and rad, and its motion."""
 
     valid: bool
     x: float
@@ -37,7 +37,7 @@ class PoseFields(Stamped, Protocol):
 
 
 class CarFields(Stamped, Protocol):
-    """Of CarEstimate: the Car in map and its size, m and rad."""
+    """Fields of CarEstimate: the Car in map and its size, m and rad."""
 
     state: int
     x: float
@@ -64,7 +64,7 @@ class CarFields(Stamped, Protocol):
 
 
 class ModeFields(Stamped, Protocol):
-    """Of RobotMode: the state, and what became of the Operator's waypoint."""
+    """Fields of RobotMode: the state, and the result of the Operator's waypoint."""
 
     mode: int
     mapping: bool
@@ -78,7 +78,7 @@ class ModeFields(Stamped, Protocol):
 
 
 class PressFields(Protocol):
-    """Of PressReport: one press as it went; times of the robot's clock."""
+    """Fields of PressReport: one executed press; times of the robot's clock."""
 
     session_id: int
     id: int
@@ -89,7 +89,7 @@ class PressFields(Protocol):
 
 
 class PeripheralsFields(Stamped, Protocol):
-    """Of PeripheralsState: key, buttons and battery."""
+    """Fields of PeripheralsState: key, buttons and battery."""
 
     alive: bool
     key_height_m: float
@@ -103,7 +103,7 @@ class PeripheralsFields(Stamped, Protocol):
 
 
 class CheckFields(Stamped, Protocol):
-    """Of CarCheck: the self-check of the Car's frame."""
+    """Fields of CarCheck: the self-check of the Car's frame."""
 
     id: int
     state: int
@@ -116,7 +116,7 @@ class CheckFields(Stamped, Protocol):
 
 
 class DriveFields(Stamped, Protocol):
-    """Of DriveStatus: who moves the wheels, what is wrong, and counts since drive control's start."""
+    """Fields of DriveStatus: source of motion, problems, and counts since drive control's start."""
 
     source: str
     linear_mps: float
@@ -131,23 +131,23 @@ class DriveFields(Stamped, Protocol):
 
 
 class MotionFields(Stamped, Protocol):
-    """Of MotionStatus: counts since the planner's start."""
+    """Fields of MotionStatus: counts since the planner's start."""
 
     replans: int
 
 
 class Inputs(NamedTuple):
-    """The messages of their topics that tell the present, None for one that is too old or never came.
+    """The current messages of their topics, or None for a stale or missing one.
 
     Attributes:
         now_s: the robot's clock.
-        steady_s: the steady clock at that instant.
-        clock_steps: times that the robot's clock was set.
-        emergency_stop: as its owners say.
+        steady_s: the steady clock at the same instant.
+        clock_steps: number of steps of the robot's clock.
+        emergency_stop: state reported by its owners.
         start_failures: why nodes cannot start, by their names.
-        surroundings: what the robot sees, None in a Status that does not carry it.
-        preflight: what the last one found, None before one was made.
-        full_disk: a disk of the robot that has no room, None while all have.
+        surroundings: view of the LiDARs, or None in a Status without a picture.
+        preflight: report of the last preflight, or None before the first.
+        full_disk: a full disk of the robot, or None.
     """
 
     now_s: float

@@ -1,4 +1,4 @@
-"""The robot's latest warnings, each of which goes out in several Status messages."""
+"""The robot's latest warnings, each of which is sent in several Status messages."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 from collections import deque
@@ -8,10 +8,10 @@ from typing import Deque, List
 from .texts import cut
 
 KEPT_ENTRIES = 50
-# A lost Status loses no sentence.
+# Each sentence is sent this often, so that a lost Status does not lose it.
 REPETITIONS = 10
 ENTRIES_PER_STATUS = 10
-# A node that says the same thing at each tick is heard once per this time.
+# A sentence that a node repeats at each tick is sent once within this time.
 QUIET_S = 5.0
 
 
@@ -36,7 +36,7 @@ class LogBuffer:
         self._next_id = 1
 
     def add(self, stamp_s: float, severity: int, source: str, text: str) -> None:
-        """Take a sentence, unless the same one came a moment ago."""
+        """Add a sentence, unless the same one arrived within QUIET_S."""
         source, text = cut(source), cut(text)
         with self._lock:
             for entry in self._entries:
@@ -46,7 +46,7 @@ class LogBuffer:
             self._next_id += 1
 
     def due(self) -> List[Entry]:
-        """Sentences for the next Status, oldest first; counts them as sent."""
+        """Return the sentences for the next Status, oldest first, and count them as sent."""
         with self._lock:
             entries = [entry for entry in self._entries if entry.sent < REPETITIONS][:ENTRIES_PER_STATUS]
             for entry in entries:

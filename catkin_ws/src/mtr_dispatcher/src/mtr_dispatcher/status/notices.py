@@ -1,4 +1,4 @@
-"""Sentences that concern the Operator now."""
+"""Current notices for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Dict, Iterator, List, NamedTuple, Tuple
@@ -13,29 +13,29 @@ from .emergency import EmergencyStop
 from .inputs import Inputs
 
 INFO, WARNING, ERROR = 1, 2, 3
-# A single event, such as a rejected message, is shown this long.
+# Time for which a single event, such as a rejected message, is shown.
 SHOWN_S = 3.0
-# An application that waits for the robot sends now and then; between two of its Commands the notice stays.
+# An application that waits for the robot sends occasionally; between two of its Commands the notice stays.
 FOREIGN_SHOWN_S = 10.0
-# One of them is named; a stranger can invent any number.
+# Number of remembered applications, one of which is shown; a stranger can invent any number.
 MAX_FOREIGN = 16
-# Codes of drive control's sentences about sensors and base; others tell of obstacles, locks and sources.
+# Codes of drive control's sentences about sensors and base; other codes are about obstacles, locks and sources.
 PARTS_OF_DRIVE = tuple(f"drive_control.{part}" for part in (
     "waiting_for_lidar", "waiting_for_odometry", "lidar_", "odometry_", "imu_", "base_", "wheels_slip",
     "second_publisher", "tilt"))
-# Drive control at the border of the test area, and without a position in it.
+# Codes of drive control at the border of the test area, and without a pose in it.
 BORDER_OF_DRIVE = ("drive_control.area_", "drive_control.outside_area")
-# A robot that waits for a test area: the Operator has to act.
+# Codes of a robot that waits for a test area, which the Operator has to draw.
 AREA_CODES = (problems.NO_AREA.code, problems.AREA_OF_OTHER_ORIGIN.code, problems.FIXED_AREA_OF_OTHER_ORIGIN.code)
-# Of the Car locator: no test begins with such a data sheet.
+# Code of the Car locator; no test begins with such a data sheet.
 SHEET_CONTRADICTED = "car_locator.sheet_contradicted"
-# Of a motion lock whose owner is silent; these two are missed by name.
+# Codes of a motion lock with a silent owner; MISSED_OTHERWISE has owners whose silence has its own notice.
 SILENT_LOCKS = ("drive_control.lock_silent", "drive_control.waiting_for_lock")
 MISSED_OTHERWISE = ("dispatcher", "state_machine")
 
 
 class Notice(NamedTuple):
-    """One sentence. code: stable word for the kind of notice; severity: 1 info, 2 warning, 3 error."""
+    """One sentence. code: stable identifier of its kind; severity: 1 info, 2 warning, 3 error."""
 
     code: str
     severity: int
@@ -43,7 +43,7 @@ class Notice(NamedTuple):
 
 
 class RecentNotices:
-    """Events of which the Operator reads for a while."""
+    """Notices of events, shown for a while."""
 
     def __init__(self) -> None:
         self._notices: Dict[str, Tuple[float, Notice]] = {}
@@ -58,13 +58,13 @@ class RecentNotices:
 
 
 class ForeignApplications:
-    """Applications that want the robot while another one controls it."""
+    """Applications that send Commands while another one controls the robot."""
 
     def __init__(self) -> None:
         self._received_s: Dict[int, float] = {}
 
     def received(self, controlling_id: int, session_id: int, now_s: float) -> Problem:
-        """A Command of one came; the sentence about it."""
+        """Note a Command of such an application and return the sentence about it."""
         self._received_s.pop(session_id, None)
         self._received_s[session_id] = now_s
         while len(self._received_s) > MAX_FOREIGN:
@@ -72,7 +72,7 @@ class ForeignApplications:
         return _foreign_problem(controlling_id, session_id)
 
     def notices(self, controlling_id: int, now_s: float) -> List[Notice]:
-        """One notice, the same while Commands of such an application are received; none when nobody is in control."""
+        """Return one notice, which stays the same while such Commands arrive; none if no application is in control."""
         self._received_s = {session_id: received_s for session_id, received_s in self._received_s.items()
                             if now_s - received_s <= FOREIGN_SHOWN_S and session_id != controlling_id}
         if not controlling_id or not self._received_s:
@@ -85,7 +85,7 @@ def _foreign_problem(controlling_id: int, session_id: int) -> Problem:
 
 
 def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameters) -> Iterator[Notice]:
-    """Notices that hold as long as their cause."""
+    """Yield the notices that are shown as long as their cause persists."""
     if fresh.mode is not None and fresh.mode.hold_id:
         yield Notice("held", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
     if desired.session_id and not desired.link_alive:
@@ -129,7 +129,7 @@ def _mode_notices(fresh: Inputs) -> Iterator[Notice]:
 
 
 def _drive_notices(fresh: Inputs) -> Iterator[Notice]:
-    """What stops the wheels and nobody else tells: sensors and the base themselves, and who is silent."""
+    """Yield reasons for stopped wheels that no other notice covers: sensors, the base itself, silent lock owners."""
     problem = problem_of(fresh.drive.problems, fresh.drive.message) if fresh.drive is not None else NO_PROBLEM
     is_missed = problem.code in SILENT_LOCKS and dict(problem.arguments).get("owner") not in MISSED_OTHERWISE
     if problem.code.startswith(PARTS_OF_DRIVE) or is_missed:

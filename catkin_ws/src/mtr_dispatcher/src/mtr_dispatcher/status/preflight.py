@@ -1,4 +1,4 @@
-"""What the last preflight found, for the Operator."""
+"""The report of the last preflight in a Status, for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
@@ -7,14 +7,14 @@ from mtr_proto import robot_link_pb2 as link
 from ..preflight_report import PreflightReport
 from .texts import cut
 
-# Once a second: nobody waits for it, and it is as large as all the rest together.
+# Once a second, because the report is not urgent and as large as the rest of a Status.
 PREFLIGHT_EVERY = 10
-# Its sentences hold value, limit and what to do, and end with the last.
+# A sentence has a value, a limit, and last what to do.
 MAX_SENTENCE = 300
 
 
 def add_preflight(message: link.PreflightReport, report: Optional[PreflightReport]) -> None:
-    """Write it; an empty message says that none was made."""
+    """Write the report; an empty message means that no preflight was made."""
     message.SetInParent()
     if report is None:
         return

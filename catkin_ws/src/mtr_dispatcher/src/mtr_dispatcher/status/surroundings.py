@@ -1,4 +1,4 @@
-"""What the robot sees, made small for a picture of the Operator's: thinned returns, path, and what hinders it."""
+"""View of the robot for the Operator's picture: thinned LiDAR returns, path and obstacle."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Optional, Sequence
@@ -9,16 +9,16 @@ from mtr_core.arrays import FloatArray
 from mtr_core.se2 import Pose2
 from mtr_proto import robot_link_pb2 as link
 
-# Two LiDARs' returns of some 1400 beams; five times a second these are at most 12 kB/s, with the path 17 kB/s.
+# Two LiDARs have about 1400 beams; this many points five times a second are at most 12 kB/s, with the path 17 kB/s.
 MAX_POINTS = 500
 MAX_PATH_POINTS = 200
-# Farther away no test takes place; the LiDARs see 30 m.
+# No test takes place beyond this distance; the LiDARs measure up to 30 m.
 _MAX_COORDINATE_M = 200.0
 _CM_PER_M = 100.0
 
 
 class Sweep(NamedTuple):
-    """One turn of a LiDAR at a time of the robot's clock; ranges_m: of beams from first_rad on, step_rad apart."""
+    """One LiDAR sweep at a time of the robot's clock; ranges_m: by beam, from first_rad on at steps of step_rad."""
 
     stamp_s: float
     ranges_m: Sequence[float]
@@ -30,7 +30,7 @@ class Sweep(NamedTuple):
 
 
 class Motion(NamedTuple):
-    """Of base_link, at a time of the robot's clock."""
+    """Motion of base_link at a time of the robot's clock."""
 
     stamp_s: float
     speed_mps: float
@@ -38,7 +38,7 @@ class Motion(NamedTuple):
 
 
 class Obstacle(NamedTuple):
-    """What the collision stop does, as DriveStatus has it; distance_m and bearing_rad are NaN when nothing hinders."""
+    """Obstacle of the collision stop from DriveStatus; distance_m and bearing_rad are NaN without an obstacle."""
 
     zone: int
     distance_m: float
@@ -54,14 +54,14 @@ class Surroundings(NamedTuple):
 
 
 def points_of(sweeps: Sequence[Sweep], motion: Motion) -> FloatArray:
-    """Returns of all sweeps where they lie in base_link at the motion's time, evenly thinned."""
+    """Return the returns of all sweeps in base_link at the motion's time, (n, 2) in m, evenly thinned."""
     found = [_carried(sweep, motion) for sweep in sweeps]
     points = np.concatenate(found) if found else np.empty((0, 2))
     return points[::max(1, math.ceil(len(points) / MAX_POINTS))]
 
 
 def _carried(sweep: Sweep, motion: Motion) -> FloatArray:
-    # A broken driver says anything; what stops for it is drive control.
+    # A broken driver may send any value; drive control stops the robot for it.
     if not (math.isfinite(sweep.first_rad) and math.isfinite(sweep.step_rad)):
         return np.empty((0, 2))
     ranges = np.asarray(sweep.ranges_m, dtype=float)
@@ -74,26 +74,26 @@ def _carried(sweep: Sweep, motion: Motion) -> FloatArray:
 
 
 def transformed(target_from_source: Pose2, points: FloatArray) -> FloatArray:
-    """Points (n, 2) in the target's frame."""
+    """Return points (n, 2) in the target frame."""
     cos, sin = math.cos(target_from_source.heading), math.sin(target_from_source.heading)
     x, y = points[:, 0], points[:, 1]
     return np.column_stack((target_from_source.x + cos * x - sin * y, target_from_source.y + sin * x + cos * y))
 
 
 def path_of(points: FloatArray, car_from_map: Pose2) -> FloatArray:
-    """A path in map as the Operator sees it; evenly thinned, its end stays."""
+    """Return a path in map as a path in car, evenly thinned; its end is retained."""
     step = max(1, math.ceil(len(points) / (MAX_PATH_POINTS - 1)))
     return transformed(car_from_map, np.concatenate((points[::step], points[-1:]))) if len(points) else points
 
 
 def fill(message: link.Surroundings, seen: Surroundings) -> None:
-    """Write it; what lies beyond all tests is left out."""
+    """Write the surroundings; points beyond the range of all tests are omitted."""
     message.points_cm.extend(_centimetres(seen.points))
     message.path_cm.extend(_centimetres(seen.path))
     obstacle = seen.obstacle
     if obstacle is None:
         return
-    # DriveStatus counts from CLEAR on; here 0 says nothing.
+    # The enumeration of DriveStatus starts with CLEAR, the proto's with UNSPECIFIED.
     message.zone = obstacle.zone + link.STOP_ZONE_CLEAR if 0 <= obstacle.zone <= 3 else link.STOP_ZONE_UNSPECIFIED
     if math.isfinite(obstacle.distance_m) and math.isfinite(obstacle.bearing_rad):
         message.obstacle_m, message.obstacle_bearing_rad = obstacle.distance_m, obstacle.bearing_rad
