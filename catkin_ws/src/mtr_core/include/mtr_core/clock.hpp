@@ -18,13 +18,13 @@
 
 namespace mtr_core {
 
-/// Bounds how late a shutdown is noticed, in s of wall time; every message ends the wait earlier.
+/// Bounds the delay of a shutdown, in s of wall time; every message ends the wait earlier.
 inline constexpr double kShutdownCheckS = 0.2;
 
 /// True when /use_sim_time is set, so that time comes from /clock. Valid after the first ros::NodeHandle exists.
 inline bool is_simulated() { return ros::Time::isSimTime(); }
 
-/// Beside /use_sim_time; without it simulated time is taken as it comes, as another simulator's.
+/// In addition to /use_sim_time; without it, simulated time does not wait for the nodes, as with other simulators.
 inline constexpr const char* kLockstepParameter = "/lockstep";
 
 /// True when the simulated clock waits for the nodes' holds, and they for each other. The parameter is read once.
@@ -33,10 +33,10 @@ inline bool is_lockstep() {
   return is_wanted && is_simulated();
 }
 
-/// The same of a replay's clock, which waits for the nodes while they do not wait for each other.
+/// Set for the clock of a replay, which waits for the nodes while they do not wait for each other.
 inline constexpr const char* kHeldParameter = "/held_clock";
 
-/// True when the simulated clock waits for what a node computes, as in lock-step. The parameter is read once.
+/// True when the simulated clock waits for the nodes' computations, as in lock-step. The parameter is read once.
 inline bool is_held() {
   static const bool is_wanted = ros::param::param(kHeldParameter, false);
   return is_lockstep() || (is_wanted && is_simulated());
@@ -53,8 +53,7 @@ inline ros::Time stamp_of(std::int64_t time_ns) {
 /// Monotonic wall time in s.
 inline double wall_seconds() { return ros::SteadyTime::now().toSec(); }
 
-/// Two clocks that were read farther apart do not tell whether one of them was set in between; so many readings are
-/// tried.
+/// If the two readings are farther apart than this, a clock step in between is not detectable, and they are repeated.
 inline constexpr std::int64_t kReadingApartNs = 2 * kMillisecondNs;
 inline constexpr int kReadings = 5;
 
@@ -71,14 +70,14 @@ inline Instant read_clocks() {
   return now;
 }
 
-/// The process's own, for its callbacks' one thread.
+/// The StampClock of the process, for the single thread of its callbacks.
 inline StampClock& stamp_clock() {
   static StampClock clock;
   return clock;
 }
 
-/// When the stamp of a message that arrives now was, on the clock of Clock::now, whatever was done to the ROS clock; a
-/// stamp far ahead counts at no time.
+/// Returns the time of the stamp of a message that arrives now, on the clock of Clock::now, unaffected by clock steps.
+/// A stamp far in the future returns kNeverNs.
 /// @param usual_age_ns see StampClock::time_of
 inline std::int64_t time_of(const ros::Time& stamp, std::int64_t& usual_age_ns) {
   if (is_simulated()) {
@@ -89,14 +88,14 @@ inline std::int64_t time_of(const ros::Time& stamp, std::int64_t& usual_age_ns) 
   return steady_time_of(time_ns, {now.time_ns, now.time_ns});
 }
 
-/// Runs the callbacks of the global queue, blocking at most max_wall_s for the first one; false on shutdown, and for a
-/// node that was asked to leave when its time is up.
+/// Runs the callbacks of the global queue, blocking at most max_wall_s for the first one. Returns false on shutdown,
+/// and when the time of a node that was asked to leave is over.
 inline bool run_callbacks(double max_wall_s) {
   ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(std::min(max_wall_s, kShutdownCheckS)));
   return ros::ok() && !must_leave();
 }
 
-/// Waiting of inputs in lock-step; none elsewhere. Tests that silence many producers set less patience.
+/// Waiting of inputs in lock-step; nothing otherwise. Tests that silence many producers reduce the wait.
 inline std::optional<Waiting> lockstep_waiting() {
   if (!is_lockstep()) {
     return std::nullopt;
@@ -106,7 +105,7 @@ inline std::optional<Waiting> lockstep_waiting() {
 
 /// The clocks of a single-threaded node.
 ///
-/// It listens to /clock itself, on the global callback queue: ros::Time is set by another thread, and
+/// It subscribes to /clock itself, on the global callback queue. ros::Time is set by another thread, and
 /// ros::Time::sleepUntil polls it, which would cost 1 ms per tick.
 class Clock {
  public:
@@ -120,7 +119,7 @@ class Clock {
   Clock(const Clock&) = delete;
   Clock& operator=(const Clock&) = delete;
 
-  /// The present on both clocks; in lock-step not before the start of the simulated one.
+  /// Returns the present on both clocks; in lock-step not before the start of the simulated clock.
   Instant now() const {
     if (!is_simulated()) {
       return {boot_time_ns(), to_ns(ros::Time::now())};
@@ -129,8 +128,8 @@ class Clock {
     return {simulated_ns, simulated_ns};
   }
 
-  /// Runs callbacks until the given time of the steady clock, so that a ROS clock that is set cannot prolong the wait;
-  /// false on shutdown.
+  /// Runs callbacks until the given time of the steady clock, so that a step of the ROS clock does not prolong the
+  /// wait. Returns false on shutdown.
   bool wait_until(std::int64_t time_ns) {
     const auto remaining_s = [&] {
       const double left_s = static_cast<double>(time_ns - now().time_ns) * 1e-9;

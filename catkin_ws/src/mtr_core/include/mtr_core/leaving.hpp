@@ -1,5 +1,5 @@
 /// @file
-/// How a node that must not simply vanish is asked to leave, and how long it may take.
+/// Orderly exit of a node that must not stop abruptly: request and time limit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,12 +13,12 @@
 
 namespace mtr_core {
 
-/// A node that was asked to leave ends after so many s at the latest, also when its ticks no longer come.
+/// Limit in s after which a node that was asked to leave ends, even if its ticks no longer occur.
 inline constexpr double kLeaveWithinS = 0.6;
 
 namespace detail {
 
-// Written by a signal handler; 0: not asked.
+// Written by a signal handler; 0: no request.
 inline std::atomic<std::int64_t> asked_to_leave_ns{0};
 
 inline void ask_to_leave(int /*signal*/ = 0) {
@@ -33,15 +33,15 @@ inline void answer_shutdown(XmlRpc::XmlRpcValue& /*parameters*/, XmlRpc::XmlRpcV
 
 }  // namespace detail
 
-/// True when the node shall bring its work to an end.
+/// True when the node must finish its work.
 inline bool is_asked_to_leave() { return detail::asked_to_leave_ns != 0; }
 
-/// True when there is no more time for that.
+/// True when the time for finishing is over.
 inline bool must_leave() {
   return is_asked_to_leave() && !is_fresh(detail::asked_to_leave_ns, boot_time_ns(), kLeaveWithinS);
 }
 
-/// From now on SIGINT, SIGTERM and the master (rosnode kill, another node of the same name) only ask the node to leave.
+/// From now on SIGINT, SIGTERM and the master (rosnode kill, another node of the same name) only request an exit.
 inline void leave_in_order() {
   std::signal(SIGINT, detail::ask_to_leave);
   std::signal(SIGTERM, detail::ask_to_leave);

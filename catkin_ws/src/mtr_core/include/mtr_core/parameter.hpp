@@ -1,5 +1,5 @@
 /// @file
-/// One numeric parameter of a node with its unit and allowed range, as Python's mtr_core.errors.check_range. No ROS.
+/// One numeric parameter of a node with its unit and allowed range, like Python's mtr_core.errors.check_range. No ROS.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,21 +15,21 @@ class ConfigurationError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The value with its unit, if it has one.
+/// Returns the value with its unit, if it has one.
 inline std::string with_unit(double value, const std::string& unit) {
   std::ostringstream text;
   text << value << (unit.empty() ? "" : " ") << unit;
   return text.str();
 }
 
-/// The range with its unit, if it has one.
+/// Returns the range with its unit, if it has one.
 inline std::string range_text(double low, double high, const std::string& unit) {
   std::ostringstream text;
   text << low << " to " << with_unit(high, unit);
   return text.str();
 }
 
-/// Returns value when low <= value <= high (so NaN never passes); else throws ConfigurationError.
+/// Returns value if low <= value <= high, otherwise throws ConfigurationError; NaN always throws.
 inline double check_range(const std::string& name, double value, double low, double high, const std::string& unit) {
   if (value >= low && value <= high) {
     return value;

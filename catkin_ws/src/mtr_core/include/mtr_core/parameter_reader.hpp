@@ -1,5 +1,5 @@
 /// @file
-/// Reads a node's parameters from the parameter server's values, as Python's mtr_core.parameters. No ROS.
+/// Reads a node's parameters from the parameter server's values, like Python's mtr_core.parameters. No ROS.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace mtr_core {
 
-/// Takes the values one after the other; `finish` refuses those that nobody asked for and tells the effective ones.
+/// Reads values one by one; `finish` rejects values that were not read and returns the effective ones.
 class ParameterReader {
  public:
   /// @param values a struct; anything else counts as empty
   explicit ParameterReader(const XmlRpc::XmlRpcValue& values) : values_(values) {}
 
-  /// Overwrites the numbers in parameters; throws ConfigurationError for one that is none or out of its range.
+  /// Overwrites the numbers in parameters; throws ConfigurationError for a value that is not a number or out of range.
   template <typename Rows, typename P>
   void read_numbers(const Rows& rows, P& parameters) {
     for (const ParameterRow<P>& row : rows) {
@@ -33,7 +33,7 @@ class ParameterReader {
     }
   }
 
-  /// Overwrites a switch; throws ConfigurationError for what is neither true nor false.
+  /// Overwrites a switch; throws ConfigurationError for a value that is neither true nor false.
   void read(const std::string& name, bool& value) {
     if (has(name)) {
       require(values_[name].getType() == XmlRpc::XmlRpcValue::TypeBoolean, name, "true or false");
@@ -42,7 +42,7 @@ class ParameterReader {
     tell(name, value ? "true" : "false");
   }
 
-  /// Overwrites a text; throws ConfigurationError for an empty one and for what is none.
+  /// Overwrites a text; throws ConfigurationError for an empty text and for other types.
   void read(const std::string& name, std::string& value) {
     if (has(name)) {
       const bool is_text = values_[name].getType() == XmlRpc::XmlRpcValue::TypeString;
@@ -80,10 +80,10 @@ class ParameterReader {
     tell(name, "[" + list + "]");
   }
 
-  /// Values that somebody else reads.
+  /// Accepts values that other code reads.
   void ignore(const std::set<std::string>& names) { known_.insert(names.begin(), names.end()); }
 
-  /// All effective values in one line; throws ConfigurationError when a value was given that nobody read.
+  /// Returns all effective values in one line; throws ConfigurationError if a given value was not read.
   std::string finish() {
     if (values_.getType() == XmlRpc::XmlRpcValue::TypeStruct) {
       for (const auto& entry : values_) {

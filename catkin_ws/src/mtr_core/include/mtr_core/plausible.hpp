@@ -1,7 +1,7 @@
 /// @file
-/// What sensors on a robot of this class can show. No ROS.
+/// Plausible ranges of the sensors on a robot of this class. No ROS.
 ///
-/// Each function is false for what no such robot does, and for what is no number: a broken device, or a wrong cast.
+/// Each function is false for a value that such a robot cannot reach, and for NaN: a broken device, or a wrong cast.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace mtr_core {
 
-/// It turns itself by at most 4 rad/s; one that is pushed over or dropped is not twice as fast.
+/// The robot turns by at most 4 rad/s; a robot that is pushed over or dropped stays below twice that rate.
 constexpr double kMaxTurnRadps = 10.0;
-/// 16 times gravity, the largest range of accelerometers that robots have.
+/// 16 times gravity, the largest range of accelerometers on robots.
 constexpr double kMaxForceMps2 = 160.0;
 /// No base of this class is faster.
 constexpr double kMaxWheelsMps = 3.0;

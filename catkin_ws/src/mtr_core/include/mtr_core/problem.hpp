@@ -1,8 +1,8 @@
 /// @file
-/// What a node says to the Operator: a code, arguments, and the English sentence that they make.
+/// Sentences for the Operator: code, arguments, and the resulting English sentence.
 ///
-/// Each package declares its sentences in one table, its header `problems.hpp` (in Python its module `problems`);
-/// whoever translates does it by code and never by text.
+/// Each package declares its sentences in one table, its header `problems.hpp` (in Python its module `problems`).
+/// Translations refer to the code, never to the text.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,20 +19,20 @@
 
 namespace mtr_core {
 
-/// One sentence for the Operator: what is wrong, or what a node waits for or does. False when there is none.
+/// One sentence for the Operator about a problem, or about what a node does or waits for. False if it is empty.
 struct Problem {
-  /// Stable word "package.what"; empty for a text that comes without one.
+  /// Stable identifier "package.what"; empty for a text without a code.
   std::string code;
   /// The sentence in English.
   std::string text;
-  /// Name and value of each placeholder, as they stand in the text.
+  /// Name and formatted value of each placeholder.
   std::vector<std::pair<std::string, std::string>> arguments;
-  /// The problem whose text stands for {cause}.
+  /// The problem whose text replaces {cause}.
   std::shared_ptr<const Problem> cause;
 
   explicit operator bool() const { return !text.empty(); }
 
-  /// What stays the same while the numbers in the sentence change: a log says each kind once.
+  /// Key that does not change with the numbers in the sentence: a log shows each kind once.
   std::string kind() const;
 };
 
@@ -57,22 +57,22 @@ inline std::string Problem::kind() const {
   return words;
 }
 
-/// A problem of which only the text is known.
+/// Returns a problem with only a text.
 inline Problem problem_with_text(const std::string& text) { return {"", text, {}, nullptr}; }
 
-/// What stands for a placeholder.
+/// Value of a placeholder.
 struct Argument {
   std::string name;
   std::variant<std::string, double, std::int64_t, Problem> value;
 };
 
-/// A row of a package's table: calling it with the values of its placeholders makes the problem.
+/// A row of a package's table: a call with the values of its placeholders returns the problem.
 struct Sentence {
   const char* code;
   /// English sentence with named placeholders; {name:.1f} has the format of printf's %.1f.
   const char* text;
 
-  /// @throws std::invalid_argument when a placeholder has no value
+  /// @throws std::invalid_argument if the value of a placeholder is missing
   Problem operator()(std::initializer_list<Argument> arguments = {}) const;
 };
 
@@ -129,7 +129,7 @@ inline Problem Sentence::operator()(std::initializer_list<Argument> arguments) c
   return problem;
 }
 
-/// The problem and its causes, outermost first, as messages like mtr_msgs::Problem.
+/// Returns the problem and its causes, outermost first, as messages like mtr_msgs::Problem.
 template <typename Message>
 std::vector<Message> messages_of(const Problem& problem) {
   std::vector<Message> messages;
@@ -146,7 +146,7 @@ std::vector<Message> messages_of(const Problem& problem) {
   return messages;
 }
 
-/// The problem in messages of `messages_of`; the text alone when its sender knows no codes.
+/// Returns the problem in messages of `messages_of`, or one with only the text if there are none.
 template <typename Message>
 Problem problem_of(const std::vector<Message>& messages, const std::string& text) {
   Problem problem;

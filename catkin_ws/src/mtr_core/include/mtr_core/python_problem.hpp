@@ -19,7 +19,7 @@ using ProblemTuple = std::tuple<std::string, std::string, std::vector<std::strin
 
 namespace detail {
 
-/// What messages_of and problem_of ask of a message.
+/// Message type for messages_of and problem_of.
 struct PlainProblem {
   std::string code;
   std::string text;
@@ -29,7 +29,7 @@ struct PlainProblem {
 
 }  // namespace detail
 
-/// The problem and its causes, outermost first.
+/// Returns the problem and its causes, outermost first.
 inline std::vector<ProblemTuple> tuples_of(const Problem& problem) {
   std::vector<ProblemTuple> tuples;
   for (const auto& [code, text, names, values] : messages_of<detail::PlainProblem>(problem)) {
@@ -38,7 +38,7 @@ inline std::vector<ProblemTuple> tuples_of(const Problem& problem) {
   return tuples;
 }
 
-/// The problem of such tuples, of its text alone where there are none.
+/// Returns the problem in these tuples, or one with only the text if there are none.
 inline Problem problem_in(const std::vector<ProblemTuple>& tuples, const std::string& text) {
   std::vector<detail::PlainProblem> messages;
   for (const auto& [code, sentence, names, values] : tuples) {

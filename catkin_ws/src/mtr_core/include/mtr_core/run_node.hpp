@@ -1,5 +1,5 @@
 /// @file
-/// Life of a node from its parameters to its exit status, the same for all.
+/// Life cycle of a node from its parameters to its exit status, common to all nodes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,10 +15,10 @@ namespace mtr_core {
 
 inline constexpr int kCannotStart = 2;
 
-/// Makes an N from its private parameters and lets it spin() until shutdown.
+/// Constructs an N from its private parameters and runs spin() until shutdown.
 ///
-/// N has a static read(ParameterReader&) that returns what its constructor takes besides the node handle.
-/// Returns the exit status: 0 after Ctrl-C, 2 after one sentence when the node cannot start.
+/// N has a static read(ParameterReader&) that returns the second argument of its constructor, after the node handle.
+/// Returns the exit status: 0 after Ctrl-C, 2 after one sentence if the node cannot start.
 template <typename N>
 int run_node(int argc, char** argv, const std::string& name) {
   ros::init(argc, argv, name);
@@ -33,7 +33,7 @@ int run_node(int argc, char** argv, const std::string& name) {
     made = std::make_unique<N>(node, parameters);
   } catch (const ConfigurationError& error) {
     ROS_FATAL("The node %s cannot start. %s", name.c_str(), error.what());
-    // For the Operator: a log may be lost with the process.
+    // Stored for the Operator, because a log may be lost with the process.
     ros::param::set(names::kStartFailures + ros::this_node::getName(), std::string(error.what()));
     return kCannotStart;
   }

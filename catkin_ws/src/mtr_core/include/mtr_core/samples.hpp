@@ -1,5 +1,5 @@
 /// @file
-/// Samples of one periodic producer, and which of them a consumer reads at its tick. No ROS inside.
+/// Samples of one periodic producer, and the selection of the sample for a consumer's tick. No ROS inside.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,14 +15,14 @@
 
 namespace mtr_core {
 
-/// How a single-threaded consumer waits for a sample.
+/// Functions with which a single-threaded consumer waits for a sample.
 struct Waiting {
-  /// Runs callbacks (which may call Samples::add), blocking at most that many seconds; false on shutdown.
+  /// Runs callbacks (which may call Samples::add), blocking at most the given number of seconds; false on shutdown.
   std::function<bool(double)> run_callbacks;
   /// Monotonic wall time in s.
   std::function<double()> wall_clock;
-  /// Wall time after which a silent producer is taken for dead. One that then speaks again is waited for for a share of
-  /// it (kLateProducerShare), until it is in time.
+  /// Wall time after which a silent producer counts as dead. After its return the wait is a share of this
+  /// (kLateProducerShare), until it is in time.
   double patience_s = kProducerLostAfterWallS;
 };
 
@@ -32,11 +32,11 @@ class Samples {
  public:
   /// @param slot the producer's ticks
   /// @param lag_ns a sample is due this long after its stamp; 0 for sensors, which precede the clock
-  /// @param waiting given in lock-step, where `at` returns the same sample however fast the machine is
+  /// @param waiting set in lock-step, where `at` returns the same sample at any speed of the machine
   explicit Samples(Slot slot, std::int64_t lag_ns = kClockStep.period_ns, std::optional<Waiting> waiting = std::nullopt)
       : slot_(slot), lag_ns_(lag_ns), waiting_(std::move(waiting)) {}
 
-  /// Takes the producer's next sample; one that is not newer than the last replaces history (a restart).
+  /// Adds the producer's next sample; one that is not newer than the last replaces the history (a restart).
   void add(std::int64_t stamp_ns, T value) {
     if (!samples_.empty() && stamp_ns <= samples_.back().first) {
       samples_.clear();
@@ -48,7 +48,7 @@ class Samples {
     lost_ = false;
   }
 
-  /// Sample that a consumer reads at its tick: in lock-step the one that is due, else the newest.
+  /// Returns the sample for a consumer's tick: in lock-step the sample that is due, otherwise the newest.
   std::optional<T> at(std::int64_t tick_ns) {
     if (!waiting_) {
       return samples_.empty() ? std::nullopt : std::optional<T>(samples_.back().second);
@@ -60,7 +60,7 @@ class Samples {
     return later == samples_.begin() ? std::nullopt : std::optional<T>(std::prev(later)->second);
   }
 
-  /// True when nobody waits for the producer any more.
+  /// True when consumers no longer wait for the producer.
   bool lost() const { return lost_; }
 
  private:

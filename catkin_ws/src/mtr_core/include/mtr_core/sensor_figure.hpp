@@ -1,5 +1,5 @@
 /// @file
-/// One error of a sensor; which there are is in sensor_figures.hpp, made from mtr_core/sensor_figures.py. No ROS.
+/// One error of a sensor; the values are in sensor_figures.hpp, generated from mtr_core/sensor_figures.py. No ROS.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +15,7 @@ struct SensorFigure {
   const char* unit;
 };
 
-/// The row of a parameter whose range and unit are those of a figure.
+/// Row of a parameter with the range and unit of a figure.
 template <typename P>
 constexpr ParameterRow<P> row_of(const char* name, double P::*member, const SensorFigure& figure) {
   return {name, member, figure.low, figure.high, figure.unit};

@@ -1,5 +1,5 @@
 /// @file
-/// Stamps of a ROS clock that may be set, on the steady clock that goes through. No ROS.
+/// Converts stamps of a ROS clock that may be set to the continuous steady clock. No ROS.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,22 +11,22 @@
 
 namespace mtr_core {
 
-/// What moves a clock by more than this between two readings has set it: NTP slews by at most 0.5 ms per s. As in
-/// mtr_core/liveness.py.
+/// A larger change of the offset between two readings is a step: NTP slews by at most 0.5 ms per s. The same value is
+/// in mtr_core/liveness.py.
 inline constexpr std::int64_t kClockStepNs = 20 * kMillisecondNs;
-/// After a step messages of before may still arrive for so long.
+/// Time after a step in which messages stamped before it may still arrive.
 inline constexpr std::int64_t kUnderWayNs = kSecondNs;
-/// The offset follows the readings by at most one ns in so many, so that a late reading does not shift all stamps.
+/// The offset follows the readings by at most 1 ns in this many ns, so that a late reading does not shift all stamps.
 inline constexpr std::int64_t kNsPerNsOfSlew = 1000;
 
-/// Knows by how much the ROS clock is ahead of the steady one, now and before it was set.
+/// Stores the offset of the ROS clock from the steady clock, currently and before the last step.
 class StampClock {
  public:
-  /// The steady time of the stamp of a message that arrives now.
+  /// Returns the steady time of the stamp of a message that arrives now.
   ///
-  /// Just after a step the message may be of before: stamped until the clock was set, by its former offset. No message
-  /// is of the future; where both offsets can be, that one holds with which it is as old as usual.
-  /// @param usual_age_ns age of this producer's newest message without such a doubt; becomes that of this one
+  /// Soon after a step the message may have been stamped before it, with the former offset. No message is from the
+  /// future. If both offsets are possible, the one applies with which the message's age is closer to the usual one.
+  /// @param usual_age_ns age of this producer's newest message outside such a period; updated by this message
   std::int64_t time_of(std::int64_t stamp_ns, const Instant& now, std::int64_t& usual_age_ns) {
     follow(now);
     const std::int64_t time_ns = stamp_ns - offset_ns_;
@@ -37,12 +37,12 @@ class StampClock {
     return time_ns;
   }
 
-  /// The stamp of a steady time, as the ROS clock is set since the newest reading.
+  /// Returns the stamp of a steady time, with the ROS clock's offset of the newest reading.
   std::int64_t stamp_of(std::int64_t time_ns) const { return time_ns + offset_ns_; }
 
  private:
   bool is_of_before(std::int64_t stamp_ns, std::int64_t now_ns, std::int64_t usual_age_ns) const {
-    // A producer's clock may run ahead of this one's.
+    // A producer's clock may run ahead of this clock.
     const std::int64_t ahead_ns = kClockStepNs + std::max<std::int64_t>(0, -usual_age_ns);
     const auto misfit = [&](std::int64_t time_ns) { return std::abs(now_ns - time_ns - usual_age_ns); };
     const std::int64_t time_ns = stamp_ns - offset_ns_;
@@ -69,10 +69,10 @@ class StampClock {
     read_ns_ = now.time_ns;
   }
 
-  // Plain numbers: GCC 12 takes std::optional's for uninitialized.
+  // Plain numbers, because GCC 12 warns that those in a std::optional are uninitialized.
   bool is_known_ = false;
   std::int64_t offset_ns_ = 0;
-  // Offset before the clock was last set, and when that was.
+  // Offset before the last step, and the time of the step.
   bool was_set_ = false;
   std::int64_t former_ns_ = 0;
   std::int64_t set_ns_ = 0;

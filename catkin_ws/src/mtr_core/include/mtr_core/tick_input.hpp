@@ -22,10 +22,10 @@ struct Received {
   explicit operator bool() const { return message != nullptr; }
 };
 
-/// Subscription to a periodic topic with a header; `at(tick)` gives the message to use at a tick.
+/// Subscription to a periodic topic with a header; `at(tick)` returns the message to use at a tick.
 ///
-/// In simulation it waits for the message that is due at that tick, so that the outcome does not depend on the speed
-/// of the machine. On the robot's own clock, and where waits is false, it is the newest message.
+/// In simulation it waits for the message that is due at that tick, so that the result does not depend on the speed of
+/// the machine. On the robot's own clock, and if waits is false, it returns the newest message.
 template <typename M>
 class TickInput {
  public:
@@ -42,7 +42,7 @@ class TickInput {
   TickInput(const TickInput&) = delete;
   TickInput& operator=(const TickInput&) = delete;
 
-  /// Message to use at the tick.
+  /// Returns the message to use at the tick.
   Received<M> at(std::int64_t tick_ns) { return samples_.at(tick_ns).value_or(Received<M>{}); }
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// The rate of a periodic node: in lock-step the clock does not pass a tick before its work is done.
+/// The rate of a periodic node: in lock-step the clock does not pass a tick before the node's work is done.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,9 +17,9 @@ namespace mtr_core {
 
 /// Wakes at the ticks of a slot of the schedule; the node's callbacks run while it sleeps.
 ///
-/// In lock-step each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the number of
-/// messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits until
-/// the messages have arrived. Elsewhere nothing is published.
+/// In lock-step each sleep first publishes a hold. Its frame_id is the node, its stamp the node's next tick, its seq
+/// the number of messages sent to the simulator so far. The simulator does not advance past the stamp and waits until
+/// the messages have arrived. Otherwise nothing is published.
 class Ticker {
  public:
   Ticker(ros::NodeHandle& node, Slot slot) : slot_(slot), clock_(node) {
@@ -28,10 +28,10 @@ class Ticker {
     }
   }
 
-  /// Waits for the next tick and returns it; nothing on shutdown.
+  /// Waits for the next tick and returns it, or nothing on shutdown.
   ///
-  /// A node that took longer than a period goes on at the next tick that is still to come. So does one that was away
-  /// (stopped, starved, or its machine suspended): until then it receives what was said meanwhile.
+  /// A node that exceeded its period continues at the next future tick. The same applies if it was away (stopped,
+  /// starved, or its machine suspended); until then it receives the messages that arrived meanwhile.
   std::optional<Instant> sleep() {
     std::int64_t tick_ns = 0;
     do {
@@ -44,10 +44,10 @@ class Ticker {
     return is_lockstep() ? Instant{tick_ns, tick_ns} : clock_.now();
   }
 
-  /// The present on both clocks.
+  /// Returns the present on both clocks.
   Instant now() const { return clock_.now(); }
 
-  /// The owner calls this with each message that it sends to the simulator.
+  /// Counts a message that the owner sends to the simulator.
   void count_message_sent() { ++messages_sent_; }
 
  private:

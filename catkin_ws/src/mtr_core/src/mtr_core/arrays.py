@@ -1,4 +1,4 @@
-"""Types of arrays for annotations; the robot's numpy (1.17) has no numpy.typing."""
+"""Array types for annotations; the robot's numpy (1.17) lacks numpy.typing."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import TYPE_CHECKING
 

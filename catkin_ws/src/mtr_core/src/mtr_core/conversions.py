@@ -1,4 +1,4 @@
-"""Requests and their reports to ROS messages and back, the same for every node."""
+"""Converts requests and their reports to ROS messages and back, for all nodes."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
@@ -13,30 +13,30 @@ from .states import Result
 
 
 def stamp_of(time_ns: int) -> Time:
-    """Nanoseconds as the stamp of a message."""
+    """Return nanoseconds as the stamp of a message."""
     return Time(time_ns // 1_000_000_000, time_ns % 1_000_000_000)
 
 
 def waypoint_from(message: msg.Waypoint) -> Waypoint:
-    """A waypoint as plain data."""
+    """Return a waypoint as plain data."""
     return Waypoint(message.id, message.requester, message.frame_id, Pose2(message.x, message.y, message.heading),
                     message.direction)
 
 
 def waypoint_message(waypoint: Waypoint) -> msg.Waypoint:
-    """A waypoint for other nodes."""
+    """Return a waypoint as a message."""
     pose = waypoint.pose
     return msg.Waypoint(id=waypoint.id, requester=waypoint.requester, frame_id=waypoint.frame, x=pose.x, y=pose.y,
                         heading=pose.heading, direction=waypoint.direction)
 
 
 def goal_from(message: msg.RobotMode) -> Goal:
-    """The goal that the state machine has set."""
+    """Return the goal that the state machine has set."""
     return Goal(waypoint_from(message.goal), message.goal_attempt)
 
 
 def goal_report_from(message: Optional[msg.MotionStatus]) -> GoalReport:
-    """What the motion planner says; of no goal while it is silent."""
+    """Return the motion planner's report; without a message it refers to no goal."""
     if message is None:
         return GoalReport()
     goal_id = GoalId(message.requester, message.goal_id, message.goal_attempt)
@@ -44,7 +44,7 @@ def goal_report_from(message: Optional[msg.MotionStatus]) -> GoalReport:
 
 
 def desired_state_from(message: msg.DesiredState) -> DesiredState:
-    """What the robot shall do."""
+    """Return the desired state as plain data."""
     press = message.press
     return DesiredState(
         session_id=message.session_id, command_id=message.command_id, link_alive=message.link_alive,
@@ -56,7 +56,7 @@ def desired_state_from(message: msg.DesiredState) -> DesiredState:
 
 
 def desired_state_message(desired: DesiredState) -> msg.DesiredState:
-    """What the robot shall do, without a stamp."""
+    """Return the desired state as a message without a stamp."""
     press = desired.press
     return msg.DesiredState(
         session_id=desired.session_id, command_id=desired.command_id, link_alive=desired.link_alive,

@@ -20,13 +20,13 @@ HEAD = """/// @file
 
 
 def names_header() -> str:
-    """Every topic, frame and parameter of names.py as a constant."""
+    """Return the header with each topic, frame and parameter name of names.py as a constant."""
     lines = [f'inline constexpr char {cpp_name(name)}[] = "{value}";' for name, value in constants(names, str).items()]
     return _header("Names of topics, frames and parameters.", "names.py", "mtr_core::names", lines)
 
 
 def schedule_header() -> str:
-    """Every slot, and the limits of waiting, of schedule.py as a constant."""
+    """Return the header with each slot and the wait limits of schedule.py as constants."""
     lines = [f"inline constexpr Slot {cpp_name(name)}{{{slot.period_ns}, {slot.phase_ns}}};"
              for name, slot in constants(schedule, Slot).items()]
     lines += [
@@ -41,7 +41,7 @@ def schedule_header() -> str:
 
 
 def sensor_figures_header() -> str:
-    """Every figure of sensor_figures.py as a constant, with all of its digits."""
+    """Return the header with each figure of sensor_figures.py as a constant in full precision."""
     lines = [f'inline constexpr SensorFigure {cpp_name(name)}{{{value!r}, {low!r}, {high!r}, "{unit}"}};'
              for name, (value, low, high, unit) in constants(sensor_figures, SensorFigure).items()]
     lines += [f"inline constexpr double {cpp_name(name)} = {value!r};"
@@ -52,17 +52,17 @@ def sensor_figures_header() -> str:
 
 
 def constants(module: Any, kind: type) -> Dict[str, Any]:
-    """Constants of a module by name, in the order of its text."""
+    """Return the constants of a module by name, in the order of definition."""
     return {name: value for name, value in vars(module).items() if name.isupper() and isinstance(value, kind)}
 
 
 def cpp_name(python_name: str) -> str:
-    """MOTION_PLANNER as kMotionPlanner."""
+    """Return the C++ name, such as kMotionPlanner for MOTION_PLANNER."""
     return "k" + "".join(word.capitalize() for word in python_name.split("_"))
 
 
 def write(folder: pathlib.Path) -> None:
-    """All headers; a file that would not change is left alone, so that nothing is compiled for it."""
+    """Write all headers; an unchanged file is not touched, to avoid recompilation."""
     folder.mkdir(parents=True, exist_ok=True)
     for name, header in HEADERS.items():
         path, text = folder / name, header()

@@ -1,4 +1,4 @@
-"""Check sum inside messages on the serial line: rosserial's own is an 8-bit sum, which two errors can cancel."""
+"""Checksum inside messages on the serial line: rosserial's own 8-bit sum misses some double errors."""
 # SPDX-License-Identifier: Apache-2.0
 import binascii
 import io
@@ -9,18 +9,18 @@ INITIAL = 0xFFFF
 
 
 def crc16(data: bytes) -> int:
-    """CRC-16/CCITT-FALSE: polynomial 0x1021, initially 0xFFFF."""
+    """Return CRC-16/CCITT-FALSE: polynomial 0x1021, initial value 0xFFFF."""
     return binascii.crc_hqx(data, INITIAL)
 
 
 def seal(message: Any) -> Any:
-    """Fill in the last field, crc, from the serialized fields before it; returns the message."""
+    """Set the last field, crc, from the serialized fields before it, and return the message."""
     message.crc = _wanted(message)
     return message
 
 
 def is_sound(message: Any) -> bool:
-    """True when the message is as it was sealed."""
+    """Return True if the message has the crc of its fields."""
     return bool(message.crc == _wanted(message))
 
 

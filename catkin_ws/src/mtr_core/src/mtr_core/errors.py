@@ -15,7 +15,7 @@ class ConfigurationError(RobotError):
 
 
 def range_problem(name: str, value: float, low: float, high: float, unit: str = "") -> str:
-    """Sentence that names value and range unless low <= value <= high; else empty. NaN is out of any range."""
+    """Return a sentence with value and range if the value is out of range, as NaN always is; otherwise empty."""
     if low <= value <= high:
         return ""
     unit = f" {unit}" if unit else ""
@@ -23,12 +23,12 @@ def range_problem(name: str, value: float, low: float, high: float, unit: str = 
 
 
 def figure(value: float) -> str:
-    """The number as a person reads it: whole numbers in full, others to six digits."""
+    """Return the number for display: whole numbers in full, others with six digits."""
     return str(value) if isinstance(value, int) else f"{value:g}"
 
 
 def check_range(name: str, value: float, low: float, high: float, unit: str = "") -> float:
-    """Return value when low <= value <= high; else raise ConfigurationError naming parameter, value and range."""
+    """Return the value if low <= value <= high; raise ConfigurationError with parameter, value and range otherwise."""
     problem = range_problem(f"Parameter {name}", value, low, high, unit)
     if problem:
         raise ConfigurationError(problem)

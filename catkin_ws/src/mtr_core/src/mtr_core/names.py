@@ -13,36 +13,36 @@ IMU = "imu"
 
 # Parameter of the whole robot: its URDF
 ROBOT_DESCRIPTION = "/robot_description"
-# Of each node that cannot start, by its name: why. It is gone when the node has started
+# Robot parameter by node name: why the node cannot start; deleted when it has started
 START_FAILURES = "/start_failures"
-# Of the robot: its topics of sensors and base, by the arguments of robot.launch
+# Robot parameter: topics of sensors and base, by the arguments of robot.launch
 ROBOT_TOPICS = "/robot_topics"
-# Of the robot: frames in which its sensors speak, by the links of the description that stand for them
+# Robot parameter: frames of the sensors' messages, by the corresponding links of the description
 ROBOT_FRAMES = "/robot_frames"
-# Of the robot: how many turns a second its LiDARs make by the data sheet of their kind, where it is named
+# Robot parameter: revolutions per second of its LiDARs from the data sheet, if the model is specified
 LIDAR_TURN_RATE = "/robot_lidar/turn_rate_hz"
-# Of the robot: what node_parameters of robot.launch gives to which nodes
+# Robot parameter: node_parameters of robot.launch by node
 NODE_PARAMETERS = "/robot_node_parameters"
-# Of the robot: folders into which its nodes write by themselves, logs for one
+# Robot parameter: folders that its nodes write to by themselves, such as logs
 WRITTEN_FOLDERS = "/robot_written_folders"
-# Of this start of robot.launch, and of no other one on the same ROS master: a word, also for a node started again
+# Robot parameter: identifier of this start of robot.launch, unique on the ROS master and constant for restarted nodes
 ROBOT_RUN = "/robot_run"
-# Of the robot: what the last preflight since its start found, see mtr_dispatcher's preflight_report
+# Robot parameter: report of the last preflight since the robot's start, see mtr_dispatcher's preflight_report
 PREFLIGHT_REPORT = "/preflight_report"
-# What the last preflight with --drive found in motion, for those without.
+# Findings in motion of the last preflight with --drive, for preflights without it
 PREFLIGHT_MOTION = "/preflight_motion"
 
-# Of this run of the robot: the test area in force, for a dispatcher that is started again.
+# Test area in force in this robot run, for a restarted dispatcher
 TEST_AREA_IN_FORCE = "/test_area_in_force"
 
-# Sensors and wheels, as on a Jackal
+# Sensors and wheels, with the names of a Jackal
 FRONT_SCAN = "/front/scan"
 REAR_SCAN = "/rear/scan"
 IMU_DATA = "/imu/data"
 NAVSAT_FIX = "/navsat/fix"
 WHEEL_ODOMETRY = "/jackal_velocity_controller/odom"
 WHEEL_COMMAND = "/jackal_velocity_controller/cmd_vel"
-# In front of a base that cannot be configured, see mtr_drive_control's base_guard
+# Guard in front of a base that cannot be configured, see mtr_drive_control's base_guard
 BASE_GUARD = "/base_guard"
 GUARDED_WHEEL_COMMAND = "/base_guard/cmd_vel"
 BATTERY = "/battery"
@@ -84,19 +84,19 @@ FIRMWARE_INPUTS = "/firmware/inputs"
 # Stop input of the board, std_msgs/Bool: one of drive control's e_stop_topics on a robot with a stop chain
 STOP_INPUT = "/peripherals/stop_input"
 
-# Orders that move wheels, lift or servos: each has one publisher. Drive control watches the base's own topic, and
-# /drive/lock, on which every owner of a lock publishes.
+# Orders that move wheels, lift or servos; each has one publisher. Drive control watches the base's own topic.
+# /drive/lock is not included, because every owner of a lock publishes on it.
 MOTION_INPUTS = (JOY, DESIRED_STATE, ROBOT_MODE, PLANNER_VELOCITY, MANUAL_VELOCITY, MANUAL_LIFT, FIRMWARE_COMMAND,
                  FIRMWARE_PRESS, FIRMWARE_CALIBRATE, FIRMWARE_SIGNALS)
-# Messages on which these orders rest.
+# Messages on which these orders depend
 MOTION_STATES = (TEST_AREA, LOCALIZED_POSE, CAR_ESTIMATE, CAR_CHECK, MAPPING_ORDER, SURFACE_MAP, MOTION_STATUS,
                  DRIVE_STATUS, PERIPHERALS_STATE, FIRMWARE_STATE, FIRMWARE_INPUTS, STOP_INPUT)
 
-# Of the node that injects faults, and in front of the topics that it passes on
+# Names of the fault injection node; the first is also the prefix of the topics that it relays
 FAULT_INJECTION = "/fault_injection"
 INJECT_FAULT = "/fault_injection/inject"
 ACTIVE_FAULTS = "/fault_injection/active"
-# Parameter: kinds of fault by part, for who offers them
+# Parameter with the kinds of fault by part, for user interfaces
 FAULT_CATALOGUE = "/fault_catalogue"
 
 # Simulation
@@ -106,6 +106,6 @@ SIM_HANDLE_REQUEST = "/sim/handle_request"
 SIM_KIDNAP = "/sim/kidnap"
 SIM_IGNITION = "/sim/ignition"
 SIM_CAR_SPEED = "/sim/car_speed"
-# With physics in another process: pose of the key in frame car, and how high the firmware has lifted it
+# With physics in another process: pose of the key in frame car, and its height above ground from the firmware
 SIM_KEY = "/sim/key"
 SIM_LIFT = "/sim/lift"

@@ -1,4 +1,4 @@
-"""Parameters of a node: frozen dataclasses whose numbers carry unit and range, read from plain values."""
+"""Parameters of a node: frozen dataclasses whose numbers have a unit and a range, read from plain values."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 from dataclasses import dataclass
@@ -23,18 +23,18 @@ class Limits:
 
 
 def number(default: float, low: float, high: float, unit: str = "") -> Any:
-    """Field of a ParameterSet: default, allowed range and unit; an int when the field says so."""
+    """Return a field of a ParameterSet with default, allowed range and unit; the annotation may be float or int."""
     return dataclasses.field(default=default, metadata={LIMITS: Limits(low, high, unit)})
 
 
 @dataclass(frozen=True)
 class ParameterSet:
-    """Base of the frozen dataclasses; ConfigurationError names the first number out of its range when one is made.
+    """Base of the frozen dataclasses; construction raises ConfigurationError for the first number out of range.
 
-    A field may be another ParameterSet; its names stand beside the others'.
+    A field may be another ParameterSet; its names are on the same level as the others.
     """
 
-    PREFIX: ClassVar[str] = ""  # of the names in sentences
+    PREFIX: ClassVar[str] = ""  # prefix of the names in sentences
 
     def __post_init__(self) -> None:
         for item in dataclasses.fields(self):
@@ -44,7 +44,7 @@ class ParameterSet:
 
 
 def parameters_from(values: Mapping[str, Any], kind: Type[P]) -> P:
-    """The parameters with the given values and else their defaults; ConfigurationError for a wrong name or value."""
+    """Return the parameters with the given values, or their defaults; ConfigurationError for a wrong name or value."""
     known = sorted(_names(kind))
     for name in values:
         if name not in known:
@@ -53,7 +53,7 @@ def parameters_from(values: Mapping[str, Any], kind: Type[P]) -> P:
 
 
 def described(parameters: ParameterSet) -> str:
-    """All values in one line, with units."""
+    """Return all values in one line, with units."""
     return ", ".join(f"{item.name} {_shown(value)} {item.metadata[LIMITS].unit}".rstrip() if LIMITS in item.metadata
                      else f"{item.name} {_shown(value)}" for item, value in _leaves(parameters))
 
@@ -95,7 +95,7 @@ def _made(values: Mapping[str, Any], kind: Type[P]) -> P:
     return kind(**given)
 
 
-# What a person may write for a type, and the types that it arrives as.
+# Description of each type for a user, and the types of its values.
 _KINDS = {float: ("a number", (int, float)), int: ("a whole number", (int,)), bool: ("true or false", (bool,)),
           str: ("a text", (str,)), Tuple[int, ...]: ("a list of whole numbers", (int,)),
           Tuple[float, ...]: ("a list of numbers", (int, float)), Tuple[str, ...]: ("a list of texts", (str,))}
@@ -103,7 +103,7 @@ _LISTS = (Tuple[int, ...], Tuple[float, ...], Tuple[str, ...])
 
 
 def _checked(item: Any, hint: Any, value: Any) -> Any:
-    """The value as the type of its field."""
+    """Return the value converted to the type of its field."""
     allowed, kinds = _KINDS[hint]
     if hint in _LISTS:
         right = isinstance(value, (list, tuple)) and all(_is_one_of(each, kinds) for each in value)
@@ -117,7 +117,7 @@ def _checked(item: Any, hint: Any, value: Any) -> Any:
 
 
 def _is_one_of(value: Any, kinds: Tuple[type, ...]) -> bool:
-    # For Python true is a whole number; for a person it is not.
+    # Python treats True as an integer; for a user it is not a number.
     return isinstance(value, kinds) and (bool in kinds or not isinstance(value, bool))
 
 

@@ -1,7 +1,7 @@
-"""What a node says to the Operator: a code, arguments, and the English sentence that they make.
+"""Sentences for the Operator: code, arguments, and the resulting English sentence.
 
-Each package declares its sentences in one table, its module `problems` (in C++ its header `problems.hpp`); whoever
-translates does it by code and never by text.
+Each package declares its sentences in one table, its module `problems` (in C++ its header `problems.hpp`). Translations
+refer to the code, never to the text.
 """
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
@@ -10,20 +10,20 @@ from typing import Callable, Iterator, List, Optional, Protocol, Sequence, Tuple
 
 from .errors import RobotError, figure
 
-# Placeholder for the text of another problem, the cause.
+# Placeholder for the text of the cause, another problem.
 CAUSE = "cause"
 Value = Union[str, float]
 
 
 @dataclass(frozen=True)
 class Problem:
-    """One sentence for the Operator: what is wrong, or what a node waits for or does. False when there is none.
+    """One sentence for the Operator about a problem, or about what a node does or waits for. False if it is empty.
 
     Attributes:
-        code: stable word "package.what"; empty for a text that comes without one.
+        code: stable identifier "package.what"; empty for a text without a code.
         text: the sentence in English.
-        arguments: name and value of each placeholder, as they stand in the text.
-        cause: the problem whose text stands for {cause}.
+        arguments: name and formatted value of each placeholder.
+        cause: the problem whose text replaces {cause}.
     """
 
     code: str = ""
@@ -39,12 +39,12 @@ class Problem:
 
     @property
     def kind(self) -> Tuple[str, ...]:
-        """What stays the same while the numbers in the sentence change: a log says each kind once."""
+        """Key that does not change with the numbers in the sentence: a log shows each kind once."""
         return tuple(word for problem in self.chain() for word in (
             problem.code or problem.text, *(value for _, value in problem.arguments if not _is_number(value))))
 
     def chain(self) -> Iterator["Problem"]:
-        """This problem, its cause, the cause of that and so on; nothing when there is no problem."""
+        """Yield this problem, its cause, the cause's cause and so on; nothing for NO_PROBLEM."""
         problem: Optional[Problem] = self
         while problem:
             yield problem
@@ -63,10 +63,10 @@ def _is_number(text: str) -> bool:
 
 
 class Sentence:
-    """A row of a package's table: calling it with the values of its placeholders makes the problem.
+    """A row of a package's table: a call with the values of its placeholders returns the problem.
 
     Attributes:
-        code: stable word "package.what", a promise to whoever translates.
+        code: stable identifier "package.what", on which translations rely.
         template: English sentence with named placeholders and their formats, as in str.format.
     """
 
@@ -79,7 +79,7 @@ class Sentence:
         return tuple(name for _, name, _, _ in Formatter().parse(self.template) if name)
 
     def __call__(self, **values: Union[Value, Problem]) -> Problem:
-        """The problem with these values, `cause` with a problem; KeyError when a placeholder has none."""
+        """Return the problem with these values, where `cause` is a problem; KeyError if a value is missing."""
         parts = list(Formatter().parse(self.template))
         shown = {name: _formatted(values[name], spec or "") for _, name, spec, _ in parts if name}
         text = "".join(literal + (shown[name] if name else "") for literal, name, _, _ in parts)
@@ -89,25 +89,25 @@ class Sentence:
 
 
 class ProblemError(RobotError):
-    """An error that is told to the Operator.
+    """An error that is shown to the Operator.
 
     Attributes:
         problem: its sentence.
     """
 
     def __init__(self, problem: Problem):
-        # The problem itself, so that the error can come from another process.
+        # Passing the problem itself allows the error to be pickled for another process.
         super().__init__(problem)
         self.problem = problem
 
 
 def problem_in(error: RobotError) -> Problem:
-    """The error's problem; its text alone when it has none."""
+    """Return the error's problem, or one with only its text."""
     return error.problem if isinstance(error, ProblemError) else Problem(text=str(error))
 
 
 class ProblemFields(Protocol):
-    """What a message says of one problem, in mtr_msgs as in the link's proto."""
+    """Fields of one problem in a message, both in mtr_msgs and in the link's proto."""
 
     code: str
     names: Sequence[str]
@@ -119,13 +119,13 @@ Message = TypeVar("Message")
 
 
 def messages_of(problem: Problem, message_type: Callable[..., Message]) -> List[Message]:
-    """The problem and its causes, outermost first, as messages of this type."""
+    """Return the problem and its causes, outermost first, as messages of this type."""
     return [message_type(code=each.code, names=[name for name, _ in each.arguments],
                          values=[value for _, value in each.arguments], text=each.text) for each in problem.chain()]
 
 
 def problem_of(messages: Sequence[ProblemFields], text: str) -> Problem:
-    """The problem in messages of `messages_of`; the text alone when its sender knows no codes."""
+    """Return the problem in messages of `messages_of`, or one with only the text if there are none."""
     problem: Optional[Problem] = None
     for message in reversed(messages):
         problem = Problem(message.code, message.text, tuple(zip(message.names, message.values)), problem)

@@ -1,20 +1,20 @@
-"""What a log need not hear: what every start says, and the same kind again and again."""
+"""Suppression of log entries: missing inputs at a start, and repetitions of the same kind."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, Hashable, Optional, Tuple
 
-# All nodes of a robot have spoken by then.
+# By then all nodes of a robot have published.
 QUIET_S = 5.0
 
 
 class QuietStart:
-    """Until everything was good once, or for some seconds, nothing that is missing is worth a warning."""
+    """Suppresses warnings about missing inputs until all were available once, or for some seconds."""
 
     def __init__(self, quiet_s: float = QUIET_S):
         self._quiet_s = quiet_s
         self._begun_s: Optional[float] = None
 
     def warns(self, now_s: float, is_good: bool) -> bool:
-        """True when what is missing at a tick is a warning; is_good: nothing is. now_s: on the steady clock."""
+        """Return True if missing inputs are worth a warning at now_s of the steady clock. is_good: none is missing."""
         if self._begun_s is None:
             self._begun_s = now_s
         if is_good:
@@ -23,9 +23,9 @@ class QuietStart:
 
 
 class Throttle:
-    """Lets one sentence of a kind pass per period, with the number of those that it kept back.
+    """Passes one sentence of each kind per period, with the number of suppressed ones.
 
-    The key is the kind, not the sentence: whoever floods the robot chooses the words.
+    The key is the kind, not the sentence, because a flooding sender can vary its text.
     """
 
     def __init__(self, period_s: float):
@@ -33,7 +33,7 @@ class Throttle:
         self._kinds: Dict[Hashable, Tuple[float, int]] = {}
 
     def passed(self, kind: Hashable, sentence: str, now_s: float) -> str:
-        """The sentence for the log, empty when it is kept back."""
+        """Return the sentence for the log, or an empty text if it is suppressed."""
         said_s, kept_back = self._kinds.get(kind, (-float("inf"), 0))
         if now_s - said_s < self._period_s:
             self._kinds[kind] = (said_s, kept_back + 1)

@@ -1,4 +1,4 @@
-"""What is requested of the robot, and what became of it: the same types from the application's Command to the motor."""
+"""Requests to the robot and the reports on them: the same types from the application's Command to the motor."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -9,26 +9,26 @@ from .problems import NO_PROBLEM, Problem
 from .se2 import Pose2
 from .states import Direction, Result
 
-# Requesters of waypoints that are nodes; an application's name is made by `application`.
+# Nodes that request waypoints; `application` returns the name of an application.
 CAR_LOCATOR = "car_locator"
 RVIZ = "rviz"
 
 
 def application(session_id: int) -> str:
-    """The requester that stands for an application: its waypoints count from 1 in each session."""
+    """Return the requester name of an application; its waypoint ids start at 1 in each session."""
     return f"application/{session_id:x}"
 
 
 @dataclass(frozen=True)
 class Waypoint:
-    """A pose of base_link that somebody wants the robot to have.
+    """A requested pose of base_link.
 
     Attributes:
-        id: the requester's own number, which comes back with what became of it; 0: no waypoint.
-        requester: who wants it; requester and id together tell waypoints apart.
+        id: the requester's own number, which the report repeats; 0: no waypoint.
+        requester: name of the requester; requester and id together identify a waypoint.
         frame: names.CAR or names.MAP.
         pose: m and rad in the frame.
-        direction: of travel on the last straight piece, a number of Direction.
+        direction: of travel on the last straight segment, a number of Direction.
     """
 
     id: int = 0
@@ -42,7 +42,7 @@ NO_WAYPOINT = Waypoint()
 
 
 class GoalId(NamedTuple):
-    """Identity of a goal; waypoint_id 0: none."""
+    """Identity of a goal; waypoint_id 0: no goal."""
 
     requester: str = ""
     waypoint_id: int = 0
@@ -57,7 +57,7 @@ class Goal:
     """The waypoint that the motion planner drives to.
 
     Attributes:
-        attempt: grows each time a waypoint is taken up, so that one that is taken up again is a new goal.
+        attempt: incremented each time a waypoint becomes the goal, so that a resumed waypoint is a new goal.
     """
 
     waypoint: Waypoint = NO_WAYPOINT
@@ -65,7 +65,7 @@ class Goal:
 
     @property
     def id(self) -> GoalId:
-        """What the motion planner echoes; NO_GOAL_ID when there is nowhere to go."""
+        """Identity that the motion planner echoes; NO_GOAL_ID without a waypoint."""
         waypoint = self.waypoint
         return GoalId(waypoint.requester, waypoint.id, self.attempt) if waypoint.id else NO_GOAL_ID
 
@@ -75,27 +75,27 @@ NO_GOAL = Goal()
 
 @dataclass(frozen=True)
 class GoalReport:
-    """What the motion planner says of a goal."""
+    """Report of the motion planner on a goal."""
 
     goal_id: GoalId = NO_GOAL_ID
     result: Result = Result.IDLE
     message: Problem = NO_PROBLEM
 
     def is_about(self, goal: Goal) -> bool:
-        """True when it speaks of this goal, and there is one."""
+        """Return True if the report refers to this goal, and the goal has a waypoint."""
         return goal.id != NO_GOAL_ID and self.goal_id == goal.id
 
 
 @dataclass(frozen=True)
 class Press:
-    """One press of buttons of the Remote key that an application wants.
+    """One press of buttons of the Remote key, requested by an application.
 
     Attributes:
-        id: the application's own number, which counts up; 0: no press. One that is repeated never presses twice.
-        session_id: of the application; session and id together tell presses apart.
+        id: the application's own number, which increases; 0: no press. A repeated id never presses twice.
+        session_id: of the application; session and id together identify a press.
         buttons: numbers of the buttons, pressed together.
         strength: 0 no travel, 1 full travel.
-        duration_s: time to hold; 0: the key's default.
+        duration_s: hold time; 0: the key's default.
     """
 
     id: int = 0
@@ -110,7 +110,7 @@ NO_PRESS = Press()
 
 @dataclass(frozen=True)
 class PressReport:
-    """One press as it went: times on the robot's clock, and why not when it was not carried out."""
+    """One press: times on the robot's clock, and an error if it was not executed."""
 
     id: int
     session_id: int
@@ -121,19 +121,19 @@ class PressReport:
 
 @dataclass(frozen=True)
 class DesiredState:
-    """What the robot shall do now, as the dispatcher makes it of the Commands; the defaults hold when it is silent.
+    """Desired state that the dispatcher derives from the Commands; the defaults apply while it is silent.
 
     Attributes:
         session_id: application in control, 0 for none.
-        link_alive: False when the link is silent for longer than its limit.
-        stop: the robot shall stand; always True while the link is not alive.
-        waypoint: where the Operator wants the robot.
+        link_alive: False if the link is silent for longer than its limit.
+        stop: the robot must stop; always True while the link is not alive.
+        waypoint: pose requested by the Operator.
         max_speed_mps: above 0 in a message of the dispatcher.
-        key_height_m: Remote key above ground; NaN: as it is.
+        key_height_m: height of the Remote key above ground; NaN: unchanged.
         press: the newest press.
         map_car_id, check_car_id: requests to map the Car again and to check its frame, 0: none.
         resume_hold_id: hold that the Operator has released, 0: none.
-        area_problem: why the robot neither maps nor tests for want of a test area.
+        area_problem: why the robot neither maps nor tests because of its test area.
     """
 
     session_id: int = 0

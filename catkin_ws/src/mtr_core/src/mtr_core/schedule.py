@@ -1,7 +1,7 @@
-"""Ticks of the periodic nodes: who runs when, and which sample of a producer is due at a given time.
+"""Ticks of the periodic nodes, and the sample of a producer that is due at a given time.
 
-All times are integer nanoseconds of the ROS clock, so that a tick is exact. A tick of a slot is a time
-`n * period + phase`. Phases are staggered so that a decision passes from node to node within one slot of the slowest.
+All times are integer nanoseconds of the ROS clock, so that a tick is exact. A tick of a slot is a time `n * period +
+phase`. Phases are staggered so that a decision passes from node to node within one period of the slowest.
 """
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
@@ -17,16 +17,16 @@ class Slot:
     phase_ns: int
 
     def next_after(self, time_ns: int) -> int:
-        """First tick later than time_ns."""
+        """Return the first tick later than time_ns."""
         return self.last_at(time_ns) + self.period_ns
 
     def last_at(self, time_ns: int) -> int:
-        """Last tick not later than time_ns."""
+        """Return the last tick not later than time_ns."""
         return (time_ns - self.phase_ns) // self.period_ns * self.period_ns + self.phase_ns
 
 
 def slot(period_ms: int, phase_ms: int = 0) -> Slot:
-    """Slot with period and phase in milliseconds."""
+    """Return a slot with period and phase in milliseconds."""
     return Slot(period_ms * MILLISECOND_NS, phase_ms * MILLISECOND_NS)
 
 
@@ -45,14 +45,14 @@ STATE_MACHINE = slot(100, 20)
 PERIPHERALS = slot(100, 40)
 CAR_LOCATOR = slot(100, 60)
 
-# Time at which a simulated clock starts; no tick lies before it. Not zero: ROS takes zero for "no time yet".
+# Time at which a simulated clock starts; no tick is earlier. It is not zero, because zero means "no time yet" in ROS.
 SIMULATION_START_NS = 1_000 * MILLISECOND_NS
 
-# A producer that lets a simulated tick wait longer than this (wall time) is taken for dead: nobody waits for it any
-# more until it speaks again, and the consumer sees its sample grow old.
+# Wall time after which a producer that delays a simulated tick counts as dead. Consumers then no longer wait for it
+# until its next message, and see the age of its last sample grow.
 PRODUCER_LOST_AFTER_WALL_S = 4.0
-# Of that, how long a producer is waited for that was given up and has not been in time since: what comes late at every
-# tick, as behind a fault that delays it, would cost the whole of it each time.
+# Share of that wait for a producer that was given up and has been late since. A producer that is late at every tick,
+# such as behind an injected delay, would cost the whole wait each time.
 LATE_PRODUCER_SHARE = 0.1
-# A consumer keeps so many of a producer's samples.
+# Number of a producer's samples that a consumer stores.
 KEPT_SAMPLES = 64

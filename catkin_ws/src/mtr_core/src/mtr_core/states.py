@@ -1,10 +1,10 @@
-"""Numbers of the messages that pure code decides by; a unit test compares them with mtr_msgs."""
+"""Numbers of the messages on which pure code decides; a unit test compares them with mtr_msgs."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 
 
 class State(enum.IntEnum):
-    """High-level states of the robot, as in RobotMode."""
+    """High-level states of the robot, with the numbers of RobotMode."""
 
     STARTING = 1
     READY_TO_MAP_CAR = 2
@@ -15,7 +15,7 @@ class State(enum.IntEnum):
 
 
 class CarState(enum.IntEnum):
-    """States of the Car locator, as in CarEstimate."""
+    """States of the Car locator, with the numbers of CarEstimate."""
 
     UNKNOWN = 0
     COLLECTING = 1
@@ -24,7 +24,7 @@ class CarState(enum.IntEnum):
 
 
 class Check(enum.IntEnum):
-    """How the self-check of the Car's frame stands, as in CarCheck."""
+    """States of the self-check of the Car's frame, with the numbers of CarCheck."""
 
     NONE = 0
     RUNNING = 1
@@ -33,7 +33,7 @@ class Check(enum.IntEnum):
 
 
 class Result(enum.IntEnum):
-    """What the motion planner says of its goal, as in MotionStatus."""
+    """Results of a goal from the motion planner, with the numbers of MotionStatus."""
 
     IDLE = 0
     PENDING = 1
@@ -43,7 +43,7 @@ class Result(enum.IntEnum):
 
 
 class Direction(enum.IntEnum):
-    """Travel on the last straight piece, as in Waypoint."""
+    """Direction of travel on the last straight segment, with the numbers of Waypoint."""
 
     ANY = 0
     FORWARD = 1

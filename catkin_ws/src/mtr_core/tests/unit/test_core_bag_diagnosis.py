@@ -1,4 +1,4 @@
-"""A file that is no bag of ROS 1 gets one sentence with what it is and what to do."""
+"""A file that is not a bag of ROS 1 gets one sentence with its format and the advice."""
 # SPDX-License-Identifier: Apache-2.0
 import struct
 
@@ -8,7 +8,7 @@ from mtr_core.bags.diagnosis import unreadable, unusable
 
 
 def mcap(profile):
-    """Head of an MCAP file."""
+    """Return the head of an MCAP file."""
     content = struct.pack("<I", len(profile)) + profile + struct.pack("<I", 0)
     return b"\x89MCAP0\r\n\x01" + struct.pack("<Q", len(content)) + content
 
@@ -54,11 +54,11 @@ def test_missing_file_and_bag_of_ros_1(tmp_path):
 
 
 class ROSBagUnindexedException(Exception):
-    """Named as that of rosbag, which the pure core does not import."""
+    """Has the name of rosbag's error, which the pure core does not import."""
 
 
 class ROSBagEncryptException(Exception):
-    """Likewise."""
+    """Has the name of rosbag's error."""
 
 
 @pytest.mark.parametrize(("error", "word"), [

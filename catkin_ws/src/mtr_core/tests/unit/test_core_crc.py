@@ -1,4 +1,4 @@
-"""The check sum inside messages of the serial line."""
+"""The checksum inside messages of the serial line."""
 # SPDX-License-Identifier: Apache-2.0
 import struct
 
@@ -6,7 +6,7 @@ from mtr_core.crc import crc16, is_sound, seal
 
 
 class Message:
-    """As genpy makes them, with one value."""
+    """A message like those of genpy, with one value."""
 
     def __init__(self, value, crc=0):
         self.value, self.crc = value, crc

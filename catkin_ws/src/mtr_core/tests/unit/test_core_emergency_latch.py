@@ -7,13 +7,13 @@ PERIOD_S = 0.1
 
 
 class Owner:
-    """Speaks ten times a second."""
+    """An owner that publishes ten times a second."""
 
     def __init__(self):
         self.latch, self.now_s = EmergencyLatch(0.5), 1.0
 
     def says(self, engaged, duration_s):
-        """Whether it counts as engaged after so long."""
+        """Publish for duration_s and return True if the emergency stop then counts as engaged."""
         for _ in range(round(duration_s / PERIOD_S)):
             self.latch.take(OWNER, engaged, self.now_s)
             self.now_s += PERIOD_S

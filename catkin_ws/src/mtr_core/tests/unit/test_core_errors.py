@@ -1,4 +1,4 @@
-"""Refusal of parameters."""
+"""Rejection of parameters."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

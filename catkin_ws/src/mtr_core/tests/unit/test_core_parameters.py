@@ -1,4 +1,4 @@
-"""Reading, checking and showing parameters."""
+"""Reading, checking and formatting of parameters."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import FrozenInstanceError, dataclass
@@ -12,7 +12,7 @@ from mtr_core.parameters import ParameterSet, described, number, parameters_from
 
 @dataclass(frozen=True)
 class Inner(ParameterSet):
-    """Stands inside the other."""
+    """Parameters nested in Example."""
 
     stroke_m: float = number(1.2, 0.05, 2.0, "m")
     buttons: Tuple[int, ...] = (1, 2)

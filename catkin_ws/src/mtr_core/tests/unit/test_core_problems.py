@@ -1,4 +1,4 @@
-"""Sentences with code and arguments, and their way through messages."""
+"""Sentences with code and arguments, and their round trip through messages."""
 # SPDX-License-Identifier: Apache-2.0
 import pickle
 from types import SimpleNamespace

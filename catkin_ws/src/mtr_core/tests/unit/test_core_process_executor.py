@@ -1,4 +1,4 @@
-"""Work in a process of its own: results, errors, and what happens when either side dies."""
+"""Work in a separate process: results, errors, and the death of either process."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import os
@@ -16,7 +16,7 @@ from mtr_core.executors.worker import NICENESS
 from mtr_core.problems import Problem, ProblemError
 
 LIMIT_S = 60.0
-# Makes an executor, tells its process and waits.
+# Creates an executor, prints the id of its process and waits.
 OWNER = """
 import sys
 from mtr_core.executors import ProcessExecutor
@@ -39,7 +39,7 @@ def executor(told):
 
 @pytest.fixture
 def pipe(tmp_path):
-    """Whoever reads it waits for somebody who writes."""
+    """Return a named pipe; opening it for reading blocks until a writer opens it."""
     path = tmp_path / "pipe"
     os.mkfifo(path)
     return path
@@ -64,7 +64,7 @@ def test_error_comes_back_as_it_was_raised(executor):
 
 def test_problem_comes_back_whole(executor):
     problem = Problem("core.test", "Nothing is there.", (("length_m", "3.5"),))
-    # A function of a test's module is not to be had in the process.
+    # The worker process cannot import a function of a test module.
     error = executor.submit(ProblemError, problem).result()
     assert isinstance(error, RobotError) and error.problem == problem and str(error) == problem.text
 
@@ -80,7 +80,7 @@ def test_after_its_death_the_work_is_done_all_the_same(executor, told):
 
 def test_killed_while_it_works_it_is_replaced(executor, told):
     assert executor.submit(os.kill, executor.process_id, 0).result() is None
-    # Done here, where it kills the dead process once more.
+    # The work is repeated in this process, where it tries to kill the dead process again.
     with pytest.raises(ProcessLookupError):
         executor.submit(os.kill, executor.process_id, signal.SIGKILL).result()
     assert len(told) == 1 and executor.submit(math.sqrt, 9.0).result() == 3.0
@@ -136,7 +136,7 @@ def test_it_ends_with_its_owner_however_that_ends(how):
         assert length == "4" and pathlib.Path(f"/proc/{process}").exists()
         owner.send_signal(how)
         owner.wait(LIMIT_S)
-        # The process has its owner's output, which ends when nobody has it any more.
+        # The worker inherits its owner's output, which ends when both processes have ended.
         owner.communicate(timeout=LIMIT_S)
 
 

@@ -1,4 +1,4 @@
-"""Which node may publish on a topic that must have one publisher."""
+"""Permission to publish on a topic that must have one publisher."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -10,7 +10,7 @@ TOPIC = "/joy"
 
 
 def watched(permitted, *updates):
-    """The judge after these lists of publishers of TOPIC."""
+    """Return the watch after these lists of publishers of TOPIC."""
     sole = SolePublishers({TOPIC: permitted})
     for nodes in updates:
         sole.update([("/other", ["/a", "/b"]), (TOPIC, nodes)] if nodes else [])
@@ -46,9 +46,9 @@ def test_another_driver_may_replace_one_that_has_ended_unless_the_driver_is_give
 
 
 @pytest.mark.parametrize("permitted, updates, permits", [
-    # Nothing is known before the master has answered.
+    # Before the master's first answer the publishers are unknown.
     (ANY_NODE, [], True), (ANY_NODE, [["/driver"]], True), (ANY_NODE, [["/driver"], ["/driver", "/play_1"]], False),
-    # One that appeared since the last answer could be the second one.
+    # A node that appeared since the last answer could be a second publisher.
     (ANY_NODE, [["/play_1"]], False), (ANY_NODE, [[]], False),
     ("/driver", [], True), ("/driver", [[]], True), ("/driver", [["/play_1"]], True)])
 def test_message_is_used_only_of_the_sole_publisher(permitted, updates, permits):

@@ -1,4 +1,4 @@
-"""What is missing at the start is a warning only when it lasts."""
+"""Missing inputs at the start cause a warning only if they persist."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.quiet_log import QUIET_S, QuietStart, Throttle
 

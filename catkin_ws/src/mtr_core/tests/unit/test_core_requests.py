@@ -1,4 +1,4 @@
-"""Requests: who wants what, and whether a report is about it; they survive as ROS messages."""
+"""Requests: identity, matching of reports, and round trip through ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 

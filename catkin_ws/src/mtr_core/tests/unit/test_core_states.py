@@ -1,4 +1,4 @@
-"""Numbers of the messages that pure code decides by."""
+"""Numbers of the messages on which pure code decides."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

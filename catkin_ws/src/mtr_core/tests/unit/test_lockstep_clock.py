@@ -1,4 +1,4 @@
-"""Which time the nodes go by: the robot's own, another simulator's, or one that waits for them."""
+"""Source of the nodes' time: the robot's own clock, another simulator's, or one that waits for the nodes."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 
@@ -13,7 +13,7 @@ NOW_NS = 12_345_678_900
 def test_time_for_which_the_machine_was_suspended_counts_as_age(monkeypatch):  # A1, A10
     monkeypatch.setattr(clock, "is_simulated", lambda: False)
     read, before = time.clock_gettime_ns, (clock.steady_ns(), clock.steady_at(0))
-    # What Linux shows after it was suspended: CLOCK_MONOTONIC has stood meanwhile, CLOCK_BOOTTIME has not.
+    # Clocks of Linux after a suspension: CLOCK_MONOTONIC did not advance meanwhile, CLOCK_BOOTTIME did.
     monkeypatch.setattr(time, "clock_gettime_ns",
                         lambda which: read(which) + (SUSPENDED_NS if which == time.CLOCK_BOOTTIME else 0))
     assert clock.steady_ns() - before[0] >= SUSPENDED_NS

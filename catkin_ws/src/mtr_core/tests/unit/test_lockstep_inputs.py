@@ -1,4 +1,4 @@
-"""Ages of messages on the robot's own clock, when that is set. A10"""
+"""Ages of messages on the robot's own clock during clock steps. A10"""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -16,14 +16,14 @@ PERIOD_NS = 100 * MILLISECOND_NS
 
 
 class Message:
-    """One with a header."""
+    """A message with a header."""
 
     def __init__(self, stamp_ns):
         self.header = Header(stamp=rospy.Time(0, stamp_ns))
 
 
 class Clocks:
-    """The robot's clock, which the test sets, and the steady one."""
+    """The robot's clock, which the test sets, and the steady clock."""
 
     def __init__(self):
         self.steady, self.offset = 50_000 * MILLISECOND_NS, 10_000_000 * MILLISECOND_NS

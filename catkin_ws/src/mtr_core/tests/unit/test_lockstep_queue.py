@@ -1,4 +1,4 @@
-"""A topic of which every message counts, without a ROS master."""
+"""A topic whose messages are all processed, without a ROS master."""
 # SPDX-License-Identifier: Apache-2.0
 from types import SimpleNamespace
 
@@ -43,7 +43,7 @@ def test_messages_are_handed_over_once_and_in_order_when_they_are_due(waiting):
 
 @pytest.mark.parametrize("back_ms", [1000, 4900])
 def test_messages_after_the_clock_was_set_back_do_not_wait_for_those_of_before(waiting, back_ms):
-    """Clock steps back: what was stamped by the clock of before is forgotten."""
+    """The clock steps back: messages stamped before the step are dropped."""
     now_ms = 5120 - back_ms
     waiting._take_in(Stamped(now_ms))
     assert taken(waiting, now_ms + 100) == [now_ms]

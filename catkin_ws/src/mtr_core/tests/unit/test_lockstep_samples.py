@@ -1,4 +1,4 @@
-"""Which sample a consumer reads at its tick, and how long it waits for it."""
+"""The sample for a consumer's tick, and the limits of the wait for it."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 
@@ -20,7 +20,7 @@ def ms(time_ms):
 
 
 class JumpingClock:
-    """Wall clock that jumps by the limit each time it is read, so that a wait is over without waiting."""
+    """Wall clock that advances by the limit at each reading, so that a wait ends at once."""
 
     def __init__(self):
         self.now_s = 0.0
@@ -74,7 +74,7 @@ def test_due_sample_is_waited_for():
 
 
 def taking_thread(samples):
-    """Thread that takes samples from a connection and waits until more are wanted."""
+    """Return a started thread that waits like the reader of a connection until more samples are wanted."""
     thread = threading.Thread(target=samples.wait_until_wanted)
     thread.start()
     return thread
@@ -82,7 +82,7 @@ def taking_thread(samples):
 
 @pytest.fixture
 def slowly_read():
-    """Samples of a fast producer with a consumer that reads each 100 ms, last at 2100 ms."""
+    """Return samples of a fast producer with a consumer that reads every 100 ms, last at 2100 ms."""
     samples = Samples(SENSORS, lag_ns=0)
     for tick in (2000, 2100):
         samples.add(ms(tick), tick)
@@ -145,7 +145,7 @@ def test_producer_that_was_given_up_is_waited_for_again_once_it_speaks(samples):
 
 
 class StandingClock:
-    """Wall clock that goes on only while somebody waits."""
+    """Wall clock that advances only during a wait."""
 
     def __init__(self, samples, monkeypatch):
         self.now_s, self.while_waiting = 0.0, lambda: None

@@ -1,4 +1,4 @@
-"""The C++ headers of names, schedule and sensor figures, as they are made at build time."""
+"""The C++ headers of names, schedule and sensor figures, as generated at build time."""
 # SPDX-License-Identifier: Apache-2.0
 import re
 

@@ -1,4 +1,4 @@
-"""Who publishes sends by itself, and waits for no subscriber."""
+"""The publishing thread sends by itself and never waits for a subscriber."""
 # SPDX-License-Identifier: Apache-2.0
 import socket
 import struct
@@ -17,11 +17,11 @@ KEPT = 10
 
 
 class Link:
-    """rospy's transport on one end of a pair of sockets; the test reads the other one."""
+    """rospy's transport on one end of a socket pair; the test reads the other end."""
 
     def __init__(self):
         near, self.far = socket.socketpair()
-        # So that few messages fill it.
+        # A small buffer is filled by few messages.
         near.setsockopt(socket.SOL_SOCKET, socket.SO_SNDBUF, 4096)
         near.setblocking(True)
         self.far.settimeout(LIMIT_S)
@@ -30,7 +30,7 @@ class Link:
         self.connection = SendingConnection(self.transport, KEPT)
 
     def numbers(self, until):
-        """The numbered messages that arrive, until one has this number."""
+        """Return the numbers of the messages that arrive, up to this number."""
         found, data = [], b""
         while not found or found[-1] != until:
             data += self.far.recv(65536)
@@ -50,7 +50,7 @@ def link():
 
 
 def message(number, size=1000):
-    """As rospy serializes it: length and content."""
+    """Return a message as serialized by rospy: length and content."""
     content = str(number).encode().ljust(size, b".")
     return struct.pack("<I", len(content)) + content
 
@@ -72,7 +72,7 @@ def test_subscriber_that_does_not_read_blocks_nobody_and_then_gets_whole_message
     found = link.numbers(999)
     assert found == sorted(set(found)) and found[-KEPT:] == list(range(1000 - KEPT, 1000))
     assert len(found) < 100
-    # What was left is gone, and the caller sends again.
+    # The queued messages were sent, and the caller sends directly again.
     deadline_s = time.monotonic() + LIMIT_S
     while link.connection._is_behind and time.monotonic() < deadline_s:
         time.sleep(0.01)

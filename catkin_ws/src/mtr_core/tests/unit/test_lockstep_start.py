@@ -1,4 +1,4 @@
-"""Life of a node: exit status, and what it prints."""
+"""Life cycle of a node: exit status and log."""
 # SPDX-License-Identifier: Apache-2.0
 import gc
 from dataclasses import dataclass
@@ -19,20 +19,20 @@ class Parameters(ParameterSet):
 
 
 class Node:
-    """Ends as it is told."""
+    """A node whose spin() ends as the test requires."""
 
     def __init__(self, parameters, end=None):
         self.parameters, self._end = parameters, end
 
     def spin(self):
-        """Once."""
+        """Return at once, or raise the given error."""
         if self._end:
             raise self._end
 
 
 @pytest.fixture
 def printed(monkeypatch):
-    """Lines of the log as (level, sentence); there is no master."""
+    """Return the lines of the log as (level, sentence), without a ROS master."""
     lines = []
     monkeypatch.setattr(rospy, "init_node", lambda name: None)
     monkeypatch.setattr(rospy, "get_param", lambda name, default: {})
@@ -43,14 +43,14 @@ def printed(monkeypatch):
 
 @pytest.fixture(autouse=True)
 def master(monkeypatch):
-    """Parameters on the master."""
+    """Return the parameters on the master."""
     kept = {}
     monkeypatch.setattr(rospy, "get_name", lambda: "/walker")
     monkeypatch.setattr(rospy, "set_param", kept.__setitem__)
     monkeypatch.setattr(rospy, "has_param", kept.__contains__)
     monkeypatch.setattr(rospy, "delete_param", kept.__delitem__)
     yield kept
-    # What a node has spared from collections is this process' own here.
+    # Objects that the node excluded from collection belong to the test process here.
     gc.unfreeze()
 
 

@@ -1,4 +1,4 @@
-"""The ticker on the robot's own clock, when that is set or the process was stopped. A1, A10"""
+"""The ticker on the robot's own clock, during clock steps and suspensions of the process. A1, A10"""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 import rospy
@@ -12,7 +12,7 @@ MAX_SLEEPS = 10
 
 
 class SetClock:
-    """The robot's clock: waiting for a time takes its duration, and what happens meanwhile."""
+    """The robot's clock: a wait advances it by its duration and by a given disturbance."""
 
     def __init__(self, happens_ns=()):
         self.time_ns = 1000 * SECOND_NS
@@ -67,7 +67,7 @@ def test_after_a_step_back_nobody_waits_for_the_time_of_before(clock, step_s):
 
 
 class SimulatedClock(SetClock):
-    """Another simulator's; while a node waits for a tick an hour of wall time passes."""
+    """Clock of another simulator; each wait for a tick lasts one hour of wall time."""
 
     def __init__(self, begins_ns, held):
         super().__init__()
@@ -88,7 +88,7 @@ class SimulatedClock(SetClock):
 
 
 class Holds:
-    """A topic with so many listeners."""
+    """A topic with a given number of subscribers."""
 
     def __init__(self, listeners):
         self.get_num_connections = lambda: listeners

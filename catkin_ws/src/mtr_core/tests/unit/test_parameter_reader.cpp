@@ -1,5 +1,5 @@
 /// @file
-/// Reading, checking and telling parameters in C++, the same cases as their Python originals.
+/// Reading, checking and reporting of parameters in C++, with the cases of the Python tests.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// Sentences with code and arguments, and their way through messages.
+/// Sentences with code and arguments, and their round trip through messages.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

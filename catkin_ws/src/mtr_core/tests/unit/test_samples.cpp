@@ -1,5 +1,5 @@
 /// @file
-/// Lock-step slots and samples in C++, the same cases as their Python originals.
+/// Lock-step slots and samples in C++, with the cases of the Python tests.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// Stamps go through where the ROS clock is set (A10).
+/// Converted stamps are continuous across steps of the ROS clock (A10).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -17,13 +17,13 @@ constexpr std::int64_t kSteadyNs = 5'000 * kMs;
 constexpr std::int64_t kSteps[] = {50 * kMs,  400 * kMs,  60'000 * kMs,  3'600'000 * kMs,
                                    -50 * kMs, -400 * kMs, -60'000 * kMs, -3'600'000 * kMs};
 
-/// A producer whose messages are stamped each 20 ms and arrive so much later, and the clock that reads them.
+/// A producer whose messages are stamped every 20 ms and arrive with a fixed age, and the clock that reads them.
 class Line {
  public:
   explicit Line(std::int64_t age_ns) : age_ns_(age_ns) {}
   void set_age(std::int64_t age_ns) { age_ns_ = age_ns; }
 
-  /// Steady time of the next message, less what it is in truth; the clock may be set while it is under way.
+  /// Error of the next message's steady time; the clock may be set while the message is in transit.
   std::int64_t error_of_next(std::int64_t step_under_way_ns = 0) {
     time_ns_ += 20 * kMs;
     const std::int64_t stamp_ns = time_ns_ + offset_ns_;
@@ -60,7 +60,7 @@ TEST(StampClock, MessagesUnderWayAndAfterAStepHaveTheTimeThatTheyHadWithoutIt) {
 }
 
 TEST(StampClock, MessagesThatABusyMachineDelaysAfterAStepAreNotOfTheFuture) {
-  // A scan, and what a queue of late ones does when it drains: what is late once leads none of the next ones astray.
+  // A scan, and a queue of late scans that drains: one late message must not affect the next ones.
   for (const std::int64_t step_ns : {400 * kMs, -400 * kMs}) {
     Line line(105 * kMs);
     for (int message = 0; message < 100; ++message) {

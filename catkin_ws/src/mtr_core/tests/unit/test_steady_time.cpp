@@ -1,5 +1,5 @@
 /// @file
-/// Clocks that are set, and ages that do not care (A10).
+/// Steps of the ROS clock do not affect ages (A10).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -33,7 +33,7 @@ TEST(SteadyTime, ClockThatIsSetAfterTheArrivalChangesNoAge) {
 
 TEST(SteadyTime, ClockThatIsSetWhileAMessageIsUnderWayNeverMakesItYounger) {
   for (const std::int64_t step_ns : {50 * kMs, 100 * kMs, 400 * kMs, 3'600'000 * kMs}) {
-    // Said at kRosNs, the clock goes back by the step, the message arrives.
+    // Stamped at kRosNs, then the clock is set back by the step, then the message arrives.
     const std::int64_t time_ns = steady_time_of(kRosNs, {kSteadyNs, kRosNs - step_ns});
     EXPECT_FALSE(is_fresh(time_ns, kSteadyNs + kTimeoutNs + 1, kTimeoutS));
   }

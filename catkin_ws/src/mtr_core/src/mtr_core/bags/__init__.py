@@ -1,2 +1,2 @@
-"""Recorded bags: which files are bags of ROS 1, and why the others cannot be read."""
+"""Recorded bags: detection of ROS 1 bags, and diagnosis of other files."""
 # SPDX-License-Identifier: Apache-2.0

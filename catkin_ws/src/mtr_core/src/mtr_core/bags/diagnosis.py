@@ -1,4 +1,4 @@
-"""One sentence on a file that cannot be read as a bag of ROS 1: what it is, and how to turn it into one."""
+"""Diagnosis of a file that is not a readable bag of ROS 1: its format, and how to convert it, in one sentence."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import struct
@@ -7,7 +7,7 @@ from typing import NamedTuple, Tuple
 HEAD_BYTES = 256
 ROS1_HEAD = b"#ROSBAG V2."
 MCAP_HEAD = b"\x89MCAP0\r\n"
-# Magic, opcode 1 of the header record, and its length; then the profile: its length and its text.
+# An MCAP file starts with magic, opcode 1 of the header record and its length, then the profile's length and text.
 # https://mcap.dev/spec
 MCAP_PROFILE_AT = len(MCAP_HEAD) + 1 + 8
 
@@ -16,7 +16,7 @@ REINDEX = "`rosbag reindex {source}`"
 
 
 class Kind(NamedTuple):
-    """Files that begin with `head`: what they are, and what to do. {source} in the advice is the file."""
+    """Files that start with `head`: their format and the advice. {source} in the advice is the file."""
 
     head: bytes
     what: str
@@ -41,7 +41,7 @@ NO_BAG = "not a bag", "give a bag that was recorded with `rosbag record` of ROS 
 
 
 def unusable(path: pathlib.Path) -> str:
-    """Sentence on a path that is no bag of ROS 1 in format 2.0; empty for one that begins like such a bag."""
+    """Return a sentence about a path that is not a bag of ROS 1 in format 2.0; empty if it starts like one."""
     if path.is_dir():
         is_ros2 = (path / "metadata.yaml").is_file()
         return _sentence(path, *(("a bag of ROS 2 (folder)", TO_ROS1) if is_ros2 else ("a folder", NO_BAG[1])))
@@ -56,7 +56,7 @@ def unusable(path: pathlib.Path) -> str:
 
 
 def unreadable(path: pathlib.Path, error: Exception) -> str:
-    """Sentence on a bag that the library failed to read. A damaged bag makes it raise any error, so any is accepted."""
+    """Return a sentence about a bag that the library failed to read. A damaged bag may raise any error."""
     sentence = unusable(path)
     if sentence:
         return sentence
@@ -72,7 +72,7 @@ def unreadable(path: pathlib.Path, error: Exception) -> str:
                      f"save what can be read with {REINDEX}, or give another recording")
 
 
-# Parts of the names of rosbag's errors; the pure core does not import them.
+# Parts of the names of rosbag's error classes, which the pure core does not import.
 _LIBRARY = (
     ("Unindexed", "without an index, because its recording was cut off", f"repair it with {REINDEX}"),
     ("Encrypt", "encrypted", "decrypt it with `rosbag decrypt {source}`"),

@@ -1,4 +1,4 @@
-"""Where long work is done: within the tick that asks for it, or beside the ticks in processes of its own."""
+"""Executors for long work: within the requesting tick, or in separate processes in parallel to the ticks."""
 # SPDX-License-Identifier: Apache-2.0
 from .inline import InlineExecutor
 from .process import ProcessesExecutor, ProcessExecutor

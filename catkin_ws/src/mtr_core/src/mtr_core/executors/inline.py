@@ -1,4 +1,4 @@
-"""Long work within the tick that asks for it."""
+"""Executes long work within the requesting tick."""
 # SPDX-License-Identifier: Apache-2.0
 from concurrent.futures import Executor, Future
 from typing import Any, Callable, TypeVar
@@ -7,10 +7,10 @@ Value = TypeVar("Value")
 
 
 class InlineExecutor(Executor):
-    """Does its work before it returns, so that the result does not depend on the machine's speed."""
+    """Executes the work before it returns, so that the result does not depend on the machine's speed."""
 
     def submit(self, fn: Callable[..., Value], *args: Any, **kwargs: Any) -> "Future[Value]":
-        """The work's result."""
+        """Return the completed work's result."""
         done: Future[Value] = Future()
         try:
             done.set_result(fn(*args, **kwargs))

@@ -1,7 +1,7 @@
-"""Long work in a process of its own, so that it takes neither the interpreter's lock nor processor time from a node.
+"""Executes long work in its own process, so that a node loses neither the interpreter's lock nor processor time.
 
-In a thread of the node it does: the thread holds the lock of the interpreter while the scheduler lets others run, and
-whoever speaks for the node waits for that.
+A thread of the node would hold the interpreter's lock while the scheduler runs other threads, and the node's ticks
+would wait for the lock.
 """
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
@@ -17,23 +17,24 @@ from .inline import InlineExecutor
 
 WORKER = f"{__package__}.worker"
 GONE = (EOFError, ConnectionError)
-# The longest work, a Car among all returns of a way round, took 5 s of the wall clock beside 16 processes on two cores.
+# The longest work, a Car in all returns of a drive around it, lasted 5 s of wall time next to 16 processes on two
+# cores.
 PATIENCE_S = 60.0
-# Until a process has imported what its work needs, which takes processor time and reads from the disk.
+# Limit for the import of the work's modules, which needs processor time and reads from the disk.
 START_PATIENCE_S = 60.0
 
 Value = TypeVar("Value")
 
 
 class ProcessExecutor(Executor):
-    """Does its work before it returns, one piece at a time; function, arguments and result are pickled.
+    """Executes the work before it returns, one piece at a time; function, arguments and result are pickled.
 
-    The process starts at once and ends with this one, however that ends. When it has died, killed for its memory
-    maybe, or is stopped, the work is done here and another process is started.
+    The process starts at once and ends with the owner's process, however that ends. If the process is dead (for example
+    killed for its memory) or suspended, the work is executed here and the process is replaced.
     """
 
     def __init__(self, modules: List[str], tell: Callable[[str], None], patience_s: float = PATIENCE_S):
-        """modules: names of the modules that the process imports at its start. tell: called with a sentence when the
+        """modules: names of the modules that the process imports at its start. tell: called with a text when the
         process is replaced. patience_s: limit in s for one piece of work, without the start of the process."""
         self._modules, self._tell, self._patience_s = modules, tell, patience_s
         self._lock = threading.Lock()
@@ -43,11 +44,11 @@ class ProcessExecutor(Executor):
 
     @property
     def process_id(self) -> int:
-        """Of the process that does the work."""
+        """Id of the worker process."""
         return self._process.pid
 
     def submit(self, fn: Callable[..., Value], *args: Any, **kwargs: Any) -> "Future[Value]":
-        """The work's result."""
+        """Return the completed work's result."""
         with self._lock:
             try:
                 self._wait_until_ready()
@@ -69,7 +70,7 @@ class ProcessExecutor(Executor):
             self._process.wait()
 
     def _wait_until_ready(self) -> None:
-        """Return when the process has imported its modules; GONE when it has died, or needs too long for it."""
+        """Wait until the process has imported its modules; raises an error of GONE if it is dead or too slow."""
         if not self._is_ready:
             with self._killed_after(START_PATIENCE_S):
                 self._connection.recv()
@@ -83,7 +84,7 @@ class ProcessExecutor(Executor):
 
     @contextlib.contextmanager
     def _killed_after(self, patience_s: float) -> Iterator[None]:
-        """Kill the process unless the work within is done: one that is stopped does not even receive."""
+        """Kill the process if the enclosed work exceeds the limit; a suspended process does not even receive."""
         watchdog = threading.Timer(patience_s, self._process.kill)
         watchdog.daemon = True
         watchdog.start()
@@ -95,7 +96,7 @@ class ProcessExecutor(Executor):
     def _start(self) -> None:
         self._connection, far = Pipe()
         with far:
-            # In a session of its own no Ctrl-C reaches it, and a scheduler that shares by sessions gives it its own.
+            # A separate session shields it from Ctrl-C, and a scheduler with per-session shares gives it its own share.
             self._process = subprocess.Popen(
                 [sys.executable, "-m", WORKER, str(far.fileno()), *self._modules], pass_fds=[far.fileno()],
                 stdin=subprocess.DEVNULL, start_new_session=True)
@@ -111,10 +112,10 @@ class ProcessExecutor(Executor):
 
 
 class ProcessesExecutor(Executor):
-    """Does several pieces at once, each in a process of its own, beside whoever asks for them."""
+    """Executes several pieces of work at once, each in its own process, in parallel to the caller."""
 
     def __init__(self, count: int, modules: List[str], tell: Callable[[str], None]):
-        """count: of processes; the rest as ProcessExecutor."""
+        """count: number of processes; the other arguments as for ProcessExecutor."""
         self._threads = ThreadPoolExecutor(count)
         self._processes = [ProcessExecutor(modules, tell) for _ in range(count)]
         self._idle: SimpleQueue[ProcessExecutor] = SimpleQueue()
@@ -122,11 +123,11 @@ class ProcessesExecutor(Executor):
             self._idle.put(process)
 
     def submit(self, fn: Callable[..., Value], *args: Any, **kwargs: Any) -> "Future[Value]":
-        """The work's result; it can be cancelled until a process is free for it."""
+        """Submit the work, which can be cancelled until a process is free for it."""
         return self._threads.submit(self._do, fn, args, kwargs)
 
     def shutdown(self, wait: bool = True, **_: Any) -> None:
-        """Let what was asked for be done, and end the processes."""
+        """Finish the submitted work and end the processes."""
         self._threads.shutdown(wait)
         for process in self._processes:
             process.shutdown(wait)

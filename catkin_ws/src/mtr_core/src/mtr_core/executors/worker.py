@@ -1,4 +1,4 @@
-"""The process that does the work of a ProcessExecutor: python3 -m mtr_core.executors.worker HANDLE [MODULE...]."""
+"""The worker process of a ProcessExecutor: python3 -m mtr_core.executors.worker HANDLE [MODULE...]."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import importlib
@@ -10,14 +10,14 @@ from typing import List, Optional
 
 from .process import GONE
 
-# Beside the nodes it comes second: what they say has a time by which it must be said.
+# Lower priority than the nodes, whose messages have deadlines.
 NICENESS = 5
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Work until whoever has started this process is gone."""
+    """Work until the parent process is gone."""
     handle, *modules = sys.argv[1:] if arguments is None else arguments
-    # A service's end interrupts all its processes; this one ends with its owner, without a traceback in the log.
+    # Stopping a service interrupts all its processes; the worker ends with its owner, without a traceback in the log.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(NICENESS)
     for module in modules:

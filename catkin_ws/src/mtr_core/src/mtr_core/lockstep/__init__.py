@@ -1,4 +1,4 @@
-"""What the nodes share: their start, ticks that a simulated clock waits for, and inputs that are due at a tick."""
+"""Common parts of the nodes: their start, ticks that a simulated clock waits for, and inputs that are due at a tick."""
 # SPDX-License-Identifier: Apache-2.0
 from .inputs import TickInput
 from .publisher_watch import ANY_NODE, PublisherWatch

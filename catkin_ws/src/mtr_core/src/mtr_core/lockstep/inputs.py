@@ -21,10 +21,10 @@ class Arrived(NamedTuple):
 
 
 class TickInput:
-    """Subscription to a periodic topic with a header; `at(tick)` gives the message to use at a tick.
+    """Subscription to a periodic topic with a header; `at(tick)` returns the message to use at a tick.
 
-    In lock-step it waits for the message that is due at that tick, so that the outcome does not depend on the speed
-    of the machine. Elsewhere it is the newest message.
+    In lock-step it waits for the message that is due at that tick, so that the result does not depend on the speed of
+    the machine. Otherwise it returns the newest message.
     """
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns):
@@ -35,21 +35,21 @@ class TickInput:
         self._subscriber = rospy.Subscriber(topic, message_type, self._take, queue_size=50, tcp_nodelay=True)
 
     def at(self, tick_ns: int) -> Optional[Any]:
-        """Message to use at the tick, None before the first one."""
+        """Return the message to use at the tick, or None before the first one."""
         self._used = self._samples.at(tick_ns)
         return self._used.message if self._used else None
 
     def age_s(self, tick_ns: int) -> float:
-        """Age at the tick of the message that `at` gave last, whatever was done to the robot's clock; inf for none."""
+        """Return the age at the tick of the last message of `at`, unaffected by clock steps; inf without a message."""
         return (clock.steady_at(tick_ns) - self._used.steady_stamp_ns) * NS if self._used else math.inf
 
     @property
     def stamp_s(self) -> float:
-        """Stamp of the message that `at` gave last, on the steady clock in s; NaN for none."""
+        """Stamp of the last message of `at` on the steady clock in s; NaN without a message."""
         return self._used.steady_stamp_ns * NS if self._used else math.nan
 
     def fresh_at(self, tick_ns: int, limit_s: float) -> Optional[Any]:
-        """The same as `at`, None when it no longer tells the present."""
+        """Return the message like `at`, but None if it is older than the limit."""
         message = self.at(tick_ns)
         return message if is_fresh(self.age_s(tick_ns), limit_s) else None
 

@@ -1,4 +1,4 @@
-"""For how long of wall time nodes wait for each other in lock-step: who starts them may set more, and tests less."""
+"""Wall time for which nodes wait for each other in lock-step; launch files may increase it, tests reduce it."""
 # SPDX-License-Identifier: Apache-2.0
 import rospy
 
@@ -9,10 +9,10 @@ PATIENCE_PARAMETER = "/lockstep_patience_s"
 
 
 def patience_s() -> float:
-    """For a producer's message."""
+    """Return the wait for a producer's message, s."""
     return float(rospy.get_param(PATIENCE_PARAMETER, PRODUCER_LOST_AFTER_WALL_S))
 
 
 def patience_at_least_s(usual_s: float) -> float:
-    """For what is rare: less patience with silent producers is none of its own."""
+    """Return the wait for a rare event, s; a reduced wait for producers does not shorten it."""
     return max(usual_s, patience_s())

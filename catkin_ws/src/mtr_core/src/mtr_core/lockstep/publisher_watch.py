@@ -25,11 +25,11 @@ class SolePublishers:
     """Decides from the master's list which node may publish on each watched topic.
 
     Attributes:
-        intruder: the first node found on a topic of another node; None while there is none.
+        intruder: the first node found on a topic of another node, or None.
     """
 
     def __init__(self, permitted: Mapping[str, str]):
-        """permitted: full node name by full topic name; ANY_NODE accepts whichever node publishes first."""
+        """permitted: full node name by full topic name; ANY_NODE accepts the first node that publishes."""
         self._permitted = dict(permitted)
         self._known: Dict[str, str] = {topic: node for topic, node in permitted.items() if node != ANY_NODE}
         self._publishers: Optional[Dict[str, FrozenSet[str]]] = None
@@ -43,7 +43,7 @@ class SolePublishers:
         self.intruder = next((each for each in intruders if each), None)
 
     def permits(self, topic: str, node: str) -> bool:
-        """Return whether a message of this node may be used; a node that has just appeared waits for an update."""
+        """Return True if a message of this node may be used; a new node waits for an update."""
         if self._permitted[topic] != ANY_NODE:
             return node == self._permitted[topic]
         return self._publishers is None or self._publishers[topic] == {node}
@@ -58,16 +58,16 @@ class SolePublishers:
 
 
 class PublisherWatch:
-    """Asks the ROS master once a second who publishes on the watched topics.
+    """Queries the ROS master once a second for the publishers of the watched topics.
 
-    A thread does so, because a slow master must not delay a tick. While the master does not answer, its last answer
+    It uses a thread, because a slow master must not delay a tick. While the master does not answer, its last answer
     remains in force. Drive control has the same watch for the wheels (publisher_watch.hpp).
     """
 
     def __init__(self, permitted: Mapping[str, str]):
-        """Ask once, then start the thread. permitted: node name by topic name, ANY_NODE for any single node."""
+        """Query once, then start the thread. permitted: node name by topic name, ANY_NODE for any single node."""
         self._resolved = {topic: rospy.resolve_name(topic) for topic in permitted}
-        # A node has no remappings: resolve_name would apply that of a topic of the same name.
+        # Node names are not remapped: resolve_name would apply the remapping of a topic with the same name.
         self._sole = SolePublishers({self._resolved[topic]: node and f"/{node.lstrip('/')}"
                                      for topic, node in permitted.items()})
         self._look()
@@ -75,11 +75,11 @@ class PublisherWatch:
 
     @property
     def intruder(self) -> Optional[Intruder]:
-        """A node that must be ended before the robot may move; None while there is none."""
+        """A node that must be ended before the robot may move, or None."""
         return self._sole.intruder
 
     def permits(self, topic: str, message: Any) -> bool:
-        """Return whether a received message is from the node that may publish on the topic."""
+        """Return True if a received message is from the node that may publish on the topic."""
         return self._sole.permits(self._resolved[topic], message._connection_header["callerid"])
 
     def _run(self) -> None:

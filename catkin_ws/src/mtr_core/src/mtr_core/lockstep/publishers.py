@@ -1,4 +1,4 @@
-"""Publishers of the nodes: the caller itself sends."""
+"""Publishers of the nodes, which send in the caller's thread."""
 # SPDX-License-Identifier: Apache-2.0
 import warnings
 from typing import Any
@@ -12,10 +12,10 @@ QUEUE = 10
 
 
 def publisher(topic: str, message_type: Any) -> rospy.Publisher:
-    """Publisher of a periodic node, without rospy's thread for each subscriber.
+    """Return the publisher of a periodic node, without rospy's thread for each subscriber.
 
-    In lock-step there is no queue either: a subscriber that hangs blocks the caller only when its buffers are full,
-    which takes some 20,000 messages. Elsewhere it blocks nobody.
+    In lock-step it has no queue either: a suspended subscriber blocks the caller only when its buffers are full, after
+    about 20,000 messages. Otherwise it never blocks.
     """
     if is_lockstep():
         return direct_publisher(topic, message_type)
@@ -23,8 +23,8 @@ def publisher(topic: str, message_type: Any) -> rospy.Publisher:
 
 
 def direct_publisher(topic: str, message_type: Any, latch: bool = False) -> rospy.Publisher:
-    """Publisher without queue: what has been published is on its way, in order with other topics."""
+    """Return a publisher without a queue: published messages are sent at once, in order with other topics."""
     with warnings.catch_warnings():
-        # rospy warns of a missing queue_size, as a slow subscriber then blocks.
+        # rospy warns of a missing queue_size, because a slow subscriber then blocks.
         warnings.simplefilter("ignore", SyntaxWarning)
         return rospy.Publisher(topic, message_type, tcp_nodelay=True, latch=latch)

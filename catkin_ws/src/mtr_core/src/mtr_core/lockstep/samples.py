@@ -1,4 +1,4 @@
-"""Samples of one periodic producer, and which of them a consumer reads at its tick. No ROS inside."""
+"""Samples of one periodic producer, and the selection of the sample for a consumer's tick. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import bisect
 import threading
@@ -16,7 +16,7 @@ from mtr_core.schedule import (
 
 T = TypeVar("T")
 
-# A consumer that has not come back by then (wall time) gets the next sample all the same.
+# Limit of the wait for a consumer (wall time), after which the next sample is read regardless.
 UNWANTED_LIMIT_WALL_S = 1.0
 
 
@@ -26,9 +26,9 @@ class Samples(Generic[T]):
     Attributes:
         slot: the producer's ticks.
         lag_ns: a sample is due this long after its stamp; 0 for sensors, which precede the clock.
-        waits: True in lock-step, where `at` returns the same sample however fast the machine is.
-        patience_s: wall time after which a silent producer is taken for dead. One that then speaks again is waited for
-            for a share of it, until it is in time.
+        waits: True in lock-step, where `at` returns the same sample at any speed of the machine.
+        patience_s: wall time after which a silent producer counts as dead. After its return the wait is a share of
+            this, until it is in time.
     """
 
     def __init__(self, slot: Slot, lag_ns: int = CLOCK_STEP.period_ns, waits: bool = True,
@@ -43,7 +43,7 @@ class Samples(Generic[T]):
         self._asked_ns = self._wanted_ns = 0
 
     def add(self, stamp_ns: int, value: T) -> None:
-        """Take the producer's next sample; an older one replaces history (a restart), an equal one the last."""
+        """Add the producer's next sample; an older one replaces the history (a restart), an equal one the last."""
         with self._changed:
             while self._stamps and stamp_ns <= self._stamps[-1]:
                 restarted = stamp_ns < self._stamps[-1]
@@ -56,10 +56,10 @@ class Samples(Generic[T]):
                 self._changed.notify_all()
 
     def wait_until_wanted(self) -> None:
-        """Return when the consumer wants a newer sample than the newest, unless it is the next one that it wants.
+        """Wait until the consumer needs a newer sample than the newest, unless it needs the next one.
 
-        Whoever takes the samples from a connection calls this after each: those of a fast producer then stay in the
-        connection until one of them is due, and a thread wakes once for all of them.
+        The thread that reads samples from a connection calls this after each one. Samples of a fast producer then
+        remain in the connection until one is due, and the thread wakes once for all of them.
         """
         with self._changed:
             newest_ns = self._stamps[-1] if self._stamps else 0
@@ -67,7 +67,7 @@ class Samples(Generic[T]):
                 self._changed.wait(UNWANTED_LIMIT_WALL_S)
 
     def at(self, tick_ns: int) -> Optional[T]:
-        """Sample that a consumer reads at its tick: in lock-step the one that is due, else the newest."""
+        """Return the sample for a consumer's tick: in lock-step the sample that is due, otherwise the newest."""
         with self._changed:
             if not self.waits:
                 return self._values[-1] if self._values else None
@@ -76,7 +76,7 @@ class Samples(Generic[T]):
             return self._values[index - 1] if index else None
 
     def _ask(self, tick_ns: int) -> int:
-        """Stamp of the sample that is due; whoever waits until it is wanted goes on."""
+        """Return the stamp of the sample that is due, and release wait_until_wanted."""
         due_ns = self.slot.last_at(tick_ns - self.lag_ns)
         self._asked_ns, self._wanted_ns = due_ns, due_ns + (due_ns - self._asked_ns if self._asked_ns else 0)
         self._changed.notify_all()

@@ -1,4 +1,4 @@
-"""A topic of which every message counts, read in order at the ticks of a node."""
+"""A topic whose messages are all processed, in order, at the ticks of a node."""
 # SPDX-License-Identifier: Apache-2.0
 import threading
 import time
@@ -13,19 +13,19 @@ from .clock import is_lockstep
 from .patience import patience_at_least_s, patience_s
 from .samples import Samples
 
-# A publisher that has not answered by then (wall time) is not waited for any longer.
+# Limit of the wait for a publisher's connection (wall time).
 CONNECT_WITHIN_WALL_S = 2.0
 CONNECT_CHECK_WALL_S = 0.005
-# The first messages after a connection was made may be missing.
+# The first messages after a new connection may be missing.
 SETTLING_NS = 200 * MILLISECOND_NS
 KEPT = 100
 
 
 class StampedQueue:
-    """Subscription that keeps messages with a header until they are taken.
+    """Subscription that stores messages with a header until they are taken.
 
-    In lock-step the constructor waits for the connection, and `take` for the message that is due, so that the
-    outcome does not depend on the speed of the machine. A message is due lag_ns after its stamp.
+    In lock-step the constructor waits for the connection, and `take` for the message that is due, so that the result
+    does not depend on the speed of the machine. A message is due lag_ns after its stamp.
     """
 
     def __init__(self, topic: str, message_type: Any, slot: Slot, lag_ns: int):
@@ -33,7 +33,7 @@ class StampedQueue:
         self._samples: Samples[Any] = Samples(slot, lag_ns, waits=is_lockstep())
         self._queue: Deque[Any] = deque(maxlen=KEPT)
         self._changing = threading.Lock()
-        # Tick at which it was not connected yet, newest; the first one where it was from the start.
+        # Newest tick without a connection; the first tick if it was connected from the start.
         self._connected_ns: Optional[int] = None
         self._subscriber = rospy.Subscriber(topic, message_type, self._take_in, queue_size=50, tcp_nodelay=True)
         if is_lockstep():
@@ -41,7 +41,7 @@ class StampedQueue:
             self._connect(topic)
 
     def take(self, tick_ns: int) -> List[Any]:
-        """Messages stamped not later than tick - lag that have not been taken, oldest first."""
+        """Return the messages stamped not later than tick - lag that have not been taken, oldest first."""
         if self._samples.waits:
             self._wait_for_what_is_due(tick_ns)
         taken = []
@@ -67,9 +67,9 @@ class StampedQueue:
             time.sleep(CONNECT_CHECK_WALL_S)
 
     def _take_in(self, message: Any) -> None:
-        # The queue first: whoever waits for the sample finds the message there.
+        # The queue comes first: a thread that waits for the sample then finds the message.
         with self._changing:
-            # A clock that was set back: what was stamped before would wait until it has come to that time again.
+            # After the clock was set back, messages of the earlier time would wait until the clock reaches it again.
             if self._queue and message.header.stamp < self._queue[-1].header.stamp:
                 self._queue.clear()
             self._queue.append(message)

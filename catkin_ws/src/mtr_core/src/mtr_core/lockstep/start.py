@@ -1,4 +1,4 @@
-"""Life of a node from its parameters to its exit status, the same for all."""
+"""Life cycle of a node from its parameters to its exit status, common to all nodes."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import gc
@@ -18,12 +18,12 @@ CANNOT_START = 2
 
 
 def run_node(name: str, parameter_type: Type[P], make: Callable[[P], Any], **options: Any) -> int:
-    """Make the node from its private parameters and let it spin() until shutdown.
+    """Construct the node from its private parameters and run spin() until shutdown.
 
-    Returns the exit status: 0 after Ctrl-C, 2 after one sentence when the node cannot start. The options are those of
+    Returns the exit status: 0 after Ctrl-C, 2 after one sentence if the node cannot start. The options are passed to
     rospy.init_node.
     """
-    # What is logged to a file or the journal must not wait until 8 kB of it are together: it is lost with the process.
+    # Log lines to a file or the journal must not wait in a buffer of 8 kB, which is lost with the process.
     if isinstance(sys.stdout, io.TextIOWrapper):
         sys.stdout.reconfigure(line_buffering=True)
     rospy.init_node(name, **options)
@@ -40,26 +40,26 @@ def run_node(name: str, parameter_type: Type[P], make: Callable[[P], Any], **opt
     try:
         node.spin()
     except rospy.ROSException:
-        # A shutdown wakes whoever sleeps and closes the topics of whoever publishes.
+        # A shutdown interrupts sleeping threads and closes topics during publishing.
         if not rospy.is_shutdown():
             raise
     return 0
 
 
 def _spare_collections() -> None:
-    """Have collections of garbage look at nothing that there is now: some 50,000 objects, most of them imported.
+    """Exclude all current objects from garbage collection: about 50,000 objects, most of them imported.
 
-    A full one took 39 to 59 ms of processor time (26 November 2026, a busy machine), in which no thread of the node
-    goes on: longer than a period of the planner and of the manual controller.
+    A full collection needed 39 to 59 ms of processor time (26 November 2026, a busy machine), in which all threads of
+    the node are blocked. This exceeds a period of the planner and of the manual controller.
     """
     gc.collect()
     gc.freeze()
 
 
 def _tell_failure(why: str) -> None:
-    """Keep for the Operator why this node cannot start; nothing when it has. A log may be lost with the process."""
+    """Store for the Operator why this node cannot start; delete it otherwise. A log may be lost with the process."""
     parameter = f"{names.START_FAILURES}/{rospy.get_name().lstrip('/')}"
-    # A master that is gone ends all nodes anyway.
+    # Without a master all nodes end anyway.
     with contextlib.suppress(OSError, rospy.ROSException):
         if why:
             rospy.set_param(parameter, why)

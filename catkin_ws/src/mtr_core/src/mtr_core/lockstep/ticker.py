@@ -1,4 +1,4 @@
-"""The rate of a periodic node: a clock that is held does not pass a tick before its work is done."""
+"""The rate of a periodic node: a held clock does not pass a tick before the node's work is done."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 from typing import Callable, Optional
@@ -12,7 +12,7 @@ from mtr_core.schedule import SIMULATION_START_NS, Slot
 from . import clock
 from .publishers import direct_publisher
 
-# A simulator that is not there by then (wall time) is missed.
+# Wall time after which a missing simulator is reported.
 MISSED_AFTER_WALL_S = 15.0
 NO_CLOCK = ("Simulated time does not begin: /use_sim_time is set and nobody publishes /clock. Start the simulator, or "
             "set /use_sim_time to false on a robot.")
@@ -23,9 +23,9 @@ NOT_HELD = (f"Nobody waits for the nodes: /lockstep is set, and the simulator do
 class Ticker:
     """Wakes at the ticks of a slot of the schedule.
 
-    In lock-step and in a replay each sleep first publishes a hold: frame_id is the node, stamp its next tick, seq the
-    number of messages that it has sent to the simulator so far. The simulator does not advance past the stamp and waits
-    until the messages have arrived; nor does a replay's player, for the stamp. Elsewhere nothing is published.
+    In lock-step and in a replay each sleep first publishes a hold. Its frame_id is the node, its stamp the node's next
+    tick, its seq the number of messages sent to the simulator so far. The simulator does not advance past the stamp and
+    waits until the messages have arrived; a replay's player only waits for the stamp. Otherwise nothing is published.
 
     Attributes:
         messages_sent: messages sent to the simulator since the start; the owner increments it.
@@ -33,7 +33,7 @@ class Ticker:
 
     def __init__(self, slot: Slot, on_missed_simulator: Optional[Callable[[str], None]] = None,
                  wall_clock: Callable[[], float] = time.monotonic):
-        """on_missed_simulator: takes the sentence that says what is wrong with simulated time, once."""
+        """on_missed_simulator: called once with a sentence about missing simulated time."""
         self._slot = slot
         self._tell_missed, self._wall_clock = on_missed_simulator, wall_clock
         self._begun_wall_s = wall_clock()
@@ -46,11 +46,11 @@ class Ticker:
     def sleep(self) -> int:
         """Wait for the next tick and return it in ns of the ROS clock; rospy.ROSInterruptException on shutdown.
 
-        A node that took longer than a period goes on at the next tick that is still to come. So does one that was
-        stopped, or whose clock was set, while it waited: no tick is worked off that is not the present one.
+        A node that exceeded its period continues at the next future tick. The same applies if it was suspended or its
+        clock was set while it waited: missed ticks are skipped.
         """
         while True:
-            # Before the first /clock the time is zero, but no tick lies before the start of the simulated clock.
+            # Before the first /clock the time is zero, but no tick is earlier than the start of the simulated clock.
             now = max(clock.now_ns(), SIMULATION_START_NS) if self._holds else clock.now_ns()
             self._tick_ns = self._slot.next_after(now)
             self.renew()
@@ -69,6 +69,6 @@ class Ticker:
         self._tell_missed = None
 
     def renew(self) -> None:
-        """Say the present hold again: a sign of life of a node that has reason to let simulated time stand still."""
+        """Publish the present hold again: a sign of life of a node that intentionally stops simulated time."""
         if self._holds:
             self._holds.publish(Header(self.messages_sent, clock.stamp_of(self._tick_ns), rospy.get_name()))
