@@ -1,4 +1,4 @@
-"""Between ROS messages and the planner's plain types; a stamp_s is of the steady clock, which nobody sets."""
+"""Converts between ROS messages and the planner's plain types; a stamp_s is of the steady clock, which is never set."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Optional, Sequence, Tuple
@@ -20,23 +20,23 @@ from .outputs import Path as PlannedPath
 from .outputs import PlannerOutput
 from .picture import PlanPicture
 
-# Of the markers: lines, their height above ground, and colours by what they show.
+# Markers: line width, height above ground, arrow length, and colours by meaning.
 LINE_M, HEIGHT_M, ARROW_M = 0.03, 0.02, 0.5
 RED, GREEN, YELLOW = (0.9, 0.2, 0.1), (0.1, 0.9, 0.2), (1.0, 0.9, 0.1)
 SLOW, FAST = (0.2, 0.4, 1.0), (1.0, 1.0, 1.0)
 
 
 def desired_from(message: Optional[RobotMode], stamp_s: float) -> Optional[DesiredMotion]:
-    """What the state machine wants of the robot's motion."""
+    """Return the motion that the state machine requests."""
     if message is None:
         return None
-    # A robot that is held stays in its state, and no lock stands in its way.
+    # A robot on hold remains in its state, but must not drive.
     follows_waypoints = message.mode == RobotMode.FOLLOWING_WAYPOINT and not message.hold_id
     return DesiredMotion(stamp_s, goal_from(message), message.max_speed_mps, follows_waypoints)
 
 
 def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:
-    """Pose set in rviz, and whether it is in the Car's frame; None in a frame in which there are no goals."""
+    """Return the pose set in rviz, and True if it is in the Car's frame; None for a frame other than car and map."""
     frame, at, turned = message.header.frame_id, message.pose.position, message.pose.orientation
     if frame not in (names.CAR, names.MAP):
         return None
@@ -44,7 +44,7 @@ def nav_goal_from(message: PoseStamped) -> Optional[Tuple[Pose2, bool]]:
 
 
 def robot_from(message: Optional[LocalizedPose], stamp_s: float) -> Optional[RobotState]:
-    """State of the robot."""
+    """Return the state of the robot."""
     if message is None:
         return None
     return RobotState(stamp_s, message.valid, Pose2(message.x, message.y, message.heading),
@@ -53,7 +53,7 @@ def robot_from(message: Optional[LocalizedPose], stamp_s: float) -> Optional[Rob
 
 
 def car_from(message: Optional[CarEstimate], stamp_s: float) -> Optional[EstimatedCar]:
-    """The Car as estimated; its outline is the prior's before it is located."""
+    """Return the estimated Car; before it is located, its outline is the prior."""
     if message is None:
         return None
     sides = SideSigmas(message.front_sigma, message.rear_sigma, message.left_sigma, message.right_sigma)
@@ -64,19 +64,19 @@ def car_from(message: Optional[CarEstimate], stamp_s: float) -> Optional[Estimat
 
 
 def _pose_sigmas(covariance: Sequence[float]) -> Tuple[float, float]:
-    """1 sigma of the position in its least certain direction, m, and of the heading, rad; NaN where it is no number."""
+    """Return 1 sigma of the position in its least certain direction, m, and of the heading, rad; NaN if invalid."""
     xx, xy, yy = covariance[0], covariance[1], covariance[4]
     largest = 0.5 * (xx + yy) + math.hypot(0.5 * (xx - yy), xy)
     return _root(largest), _root(covariance[8])
 
 
 def _root(variance: float) -> float:
-    """1 sigma; NaN, with which nothing drives, for what is no variance."""
+    """Return 1 sigma; NaN, which stops the robot, for a value that is not a variance."""
     return math.sqrt(variance) if variance >= 0.0 else math.nan
 
 
 def collision_stop_from(message: Optional[DriveStatus], stamp_s: float) -> Optional[CollisionStop]:
-    """What the collision stop does."""
+    """Return the state of drive control's collision stop."""
     if message is None:
         return None
     zone = Zone(message.zone) if message.zone in tuple(Zone) else Zone.BLOCKED
@@ -85,7 +85,7 @@ def collision_stop_from(message: Optional[DriveStatus], stamp_s: float) -> Optio
 
 
 def area_from(message: AreaMessage) -> DrawnArea:
-    """The Operator's test area."""
+    """Return the Operator's test area."""
     return DrawnArea(tuple(zip(message.x, message.y)))
 
 
@@ -105,7 +105,7 @@ def status_message(output: PlannerOutput, header: Header) -> MotionStatus:
 
 
 def path_message(planned: PlannedPath, stamp: Any) -> Path:
-    """Path for people who look."""
+    """Return the path for visualisation."""
     path = Path(header=Header(stamp=stamp, frame_id=names.CAR if planned.in_car_frame else names.MAP))
     for x, y in planned.points:
         pose = PoseStamped(header=path.header)
@@ -115,7 +115,7 @@ def path_message(planned: PlannedPath, stamp: Any) -> Path:
 
 
 def markers_message(picture: PlanPicture, stamp: Any) -> MarkerArray:
-    """Keep-out zone, trajectory (the faster the brighter), place to be at now, and goal."""
+    """Return markers of the keep-out zone, trajectory (brighter means faster), reference pose and goal."""
     header = Header(stamp=stamp, frame_id=names.CAR if picture.in_car_frame else names.MAP)
     zone = _marker(header, "keep out", Marker.LINE_STRIP, RED)
     zone.points = [Point(x, y, HEIGHT_M) for x, y in picture.keep_out]

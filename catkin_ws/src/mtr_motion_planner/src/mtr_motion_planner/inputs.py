@@ -1,4 +1,4 @@
-"""What the motion planner receives at a tick, and the check that it may be used."""
+"""Inputs of the motion planner at a tick, and the check that they may be used."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import itertools
@@ -14,16 +14,16 @@ from . import problems
 
 Point = Tuple[float, float]
 
-# The platform reaches this, by its data sheet.
+# Maximum speed of the platform by its data sheet.
 MAX_SPEED_MPS = 2.0
 
 
 @dataclass(frozen=True)
 class DesiredMotion:
-    """Where the robot shall drive, and how fast at most; from the state machine.
+    """Goal and maximum speed, from the state machine.
 
     Attributes:
-        follows_waypoints: it would drive to a waypoint if one were wanted, and is not held.
+        follows_waypoints: the robot is not on hold and in the state that drives to a waypoint if one is set.
     """
 
     stamp_s: float
@@ -34,11 +34,11 @@ class DesiredMotion:
 
 @dataclass(frozen=True)
 class RobotState:
-    """Where base_link is in map, and how it moves.
+    """Pose of base_link in map, and its motion.
 
     Attributes:
         message: why the pose is not valid.
-        position_sigma_m: 1 sigma of its position in the direction in which that is least certain.
+        position_sigma_m: 1 sigma of the position in its least certain direction.
         heading_sigma: 1 sigma, rad.
     """
 
@@ -53,13 +53,13 @@ class RobotState:
     heading_sigma: float = 0.0
 
     def is_finite(self) -> bool:
-        """True when pose, velocity and their uncertainty are numbers."""
+        """True when pose, velocity and their uncertainty are finite."""
         return self.pose.is_finite() and all(map(math.isfinite, (
             self.speed_mps, self.yaw_rate_radps, self.position_sigma_m, self.heading_sigma)))
 
 
 class SideSigmas(NamedTuple):
-    """1 sigma in m of where each side of the Car is, across itself: errors of the Car's centre and size together."""
+    """1 sigma in m of each side of the Car, across the side: errors of the Car's centre and size together."""
 
     front: float = 0.0
     rear: float = 0.0
@@ -72,12 +72,12 @@ EXACT_SIDES = SideSigmas()
 
 @dataclass(frozen=True)
 class EstimatedCar:
-    """Where the Car is in map; outline in its own frame. Before it is located both are a rough prior.
+    """Pose of the Car in map, and its outline in its own frame. Before it is located both are a rough prior.
 
     Attributes:
-        sides: 1 sigma of each side; of a Car that is not located they are not used.
+        sides: 1 sigma of each side; not used if the Car is not located.
         heading_sigma: 1 sigma, rad.
-        size: length and width, m; infinite when only the outline is known.
+        size: length and width, m; infinite if only the outline is known.
     """
 
     stamp_s: float
@@ -89,14 +89,14 @@ class EstimatedCar:
     size: Tuple[float, float] = (math.inf, math.inf)
 
     def is_finite(self) -> bool:
-        """True when pose, outline and, of a located Car, their uncertainty are numbers."""
+        """True when pose, outline and, for a located Car, their uncertainty are finite."""
         sigmas = (*self.sides, self.heading_sigma) if self.located else ()
         return (self.pose.is_finite() and all(map(math.isfinite, (*itertools.chain(*self.outline), *sigmas)))
                 and min(sigmas, default=0.0) >= 0.0)
 
 
 class Zone(enum.IntEnum):
-    """What drive control's collision stop does, as in DriveStatus."""
+    """State of drive control's collision stop, with the numbers of DriveStatus."""
 
     CLEAR = 0
     SLOWED = 1
@@ -106,7 +106,7 @@ class Zone(enum.IntEnum):
 
 @dataclass(frozen=True)
 class CollisionStop:
-    """What drive control's collision stop does; obstacle in base_link, m and rad, NaN: none."""
+    """Drive control's collision stop; obstacle in base_link, m and rad, NaN without an obstacle."""
 
     stamp_s: float
     zone: Zone = Zone.CLEAR
@@ -117,7 +117,7 @@ class CollisionStop:
 
 @dataclass(frozen=True)
 class DrawnArea:
-    """The Operator's area, which drive control enforces: corners in map, m; none: no bound."""
+    """The Operator's test area, which drive control enforces: corners in map, m; empty: no bound."""
 
     corners: Tuple[Point, ...] = ()
 
@@ -127,7 +127,7 @@ NO_AREA = DrawnArea()
 
 @dataclass(frozen=True)
 class Inputs:
-    """Newest message of each kind at a tick, None before the first; the planner can do without drive control's."""
+    """Newest message of each kind at a tick, None before the first; drive control's message is optional."""
 
     tick_s: float
     desired: Optional[DesiredMotion]
@@ -138,12 +138,12 @@ class Inputs:
 
 
 class InputsUnusable(ProblemError):
-    """The inputs must not move the robot; the text says why."""
+    """The inputs must not move the robot; the text states the cause."""
 
 
 @dataclass(frozen=True)
 class Situation:
-    """Inputs that may move the robot: all there, new enough, and numbers."""
+    """Inputs that may move the robot: complete, recent and finite."""
 
     tick_s: float
     desired: DesiredMotion
@@ -157,7 +157,7 @@ Stamped = TypeVar("Stamped", DesiredMotion, RobotState, EstimatedCar)
 
 
 def situation_of(inputs: Inputs, age_limit_s: float) -> Situation:
-    """The inputs checked; InputsUnusable when they must not move the robot."""
+    """Return the checked inputs; InputsUnusable if they must not move the robot."""
     now = Situation(inputs.tick_s, _fresh("order", inputs.desired, inputs.tick_s, age_limit_s),
                     _fresh("pose", inputs.robot, inputs.tick_s, age_limit_s),
                     _fresh("position of the Car", inputs.car, inputs.tick_s, age_limit_s), inputs.collision_stop,

@@ -8,14 +8,14 @@ from mtr_core.parameters import ParameterSet, number
 
 @dataclass(frozen=True)
 class MotionLimits(ParameterSet):
-    """Limits of planned motion; below drive control's own, so that what the controller adds is not clipped.
+    """Limits of planned motion, lower than in drive control, so that it does not clip the controller's feedback.
 
     Attributes:
         max_linear_mps: speed on a straight line; drive control allows 0.75 with the key raised.
-        curve_lever_m: on a curve max_linear_mps bounds the speed plus this times the yaw rate, as in drive control.
+        curve_lever_m: on a curve max_linear_mps limits speed + curve_lever_m * yaw rate, as in drive control.
         acceleration_mps2: of the linear speed, also when braking; drive control allows 1.0 and 1.5.
-        jerk_mps3: of the linear speed, from constant speed; twice that from getting faster to braking at once. A mast
-            swings less.
+        jerk_mps3: of the linear speed from constant speed; a change from accelerating to braking has twice this
+            jerk. It limits the swinging of a mast.
         max_angular_radps: yaw rate; drive control allows 1.5.
         angular_acceleration_radps2: of the yaw rate; drive control allows 2.0.
         angular_jerk_radps3: of the yaw rate on the spot.
@@ -33,40 +33,40 @@ class MotionLimits(ParameterSet):
 
     @property
     def ramp_s(self) -> float:
-        """Time in which the jerk limit lets the linear acceleration build up."""
+        """Time in s in which the linear acceleration builds up under the jerk limit."""
         return self.acceleration_mps2 / self.jerk_mps3
 
     @property
     def angular_ramp_s(self) -> float:
-        """Time in which the jerk limit lets the angular acceleration build up."""
+        """Time in s in which the angular acceleration builds up under the jerk limit."""
         return self.angular_acceleration_radps2 / self.angular_jerk_radps3
 
     def stopping_distance(self, speed_mps: float) -> float:
-        """Way in m on which the robot stops from a speed."""
+        """Return the distance in m within which the robot stops from a speed."""
         return speed_mps ** 2 / (2.0 * self.acceleration_mps2) + 0.5 * abs(speed_mps) * self.ramp_s
 
     def stopping_angle(self, rate: float) -> float:
-        """Angle in rad in which the robot ends a turn on the spot."""
+        """Return the angle in rad within which the robot ends a turn on the spot."""
         return rate ** 2 / (2.0 * self.angular_acceleration_radps2) + 0.5 * abs(rate) * self.angular_ramp_s
 
     def turn_time(self, angle: float) -> float:
-        """Time in s of a turn on the spot."""
+        """Return the time in s of a turn on the spot."""
         return rest_to_rest_time(abs(angle), self.max_angular_radps, self.angular_acceleration_radps2,
                                  self.angular_ramp_s)
 
     def corner_speed(self, curvature: float) -> float:
-        """Highest speed in m/s on an arc."""
+        """Return the highest speed in m/s on an arc."""
         bend = max(abs(curvature), 1e-9)
         return min(self.max_linear_mps / (1.0 + self.curve_lever_m * bend), self.max_angular_radps / bend,
                    math.sqrt(self.lateral_acceleration_mps2 / bend))
 
     def corner_radius(self, speed_mps: float) -> float:
-        """Least radius in m on which the robot keeps a speed."""
+        """Return the smallest radius in m at which the robot keeps a speed."""
         return max(speed_mps / self.max_angular_radps, speed_mps ** 2 / self.lateral_acceleration_mps2)
 
 
 def rest_to_rest_time(way: float, speed: float, acceleration: float, ramp_s: float) -> float:
-    """Time from rest to rest over a way >= 0 with limited speed, acceleration and, by the ramp, jerk."""
+    """Return the time from rest to rest over a distance >= 0; the ramp limits the jerk."""
     if way <= 0.0:
         return 0.0
     if way <= speed ** 2 / acceleration:

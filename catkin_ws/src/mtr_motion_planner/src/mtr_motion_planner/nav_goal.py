@@ -22,13 +22,13 @@ class NavGoals:
         self._refusal = ""
 
     def take(self, pose: Pose2, in_car_frame: bool) -> None:
-        """A goal has been set; from any thread."""
+        """Store a goal set in rviz; may be called from any thread."""
         with self._lock:
             self._count += 1
             self._goal = Goal(Waypoint(self._count, RVIZ, names.CAR if in_car_frame else names.MAP, pose))
 
     def joined(self, desired: Optional[DesiredMotion]) -> Optional[DesiredMotion]:
-        """The order, with the goal from rviz if nobody else wants one; an Operator's goal ends that."""
+        """Return the order, with the goal from rviz if the order has none; a goal of the Operator discards it."""
         with self._lock:
             if desired is None or self._goal is None:
                 return desired
@@ -41,7 +41,7 @@ class NavGoals:
             return replace(desired, goal=self._goal, max_speed_mps=self._speed_mps)
 
     def refusal(self) -> str:
-        """Sentence, once, that says why the newest goal was dropped; empty when it was not."""
+        """Return once why the newest goal was dropped; otherwise an empty text."""
         with self._lock:
             said, self._refusal = self._refusal, ""
             return said

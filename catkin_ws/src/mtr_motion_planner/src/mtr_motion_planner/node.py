@@ -34,20 +34,20 @@ from .picture import picture_of
 from .planner import MotionPlanner
 from .search import planning
 
-# The tool "2D Nav Goal" of rviz publishes here.
+# Topic of rviz's tool "2D Nav Goal".
 NAV_GOAL = "/move_base_simple/goal"
-# One of so many ticks shows the markers: 2.5 times a second.
+# Markers are published at one in this many ticks, 2.5 times a second.
 MARKER_TICKS = 10
-# The newest plan does not wait for one that is no longer wanted.
+# A new plan does not wait for an obsolete one.
 PLANS_AT_ONCE = 2
 
 
 class MotionPlannerNode:
-    """Feeds the planner at its ticks and publishes what it says."""
+    """Feeds the planner at its ticks and publishes its outputs."""
 
     def __init__(self, parameters: MotionParameters):
         self._parameters = parameters
-        # In lock-step time waits for the plan.
+        # In lock-step, simulated time waits for the plan.
         executor = (InlineExecutor() if is_lockstep() else
                     ProcessesExecutor(PLANS_AT_ONCE, [planning.__name__], rospy.logwarn))
         self._planner = MotionPlanner(parameters, described_robot().footprint(), executor)
@@ -73,7 +73,7 @@ class MotionPlannerNode:
             self.tick(self._ticker.sleep())
 
     def tick(self, tick_ns: int) -> None:
-        """One step of the planner."""
+        """Run one step of the planner."""
         desired = self._nav_goals.joined(desired_from(self._mode.at(tick_ns), self._mode.stamp_s))
         refusal = self._nav_goals.refusal()
         if refusal:
@@ -90,7 +90,7 @@ class MotionPlannerNode:
         self._show(stamp)
 
     def _show(self, stamp: rospy.Time) -> None:
-        """Markers now and then, for whoever listens."""
+        """Publish the markers at some ticks, if there are subscribers."""
         self._ticks += 1
         if self._ticks % MARKER_TICKS == 0 and self._markers.get_num_connections():
             picture = picture_of(self._planner, self._parameters)
@@ -109,5 +109,5 @@ class MotionPlannerNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("motion_planner", MotionParameters, MotionPlannerNode)

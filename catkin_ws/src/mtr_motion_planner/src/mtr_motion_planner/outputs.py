@@ -1,4 +1,4 @@
-"""What the motion planner sends at a tick."""
+"""Outputs of the motion planner at a tick."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Optional, Tuple
@@ -22,8 +22,8 @@ class Path:
 class PlannerOutput:
     """Velocity and status of one tick; path only when it is new.
 
-    replans: paths to goals under way that were planned anew since the start, as the robot or the Car was not where it
-    was taken to be. A change of speed or a correction at the goal is none.
+    replans: number of new paths to an active goal since the start, because the robot or the Car was not at its expected
+    pose. A change of speed or a correction at the goal does not count.
     """
 
     linear_mps: float

@@ -15,17 +15,17 @@ FRAMES = ("car", "map")
 
 @dataclass(frozen=True)
 class Slip(ParameterSet):
-    """How a skid-steered base slides sideways when it turns; without a slip a value is 0.
+    """Sideways slip of a skid-steered base in a turn; a value of 0 means no slip.
 
-    The defaults are a fit to the simulation, at up to 0.8 m/s and 1.2 rad/s. The controller takes out what a wrong
-    value leaves, and a correction at the goal what it cannot.
+    The defaults are a fit to the simulation, at up to 0.8 m/s and 1.2 rad/s. The controller compensates most of the
+    error of a wrong value, and a correction at the goal the rest.
 
     Attributes:
-        turn_centre_x_m: point, ahead of base_link, about which it turns on the spot; below its centre of mass.
-        curve_slip_s2: this point slides outwards at this times speed times the square of the yaw rate: the wheels'
-            side forces must turn the motion.
-        acceleration_slip_s2: and inwards, while it gets faster, at this times acceleration times yaw rate: the load
-            moves to the wheels behind.
+        turn_centre_x_m: point of a turn on the spot, ahead of base_link; below the centre of mass.
+        curve_slip_s2: outward slip of this point per speed and square of the yaw rate, because the side forces of
+            the wheels must turn the motion.
+        acceleration_slip_s2: inward slip per acceleration and yaw rate while the robot accelerates, because the
+            load moves to the rear wheels.
     """
 
     turn_centre_x_m: float = number(-0.006, -0.2, 0.2, "m")
@@ -34,27 +34,29 @@ class Slip(ParameterSet):
 
     @property
     def base_from_centre(self) -> Pose2:
-        """The turn centre, whose way is planned: unlike base_link it stays where it is when the robot turns."""
+        """Pose of the turn centre in base_link. Plans are for the turn centre, because a turn does not move it."""
         return Pose2(self.turn_centre_x_m, 0.0, 0.0)
 
 
 @dataclass(frozen=True)
 class Margins(ParameterSet):
-    """How far the robot stays away from things, by plan.
+    """Distances that plans keep.
 
     Attributes:
-        keep_out_m: the footprint never gets closer to the Car's outline, grown by its uncertainty and the robot's.
-        mirror_m: what is foremost, the key on its arm, never gets closer to the Car's side beside it. The outline is
-            that at the LiDARs' height; no LiDAR sees a mirror, which stands up to 0.25 m out of the side. Not more than
-            0.28: the key's front is 0.02 m ahead of the key, to which the application's clearance_m of 0.3 m is.
-        protrusion_m: the same before the Car's front and behind its rear, for a spare wheel, a tow bar or an open lid,
-            which stand out by up to 0.25 m. An end that is known to 2 cm may be approached up to keep_out_m.
-        front_fitting_m: what stands out of the Car's front beyond its length at any height, such as a bull bar; it
-            is part of the Car then.
-        rear_fitting_m: the same of its rear: a bicycle carrier, a lowered tailgate, a tow bar.
-        route_margin_m: gap beside the robot on its way around the Car.
-        geofence_xy: corners x, y, x, y, ... of the polygon in m that footprint and stopping distance stay in; empty:
-            no bound.
+        keep_out_m: least distance of the footprint from the Car's outline, which is grown by the uncertainty of Car and
+            robot.
+        mirror_m: least distance of the foremost part, the key on its arm, from the Car's side. The outline is measured
+            at the LiDARs' height, where mirrors are invisible; a mirror protrudes up to 0.25 m from the side. At most
+            0.28 m, because the key's front is 0.02 m ahead of the key, and the application's clearance_m of 0.3 m
+            refers to the key.
+        protrusion_m: the same in front of the Car and behind it, for a spare wheel, a tow bar or an open lid, which
+            protrude up to 0.25 m. An end known to 2 cm may be approached up to keep_out_m.
+        front_fitting_m: protrusion of a fitting at any height beyond the Car's front, such as a bull bar; it becomes
+            part of the Car.
+        rear_fitting_m: the same at the rear: a bicycle carrier, a lowered tailgate, a tow bar.
+        route_margin_m: lateral gap between the robot and the Car on the route around it.
+        geofence_xy: corners x, y, x, y, ... in m of a polygon that contains footprint and stopping distance; empty: no
+            bound.
         geofence_frame: frame of these corners, car or map.
     """
 
@@ -80,13 +82,13 @@ class Margins(ParameterSet):
 
 @dataclass(frozen=True)
 class Arrival(ParameterSet):
-    """When a goal is reached.
+    """Tolerances of a reached goal.
 
     Attributes:
-        goal_along_m: REACHED needs this along the goal's heading.
-        goal_across_m: REACHED needs this across the goal's heading.
-        goal_heading_rad: REACHED needs this.
-        corrections: attempts to get within these tolerances before the robot stays where it is.
+        goal_along_m: tolerance along the goal's heading for REACHED.
+        goal_across_m: tolerance across the goal's heading for REACHED.
+        goal_heading_rad: heading tolerance for REACHED.
+        corrections: attempts to get within these tolerances before the robot stays at its place.
     """
 
     goal_along_m: float = number(0.015, 0.005, 0.5, "m")
@@ -97,22 +99,22 @@ class Arrival(ParameterSet):
 
 @dataclass(frozen=True)
 class MotionParameters(ParameterSet):
-    """What the motion planner is started with.
+    """Start parameters of the motion planner.
 
     Attributes:
-        run_in_m: straight piece with the heading held before a goal whose direction of travel is given.
-        longest_reverse_m: a longer way is not driven backwards, but for the straight piece to a goal; for a robot that
-            does not see what is behind it.
-        rear_lidar: the robot has one; else it drives half a metre straight ahead before it turns after a rest, as drive
-            control lets it turn on ground only that was seen free.
-        degenerate_speed_mps: speed limit while localization says that its surroundings do not hold the pose.
-        pose_margin_m: stopping distance and 2 sigma of the robot's own position stay within it by a lower speed; at the
-            usual sigma of up to 5 cm it does not slow the robot.
-        creep_mps: speed that uncertainty of the position always leaves.
+        run_in_m: straight segment with constant heading before a goal with a given direction of travel.
+        longest_reverse_m: limit of a path driven backwards, except for the straight segment to a goal; for a robot that
+            does not see behind itself.
+        rear_lidar: the robot has a rear LiDAR. Otherwise it drives half a metre straight ahead before it turns after a
+            rest, because drive control allows turns only over ground that was seen free.
+        degenerate_speed_mps: speed limit while localization reports that its surroundings do not constrain the pose.
+        pose_margin_m: limit of stopping distance plus 2 sigma of the robot's position, kept by a lower speed; the usual
+            sigma of up to 5 cm does not slow the robot.
+        creep_mps: least speed limit at any uncertainty of the position.
         input_age_limit_s: older inputs stop the robot.
-        accept_nav_goal: for developers: goals from rviz are taken while the robot follows waypoints and the Operator
-            wants none.
-        nav_goal_speed_mps: speed limit of those.
+        accept_nav_goal: for developers: goals from rviz are accepted while the robot follows waypoints and the Operator
+            has set none.
+        nav_goal_speed_mps: speed limit for goals from rviz.
     """
 
     limits: MotionLimits = field(default_factory=MotionLimits)

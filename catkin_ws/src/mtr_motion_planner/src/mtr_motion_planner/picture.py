@@ -1,4 +1,4 @@
-"""What the planner has in mind, as lines for people who look."""
+"""The planner's state as lines for visualisation."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Optional, Tuple
@@ -17,10 +17,10 @@ class PlanPicture:
     """Lines in map or in the Car's frame.
 
     Attributes:
-        keep_out: into what the robot's footprint is never led; closed.
-        trajectory: where the robot is to be, and how fast in m/s.
-        reference: where it is to be now.
-        goal: of base_link.
+        keep_out: zone that a plan's footprint never enters; closed.
+        trajectory: planned positions, and the speed there in m/s.
+        reference: current reference pose.
+        goal: goal of base_link.
     """
 
     in_car_frame: bool
@@ -31,7 +31,7 @@ class PlanPicture:
 
 
 def picture_of(planner: MotionPlanner, parameters: MotionParameters) -> Optional[PlanPicture]:
-    """The present picture; None when the robot goes nowhere."""
+    """Return the current picture, or None without a goal."""
     site, follower = planner.site, planner.follower
     if site is None:
         return None

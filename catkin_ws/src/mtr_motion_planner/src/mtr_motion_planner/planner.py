@@ -1,4 +1,4 @@
-"""The motion planner: at each tick from the inputs to a velocity and a status."""
+"""The motion planner: computes velocity and status from the inputs at each tick."""
 # SPDX-License-Identifier: Apache-2.0
 import logging
 from concurrent.futures import Executor
@@ -34,9 +34,9 @@ STANDING = (Zone.BLOCKED, Zone.BLIND)
 
 
 class MotionPlanner:
-    """Leads the robot to one goal at a time.
+    """Drives the robot to one goal at a time.
 
-    A new goal id replaces the goal at once; a plan is made when the goal or the Car changes or when the robot is off
+    A new goal id replaces the goal at once. A plan is made when the goal or the Car changes, or when the robot is off
     its reference, not at each tick.
 
     Attributes:
@@ -51,7 +51,7 @@ class MotionPlanner:
         self._stall = StallWatch()
         self._pose_speed = PoseSpeed(parameters.limits, parameters.pose_margin_m, parameters.creep_mps)
         self._behind = None if parameters.rear_lidar else GroundBehind()
-        # Once for each goal: where that does not help, drive control reports what does.
+        # Tried once per goal; if it does not help, drive control reports the problem.
         self._may_uncover = True
         self._goal = NO_GOAL
         self._result, self._message = Result.IDLE, NO_PROBLEM
@@ -62,11 +62,11 @@ class MotionPlanner:
 
     @property
     def follower(self) -> Optional[Follower]:
-        """What leads the robot now, None when there is nothing to follow."""
+        """The follower of the present plan, or None without a plan."""
         return self._replanning.follower
 
     def step(self, inputs: Inputs) -> PlannerOutput:
-        """Velocity and status at a tick."""
+        """Return velocity and status at a tick."""
         desired = inputs.desired
         if desired and desired.goal.id != self._goal.id:
             self._goal, self.site, self._may_uncover = desired.goal, None, True
@@ -86,7 +86,7 @@ class MotionPlanner:
         return self._pursue(now)
 
     def _begin(self, result: Result) -> None:
-        """Start anew with the goal; a follower stays until the new plan goes on from its motion."""
+        """Restart with the goal; the follower remains until the new plan continues its motion."""
         self._result, self._message = result, NO_PROBLEM
         self._replanning.restart()
         self._corrections = 0
@@ -94,7 +94,7 @@ class MotionPlanner:
         self._stall.reset()
 
     def _begin_again(self) -> None:
-        """Another path to a goal under way: the robot leaves the one that was ordered."""
+        """Replan to an active goal: the robot leaves its ordered path."""
         self._replans += 1
         self._begin(Result.PENDING)
 
@@ -107,7 +107,7 @@ class MotionPlanner:
         return self._output(self._result if self._result in SETTLED else Result.PENDING, message=fault)
 
     def _take_car(self, now: Situation) -> None:
-        """Plan again when the Car is not what the plan was made for; a robot that has arrived stays."""
+        """Replan when the Car differs from the one in the plan; a robot that has arrived stays."""
         if self.site is None:
             return
         is_retried = self._result == Result.REFUSED and self.site.is_wider_for(now.car, now.robot)
@@ -151,7 +151,7 @@ class MotionPlanner:
         return min(speed, self._parameters.degenerate_speed_mps) if now.robot.is_degenerate else speed
 
     def _keep_planned(self, site: Site, pose: Pose2, now: Situation, speed: float) -> None:
-        """Have a plan made where one is needed, and change over to the one that is due."""
+        """Request a plan if one is needed, and switch to the plan that is due."""
         target = Target(site.goal, self._direction(), is_correction=self._corrections > 0)
         robot = Moving(pose, now.robot.speed_mps, now.robot.yaw_rate_radps)
         try:
@@ -161,7 +161,7 @@ class MotionPlanner:
             self._replanning.change_over(site, now.tick_s, speed)
         except RobotError as refusal:
             self._settle(Result.REFUSED, problem_in(refusal), pose)
-        # Whatever it was, perhaps in a thread: the robot has no plan, and without this node it would never have one.
+        # Any defect, perhaps in another process: the robot has no plan, and without this handler the node would end.
         except Exception as defect:
             logging.exception("No plan was made for a defect of the planner.")
             self._settle(Result.REFUSED, problems.PLANNING_DEFECT(what=type(defect).__name__), pose)
@@ -195,7 +195,7 @@ class MotionPlanner:
         if is_heading_into(site.keep_out, pose, now.robot, wanted.velocity, self._parameters):
             self._ramp.brake()
             return self._output(Result.BLOCKED, wanted.remaining_m, problems.BEFORE_CAR())
-        # Any turn would sweep ground that was not seen.
+        # Any turn would sweep unseen ground.
         self._ramp.drive(Velocity(wanted.velocity.linear_mps) if self._replanning.is_uncovering else wanted.velocity)
         return self._under_way(pose, now, wanted)
 
@@ -209,13 +209,13 @@ class MotionPlanner:
         return self._output(Result.PENDING, wanted.remaining_m, message)
 
     def _arrive(self, site: Site, pose: Pose2) -> None:
-        """The plan is done: within tolerance, or one more attempt, or near enough."""
+        """Finish a completed plan: within tolerance, with a further attempt, or near enough."""
         miss = miss_of(site.goal, pose, self._parameters.arrival)
         if miss.is_within:
             self._settle(Result.REACHED, NO_PROBLEM, pose)
         elif self._corrections < self._parameters.arrival.corrections:
             self._corrections += 1
-            # From where the robot is: its reference has arrived.
+            # The next attempt starts at the robot's pose, because its reference has arrived.
             self._replanning.stop()
         else:
             result = Result.REACHED if miss.is_near else Result.REFUSED

@@ -1,4 +1,4 @@
-"""What the motion planner says to the Operator."""
+"""Sentences of the motion planner for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 
@@ -17,7 +17,7 @@ CAR_NOT_A_NUMBER = Sentence("motion_planner.car_not_a_number", "The Car's positi
 MAXIMUM_SPEED = Sentence("motion_planner.maximum_speed",
                          "The maximum speed is {value} m/s; it must be above 0 and at most {high} m/s.")
 
-# Goals to which no plan is made
+# Goals without a plan
 GOAL_FRAME = Sentence("motion_planner.goal_frame", "The goal's frame is {frame}; allowed are car and map.")
 GOAL_NOT_A_NUMBER = Sentence("motion_planner.goal_not_a_number", "The goal is not a number.")
 CAR_NOT_LOCATED = Sentence("motion_planner.car_not_located",

@@ -1,7 +1,7 @@
-"""The frame in which a goal is planned, and what the robot must stay away from in it.
+"""The frame of a goal's plan, and the areas that the robot must avoid in it.
 
-A goal beside the Car is planned in the Car's own frame: when the Car's estimated pose changes a little, outline, goal
-and plan stay as they are, and only the robot is seen elsewhere.
+A goal relative to the Car is planned in the Car's frame. A small change of the Car's estimated pose then leaves
+outline, goal and plan unchanged, and only the robot's pose in the frame changes.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -23,7 +23,7 @@ from .parameters import Margins, MotionParameters
 from .timing.plan import PlanRefused
 
 SHIFT_M, SHIFT_RAD = 0.02, math.radians(0.5)
-# Beyond drive control's area_gap_m (0.05 m): errors of following, and sigma that grows on the way.
+# Beyond drive control's area_gap_m (0.05 m), for errors of following and for a sigma that grows during the drive.
 AREA_GAP_M = 0.15
 MAP_FROM_MAP = Pose2(0.0, 0.0, 0.0)
 
@@ -32,16 +32,16 @@ class Site:
     """Frame, outline and test area for one goal.
 
     Attributes:
-        in_car_frame: the frame is the Car's, else map.
+        in_car_frame: True for the Car's frame, False for map.
         goal: pose of the robot's turn centre in the frame.
         keep_out: the Car's outline in the frame.
         area: the Operator's test area, in map.
-        fence: the test area in the frame, None when there is no bound.
+        fence: the test area in the frame, or None without a bound.
     """
 
     def __init__(self, goal: Waypoint, car: EstimatedCar, state: RobotState, robot: RobotOutline,
                  parameters: MotionParameters, *, area: DrawnArea = NO_AREA):
-        """OutlineUnusable or PlanRefused when one cannot plan here."""
+        """Raises OutlineUnusable or PlanRefused if planning is impossible here."""
         self.area = area
         self._car, self._reach_m, self._margins = car, robot.front_m, parameters.margins
         if goal.frame not in (names.CAR, names.MAP):
@@ -64,14 +64,14 @@ class Site:
     def _parameter_bound(self, margins: Margins, frame_from_car: Pose2) -> List[Polygon]:
         corners = corners_of(margins.geofence_xy)
         in_car = margins.geofence_frame == "car"
-        # While the Car is mapped nobody knows yet where its frame is.
+        # While the Car is mapped, the pose of its frame is unknown.
         if not corners or (in_car and not self._car.located):
             return []
         frame = frame_from_car if in_car else self.frame_from_map(self._car)
         return [bound_of([frame.apply(x, y) for x, y in corners])]
 
     def _drawn_bound(self, state: RobotState) -> List[Polygon]:
-        """Inside of what drive control permits, so that it does not stop the robot on its path."""
+        """Return an area within drive control's bound, so that drive control does not stop the robot on its path."""
         if not self.area.corners:
             return []
         frame = self.frame_from_map(self._car)
@@ -79,11 +79,11 @@ class Site:
         return [bound_of([frame.apply(x, y) for x, y in self.area.corners], AREA_GAP_M + 2.0 * sigma_m)]
 
     def frame_from_map(self, car: EstimatedCar) -> Pose2:
-        """Where map is in the frame, by the Car's newest pose."""
+        """Return the pose of map in the frame, by the Car's newest pose."""
         return car.pose.inverse() if self.in_car_frame else MAP_FROM_MAP
 
     def holds_for(self, car: EstimatedCar, state: RobotState) -> bool:
-        """True when a plan made here is still right for the Car and for how well the robot knows its own position."""
+        """Return True if a plan made here is still valid for the Car and the uncertainty of the robot's position."""
         old = self._car
         if old.located != car.located or len(old.outline) != len(car.outline):
             return False
@@ -96,6 +96,6 @@ class Site:
         return all(math.hypot(a[0] - b[0], a[1] - b[1]) <= SHIFT_M for a, b in zip(old.outline, car.outline))
 
     def is_wider_for(self, car: EstimatedCar, state: RobotState) -> bool:
-        """True when the Car, or the robot's own position, has become so much more certain that a goal may be free."""
+        """Return True if the pose of Car or robot is more certain now, so that a refused goal may be free."""
         growth = bounds_of(car, state, self._reach_m, self._margins).growth
         return self.keep_out.bounds.growth.is_more_than(growth, SHIFT_M)

@@ -1,4 +1,4 @@
-"""Makes the simulated robot importable by the tests beside it."""
+"""Makes the simulated robot of this folder importable."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys

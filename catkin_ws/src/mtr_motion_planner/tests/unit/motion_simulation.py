@@ -1,4 +1,4 @@
-"""A tiny robot for tests: it slides as a skid-steered base does, lags, and hears a command late."""
+"""A minimal robot for tests: it slips like a skid-steered base, lags, and receives commands late."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from collections import deque
@@ -30,7 +30,7 @@ ORIGIN = Pose2(0.0, 0.0, 0.0)
 
 
 def car_at(pose: Pose2 = ORIGIN, located: bool = True, outline=OUTLINE) -> EstimatedCar:
-    """A located Car of ordinary size."""
+    """Return a located Car of ordinary size."""
     return EstimatedCar(0.0, located, pose, outline)
 
 
@@ -66,14 +66,14 @@ class SimulatedRobot:
         self.goal = Goal(Waypoint(goal_id, "test", "car" if in_car else "map", pose, direction))
 
     def inputs(self) -> Inputs:
-        """What the planner receives now."""
+        """Return the current inputs of the planner."""
         robot = RobotState(self.now, True, self.pose, self.speed, self.yaw_rate, "", self.is_degenerate,
                            self.position_sigma_m, self.heading_sigma)
         return Inputs(self.now, DesiredMotion(self.now, self.goal, self.max_speed), robot,
                       replace(self.car, stamp_s=self.now), self.collision_stop, self.area)
 
     def tick(self) -> PlannerOutput:
-        """One period."""
+        """Run one period."""
         output = self.planner.step(self.inputs())
         self.outputs.append(output)
         self._move(output)
@@ -95,21 +95,21 @@ class SimulatedRobot:
         return output
 
     def planner_says(self, result: Result, word: str) -> bool:
-        """True when the goal is settled so, with the word in the sentence, and still is a second later."""
+        """Return True if the goal ends with this result and the word in the sentence, also one second later."""
         first, later = self.run(), self.run_for(1.0)
         return all(output.result == result and word in output.message.text for output in (first, later))
 
     def goal_in_map(self) -> Pose2:
-        """Where the robot should stand."""
+        """Return the goal pose in map."""
         waypoint = self.goal.waypoint
         return self.car.pose @ waypoint.pose if waypoint.frame == "car" else waypoint.pose
 
     def miss(self) -> Pose2:
-        """The robot's pose seen from the goal."""
+        """Return the robot's pose as seen from the goal."""
         return self.goal_in_map().inverse() @ self.pose
 
     def largest_step(self) -> float:
-        """Largest change of the commanded speed between two ticks."""
+        """Return the largest change of the commanded speed between two ticks."""
         speeds = [output.linear_mps for output in self.outputs]
         return max(abs(b - a) for a, b in zip(speeds, speeds[1:]))
 
@@ -130,7 +130,7 @@ class SimulatedRobot:
         self.least_clearance = min(self.least_clearance, self.clearance())
 
     def clearance(self) -> float:
-        """Distance of the footprint from the Car, computed apart from the planner's."""
+        """Return the footprint's distance from the Car, computed independently of the planner."""
         if len(self.car.outline) < 3:
             return math.inf
         corners = [self.pose.apply(x, y) for x, y in ((.27, .215), (-.254, .215), (-.254, -.215), (.27, -.215))]
@@ -139,5 +139,5 @@ class SimulatedRobot:
 
 
 def limited(value: float, limit: float) -> float:
-    """Value within [-limit, limit]."""
+    """Return the value limited to [-limit, limit]."""
     return max(-limit, min(limit, value))

@@ -1,4 +1,4 @@
-"""The Operator's test area in the planner: no path leaves it, in map and beside the Car."""
+"""The Operator's test area in the planner: no path leaves it, neither in map nor in the Car's frame."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -14,9 +14,9 @@ from mtr_motion_planner.inputs import NO_AREA, DrawnArea
 from mtr_motion_planner.parameters import Margins
 from mtr_msgs.msg import TestArea as AreaMessage
 
-# On the Car's left there is no room to pass.
+# The area leaves no room for a path on the Car's left.
 CORNERS = ((-7.0, -7.0), (7.0, -7.0), (7.0, 1.55), (-7.0, 1.55))
-# What drive control keeps from the border of a pose without uncertainty.
+# Drive control's distance from the border for a pose without uncertainty.
 GAP_M = 0.05
 
 

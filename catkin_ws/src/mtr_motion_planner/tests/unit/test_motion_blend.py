@@ -1,4 +1,4 @@
-"""Turns that overlap with the drive between them are quicker, end at the goal and keep every limit."""
+"""Turns that overlap with the drive between them are quicker, end at the goal and respect every limit."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -18,7 +18,7 @@ from mtr_motion_planner.timing.speeds import SAMPLE_S
 
 LIMITS = PARAMETERS.limits
 START = Pose2(0.0, -6.0, 0.0)
-# Ahead of the start there is nothing; each of these needs a turn at the start, at the end or at both.
+# No goal is straight ahead of the start; each needs a turn at the start, at the end or at both.
 ENDS = (Pose2(1.5, -3.0, 1.1), Pose2(0.0, -3.0, 0.0), Pose2(3.0, -4.0, 2.0), Pose2(-0.5, -4.8, 0.3))
 
 
@@ -28,7 +28,7 @@ def planned(end, speed=0.7):
 
 
 def one_after_the_other(end, speed=0.7):
-    """Time of turn, straight drive and turn, forwards or backwards."""
+    """Return the time of turn, straight drive and turn, forwards or backwards."""
     towards = math.atan2(end.y - START.y, end.x - START.x)
     drive = rest_to_rest_time(START.distance_to(end), speed, LIMITS.acceleration_mps2, LIMITS.ramp_s)
     turns = ((wrap_angle(way - START.heading), wrap_angle(end.heading - way)) for way in (towards, towards + math.pi))

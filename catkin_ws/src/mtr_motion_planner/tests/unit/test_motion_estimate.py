@@ -1,4 +1,4 @@
-"""The quick guess of a route's time is close to the time of the motion that is worked out of it."""
+"""The quick estimate of a route's time is close to the time of the planned motion."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -14,7 +14,7 @@ RADIUS_M = 0.45
 
 
 @pytest.mark.parametrize("end, turns", [
-    # The turn at the end is driven at the speed limit; the one at the start, being short, is not.
+    # The turn at the end is driven at the speed limit; the one at the start is too short for it.
     (Pose2(6.0, 1.0, 1.2), (1, 1)), (Pose2(6.0, -0.5, -1.5), (-1, -1)), (Pose2(3.0, 3.0, 1.5), (1, 1))])
 def test_estimate_is_the_time_of_the_motion_within_a_tenth(end, turns):
     shape, speed, start = RouteShape(RADIUS_M * turns[0], RADIUS_M * turns[1]), 0.5, Pose2(0.0, 0.0, 0.0)

@@ -1,4 +1,4 @@
-"""Without a rear LiDAR the robot drives straight ahead before it turns on ground that it has not seen lately."""
+"""Without a rear LiDAR the robot drives straight ahead before it turns over ground that was not seen recently."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -16,7 +16,7 @@ REST_S = MEMORY_S + 1.0
 
 
 def straight_m(robot, begun):
-    """How far the robot was sent straight ahead from an output on before it was sent into a turn or back, m."""
+    """Return the commanded distance straight ahead from an output on, before the first turn or reverse, m."""
     way_m = 0.0
     for output in robot.outputs[begun:]:
         if output.angular_radps != 0.0 or output.linear_mps < 0.0:

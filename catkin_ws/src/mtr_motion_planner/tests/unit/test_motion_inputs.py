@@ -1,4 +1,4 @@
-"""Bad input never moves the robot, bad parameters never start the node."""
+"""Bad inputs never move the robot, and bad parameters never start the node."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""Mirrors, which no LiDAR sees: the key stays away from the Car's sides, beside which they stand out."""
+"""Mirrors are invisible to LiDARs: the key keeps a distance from the Car's sides that includes them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -14,21 +14,21 @@ from mtr_motion_planner.geometry.keep_out import KeepOut, rows_of
 from mtr_motion_planner.inputs import RobotState
 
 SIDE_M = 0.9
-# Mirrors of the simulated Car, see car_body.py of mtr_simulation; a mirror may stand out by 0.25 m.
+# Mirrors of the simulated Car, see car_body.py of mtr_simulation; a mirror may protrude by 0.25 m.
 MIRROR_X_M, MIRROR_OUT_M = 0.75, 0.18
 MAX_MIRROR_OUT_M = 0.25
-# Of the key's front and of the key, from base_link; see the URDF.
+# Distances of the key's front and of the key from base_link, see the URDF.
 KEY_FRONT_M, KEY_M = 0.27, 0.25
 CAR_POSES = [Pose2(0.0, 0.0, 0.0), Pose2(7.0, -3.0, 2.0)]
 
 
 def facing_left_side(gap_m, x=MIRROR_X_M, key_m=KEY_FRONT_M):
-    """x, y, heading in degrees of base_link with the key so far from the Car's left side."""
+    """Return x, y, heading in degrees of base_link with the key at this gap from the Car's left side."""
     return x, SIDE_M + gap_m + key_m, -90.0
 
 
 def gaps_beside(robot):
-    """Of the key's front from the Car's sides, wherever it is beside them."""
+    """Return the gaps between the key's front and the Car's sides at all poses next to a side."""
     fronts = [robot.car.pose.inverse() @ pose @ Pose2(KEY_FRONT_M, 0.0, 0.0) for pose in robot.poses]
     return [abs(front.y) - SIDE_M for front in fronts if abs(front.x) < 2.25]
 

@@ -1,4 +1,4 @@
-"""Outline, test area and collision stop: where the robot must not go, and what it says about it."""
+"""Outline, test area and collision stop: forbidden areas, and the reported sentences."""
 # SPDX-License-Identifier: Apache-2.0
 import dataclasses
 import math
@@ -21,7 +21,7 @@ from mtr_motion_planner.search.options import Target
 from mtr_motion_planner.search.planning import Planning
 from mtr_motion_planner.timing.plan import Moving
 
-TEST_AREA = (-7.0, -7.0, 7.0, -7.0, 7.0, 1.5, -7.0, 1.5)  # on the Car's left there is no room to pass
+TEST_AREA = (-7.0, -7.0, 7.0, -7.0, 7.0, 1.5, -7.0, 1.5)  # no room to pass on the Car's left
 FENCED = dataclasses.replace(PARAMETERS, margins=Margins(geofence_xy=TEST_AREA))
 
 
@@ -144,7 +144,7 @@ def test_blind_lidar_is_reported_in_drive_controls_words():
 
 
 def test_robot_that_does_not_move_rests_before_each_further_attempt():
-    """Drive control's lock for a base that stands still goes only when nobody has wanted to move for a second."""
+    """Drive control resets its lock for an unresponsive base only after one second without a motion request."""
     robot = SimulatedRobot(Pose2(0.0, -6.0, math.radians(90.0)))
     robot.go(1, 0.0, -3.0, 90.0)
     robot.run_for(2.0)

@@ -1,4 +1,4 @@
-"""The motion planner with a simulated robot: it arrives, exactly, and never touches the Car."""
+"""The motion planner with a simulated robot: it arrives precisely and never touches the Car."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -11,7 +11,7 @@ from mtr_core.states import Direction, Result
 AROUND = [(4.0, 0.0, 180.0), (4.0, -3.0, 140.0), (0.0, -4.0, 90.0), (-5.0, -2.0, 20.0), (-4.0, 0.0, 0.0),
           (-1.0, 3.0, -90.0), (3.0, 3.0, -135.0), (1.5, -1.6, 90.0), (-3.1, 0.3, 0.0)]
 
-# What drive control lets pass: 1.0 m/s2 in 40 ms.
+# Limit of drive control: 1.0 m/s2 in 40 ms.
 MAX_STEP_MPS = 0.04 + 1e-6
 
 

@@ -1,4 +1,4 @@
-"""The robot is slower the less it knows its own position, and as fast as ever at the usual uncertainty."""
+"""The robot slows down with an uncertain position, and is not slowed at the usual uncertainty."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -57,7 +57,7 @@ def test_limit_falls_at_once_and_rises_by_two_steps():
 
 
 def sigma_of(speed_mps):
-    """1 sigma at which the robot may just drive so fast."""
+    """Return the largest 1 sigma at which the robot may drive at this speed."""
     return 0.5 * (MARGIN_M - LIMITS.stopping_distance(speed_mps))
 
 

@@ -1,4 +1,4 @@
-"""A moving robot follows its old plan until the new one is due; the newest goal wins; a late plan stops it."""
+"""A moving robot follows its old plan until the new one is due; the newest goal wins; a late plan stops the robot."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pickle
@@ -16,24 +16,24 @@ START = Pose2(4.0, 2.6, math.radians(-147.0))
 
 
 class Later(Executor):
-    """Does its work when a test says so, with copies that pickle makes, as another process does."""
+    """Does its work when the test requests it, with pickled copies, like another process."""
 
     def __init__(self):
         self.jobs = []
 
     def submit(self, work, *arguments, **named):
-        """Remember it."""
+        """Store the job."""
         self.jobs.append((Future(), *pickle.loads(pickle.dumps((work, arguments, named)))))
         return self.jobs[-1][0]
 
     def work(self, which=-1):
-        """Do one job."""
+        """Execute one job."""
         done, work, arguments, named = self.jobs[which]
         if not done.cancelled():
             done.set_result(pickle.loads(pickle.dumps(work(*arguments, **named))))
 
     def fail(self, error):
-        """The newest job ends by an error."""
+        """End the newest job with an error."""
         if not self.jobs[-1][0].done():
             self.jobs[-1][0].set_exception(pickle.loads(pickle.dumps(error)))
 
@@ -122,7 +122,7 @@ def test_defect_in_planning_refuses_the_goal_and_the_next_one_is_reached(robot, 
     robot.go(2, -4.5, -2.5, 30.0)
     robot.tick()
     later.fail(error)
-    # While it brakes it tries once more.
+    # It tries again while it brakes.
     robot.run_for(LEAD_S + 2.0)
     later.fail(error)
     output = robot.run_for(2.0)

@@ -1,4 +1,4 @@
-"""Curves and their timing end where they must and keep every limit."""
+"""Curves and their timing end at the goal and respect every limit."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -15,7 +15,7 @@ from mtr_motion_planner.timing.speeds import SAMPLE_S
 
 LIMITS = MotionLimits()
 NO_SLIP = Slip(0.0, 0.0, 0.0)
-# End, and the senses of the turns out of the start and into it.
+# End, and the directions of the turns out of the start and into the end.
 ENDS = {Pose2(3.0, 0.5, 0.0): (1, -1), Pose2(3.0, 3.0, 1.5): (1, 1), Pose2(2.0, -2.0, -0.4): (-1, 1),
         Pose2(4.0, 0.2, 0.1): (1, 1), Pose2(3.0, 1.5, 0.0): (1, -1), Pose2(3.0, 0.0, 0.0): (1, 1),
         Pose2(0.5, 0.0, 0.0): (1, 1)}
@@ -58,7 +58,7 @@ def test_trajectory_keeps_all_limits_and_ends_at_rest(end, speed):
     assert speeds.min() > -1e-9
     assert speeds.max() <= speed + 1e-6
     assert np.abs(np.diff(speeds)).max() / SAMPLE_S <= LIMITS.acceleration_mps2 * 1.02
-    # Twice the limit where braking follows at once on getting faster.
+    # Twice the limit if braking immediately follows acceleration.
     assert np.abs(np.diff(speeds, 2)).max() / SAMPLE_S ** 2 <= 2.0 * LIMITS.jerk_mps3 * 1.02
     assert np.abs(rates).max() <= LIMITS.max_angular_radps * 1.03
     assert np.abs(np.diff(rates)).max() / SAMPLE_S <= LIMITS.angular_acceleration_radps2 * 1.25

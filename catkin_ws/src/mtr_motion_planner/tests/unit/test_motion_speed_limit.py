@@ -1,4 +1,4 @@
-"""The robot never exceeds its speed limit, also when it was slowed from outside and lags behind its reference."""
+"""The robot never exceeds its speed limit, even if it was slowed externally and lags behind its reference."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -20,7 +20,7 @@ WAYS = {"axis": ((0.0, -6.0, 90.0), (0.0, -1.65, 90.0, Direction.FORWARD)),
 
 
 def slow_downs(seed, base_mps):
-    """Cap of the base's speed at each tick: in turn none, and a random share of the limit."""
+    """Yield the cap of the base's speed at each tick: alternately none, and a random share of the limit."""
     dice = random.Random(seed)
     while True:
         for cap, duration_s in ((math.inf, dice.uniform(0.2, 2.0)),
@@ -30,7 +30,7 @@ def slow_downs(seed, base_mps):
 
 
 def driven(way, limit_mps, caps):
-    """Robot after its way with these caps, which end after a while so that it arrives."""
+    """Return the robot after a drive with these caps, which end after a while so that it arrives."""
     (x, y, heading_deg), goal = WAYS[way]
     robot = SimulatedRobot(Pose2(x, y, math.radians(heading_deg)))
     robot.max_speed = limit_mps

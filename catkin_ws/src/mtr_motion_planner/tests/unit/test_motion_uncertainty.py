@@ -1,4 +1,4 @@
-"""The robot stays away from where the Car may be: the keep-out area grows by the Car's uncertainty and its own."""
+"""The keep-out area grows by the uncertainty of the Car and of the robot."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -22,8 +22,8 @@ from mtr_motion_planner.inputs import InputsUnusable, RobotState, SideSigmas, si
 from mtr_motion_planner.parameters import Margins, MotionParameters
 
 CAR_POSES = [Pose2(0.0, 0.0, 0.0), Pose2(7.0, -3.0, 2.0)]
-# base_link with the key at a distance from each side, x, y and heading in degrees of the Car's frame; the key is 0.25 m
-# ahead of base_link.
+# Pose of base_link for a key at a distance from each side: x, y and heading in degrees in the Car's frame; the key is
+# 0.25 m ahead of base_link.
 KEY_M = 0.25
 SIDES = {"front": lambda gap: (2.25 + gap + KEY_M, 0.1, 180.0), "rear": lambda gap: (-2.25 - gap - KEY_M, 0.1, 0.0),
          "left": lambda gap: (0.3, 0.9 + gap + KEY_M, -90.0), "right": lambda gap: (0.3, -0.9 - gap - KEY_M, 90.0)}
@@ -32,7 +32,7 @@ DATA_SHEET = SideSigmas(0.007, 0.009, 0.005, 0.005)
 
 
 def robot_beside(side, gap_m, car, **changed):
-    """A robot that is sent with its key so far from a side of the Car."""
+    """Return a robot with a goal at which its key is at this distance from a side of the Car."""
     robot = SimulatedRobot(car.pose @ Pose2(3.5, 3.0, math.radians(-135.0)), car)
     robot.go(1, *SIDES[side](gap_m), Direction.FORWARD)
     for name, value in changed.items():

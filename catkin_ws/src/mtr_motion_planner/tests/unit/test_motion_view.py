@@ -1,4 +1,4 @@
-"""Goals from rviz, and what rviz is shown."""
+"""Goals from rviz, and markers for rviz."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

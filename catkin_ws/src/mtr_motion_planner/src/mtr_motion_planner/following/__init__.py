@@ -1,2 +1,2 @@
-"""The velocity that keeps the robot on its plan, and what stops it."""
+"""The velocity that keeps the robot on its plan, and the checks that stop it."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Follows a plan part by part; waits for a robot that is held and times the rest anew."""
+"""Follows a plan part by part; waits for a robot that is held up, and then retimes the rest."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -14,22 +14,22 @@ from ..timing.trajectory import Reference
 from .tolerance import miss_of
 from .tracking import DELAY_S, Velocity, deviation, tracked
 
-# The reference waits for a robot that lags by more than this, and the rest is timed anew from the robot's own speed.
+# The reference waits for a robot that lags by more than this; the rest is then retimed from the robot's own speed.
 LAG_M, LAG_RAD = 0.08, 0.15
 RETIME_AFTER_S = 0.2
-# Farther away than this from its reference the robot needs another plan.
+# At a larger distance from its reference the robot needs another plan.
 LOST_ALONG_M, LOST_ACROSS_M, LOST_RAD = 0.40, 0.15, math.radians(25.0)
-# A robot slower than this stands.
+# A slower robot counts as stopped.
 STANDING_MPS, STANDING_RADPS = 0.02, 0.03
-# After the end of the last trajectory the controller has so long to take out what is left.
+# Time of the controller after the end of the last trajectory to remove the remaining error.
 SETTLE_S = 0.8
-# So much way is said to remain while the robot still turns on the spot.
+# Reported remaining distance while the robot still turns on the spot.
 MIN_REMAINING_M = 0.001
 
 
 @dataclass(frozen=True)
 class FollowerOutput:
-    """Velocity now, what is left of the way (0: the reference has arrived), and what became of the plan."""
+    """Velocity, remaining distance (0: the reference has arrived), and result of the plan."""
 
     velocity: Velocity
     remaining_m: float
@@ -38,7 +38,7 @@ class FollowerOutput:
 
 
 def stands(robot: RobotState) -> bool:
-    """True when the robot does not move."""
+    """Return True if the robot is stopped."""
     return abs(robot.speed_mps) < STANDING_MPS and abs(robot.yaw_rate_radps) < STANDING_RADPS
 
 
@@ -46,7 +46,7 @@ class Follower:
     """Reference of a plan and the velocity that follows it; all poses in the plan's frame.
 
     Attributes:
-        plan: what is followed.
+        plan: the followed plan.
     """
 
     def __init__(self, plan: Plan, parameters: MotionParameters, speed: float):
@@ -63,25 +63,25 @@ class Follower:
 
     @property
     def remaining_m(self) -> float:
-        """What is left of the way; 0 when the reference has arrived."""
+        """Remaining distance in m; 0 if the reference has arrived."""
         if self._part is None or self._is_over():
             return 0.0
         done = 0.0 if self._part.is_on_the_spot else self.reference().way
         return max(self._part.trajectory.length_m - done + self.plan.length_after(self._index), MIN_REMAINING_M)
 
     def reference(self, ahead_s: float = 0.0) -> Reference:
-        """Where the robot is to be."""
+        """Return the reference now, or after a time within the present part."""
         if self._part is None:
             return Reference(self.plan.goal, 0.0, 0.0, 0.0)
         return self._part.trajectory.at(self._time_s + ahead_s)
 
     def moving(self, ahead_s: float = 0.0) -> Moving:
-        """The reference as the beginning of another plan."""
+        """Return the reference as the start of another plan."""
         then = self._later(ahead_s)
         return Moving(then.pose, then.linear_mps, then.angular_radps)
 
     def _later(self, ahead_s: float) -> Reference:
-        """The reference after a time in which the robot keeps up with it, in the next parts too."""
+        """Return the reference after a time in which the robot keeps up with it, also in the next parts."""
         index, time_s = self._index, self._time_s + ahead_s
         part = self._part
         while part is not None and time_s >= part.trajectory.duration_s and index + 1 < len(self.plan.parts):
@@ -91,12 +91,12 @@ class Follower:
         return self.reference() if part is None else part.trajectory.at(time_s)
 
     def is_near(self, pose: Pose2) -> bool:
-        """True when the robot is close enough to its reference to go on from there."""
+        """Return True if the robot is close enough to its reference to continue from there."""
         error = deviation(self.reference(), pose)
         return abs(error.x) < LOST_ALONG_M and abs(error.y) < LOST_ACROSS_M and abs(error.heading) < LOST_RAD
 
     def set_speed(self, speed: float) -> bool:
-        """Change the speed limit; False when only another plan can keep it."""
+        """Change the speed limit; return False if this requires another plan."""
         if speed == self._speed or self._part is None:
             return True
         self._speed = speed
@@ -107,7 +107,7 @@ class Follower:
         return self._retime(self._part, now.way, abs(present))
 
     def step(self, pose: Pose2, robot: RobotState, passed_s: float) -> FollowerOutput:
-        """Velocity now, passed_s after the last step."""
+        """Return the velocity, passed_s after the last step."""
         if not self.is_near(pose):
             return FollowerOutput(Velocity(), self.remaining_m, lost=True)
         if self._part is not None:

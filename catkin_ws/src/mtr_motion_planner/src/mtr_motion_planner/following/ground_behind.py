@@ -1,4 +1,4 @@
-"""Has the front LiDAR seen the ground that a turn sweeps behind the robot? For a robot without a rear LiDAR."""
+"""Checks that the front LiDAR has seen the ground behind the robot that a turn sweeps, for one without a rear LiDAR."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from collections import deque
@@ -6,9 +6,9 @@ from typing import Deque, NamedTuple
 
 from mtr_core.se2 import Pose2
 
-# Drive control uses ground that was seen free for 20 s, its ground_memory_s.
+# Drive control trusts ground for 20 s after it was seen free, its ground_memory_s.
 MEMORY_S = 15.0
-# After NEEDED_M straight ahead all ground behind the robot was seen or occupied by it; AHEAD_M is driven.
+# After NEEDED_M straight ahead all ground behind the robot was seen, or occupied by it; the robot drives AHEAD_M.
 NEEDED_M, AHEAD_M = 0.4, 0.5
 ASIDE_M, TURNED_RAD = 0.05, 0.1
 STEP_M = 0.05
@@ -38,7 +38,7 @@ class GroundBehind:
             self._way.append(_Passed(pose, now_s))
 
     def is_seen(self, now_s: float) -> bool:
-        """True when the robot may turn on ground that was seen free lately."""
+        """Return True if the robot may turn, because the ground was recently seen free."""
         return now_s - self._seen_s <= MEMORY_S
 
 

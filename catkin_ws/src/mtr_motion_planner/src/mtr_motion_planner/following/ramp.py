@@ -1,4 +1,4 @@
-"""The commanded velocity: it changes within the limits of drive control and never runs away from the measured one."""
+"""The commanded velocity, within drive control's acceleration limits and close to the measured velocity."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
 
@@ -6,13 +6,13 @@ from ..inputs import RobotState
 from ..limits import MotionLimits
 from .tracking import Velocity
 
-# A robot that is stopped from outside (drive control, a wheel block) must not be left with a command that has wound up.
+# A command must not wind up while the robot is stopped externally (drive control, a wheel block).
 LEAD_MPS, LEAD_RADPS = 0.3, 0.8
 PERIOD_S = 0.04
-# A gap between ticks counts as at most this.
+# Upper limit of the assumed time between two ticks.
 MAX_STEP_S = 0.1
 STILL_MPS, STILL_RADPS = 0.02, 0.05
-# The controller may add to the planned accelerations; with the defaults this is what drive control lets pass.
+# The controller may exceed the planned accelerations; with the defaults these are drive control's limits.
 LINEAR_SHARE, ANGULAR_SHARE = 1.25, 1.4
 
 
@@ -34,7 +34,7 @@ class Ramp:
 
     @property
     def is_still(self) -> bool:
-        """True when nothing is commanded any more."""
+        """True when the command is zero or almost zero."""
         return abs(self.linear_mps) < STILL_MPS and abs(self.angular_radps) < STILL_RADPS
 
     def begin(self, now_s: float, robot: RobotState) -> None:
@@ -46,14 +46,14 @@ class Ramp:
         self.angular_radps = robot.yaw_rate_radps + _clamp(self.angular_radps - robot.yaw_rate_radps, LEAD_RADPS)
 
     def drive(self, wanted: Velocity) -> None:
-        """Move towards the wanted velocity."""
+        """Change the command towards the wanted velocity."""
         linear = LINEAR_SHARE * self._limits.acceleration_mps2 * self.step_s
         angular = ANGULAR_SHARE * self._limits.angular_acceleration_radps2 * self.step_s
         self.linear_mps += _clamp(wanted.linear_mps - self.linear_mps, linear)
         self.angular_radps += _clamp(wanted.angular_radps - self.angular_radps, angular)
 
     def brake(self) -> None:
-        """Move towards standstill on the present curve."""
+        """Decelerate to a stop on the present curve."""
         step = self._limits.acceleration_mps2 * self.step_s
         kept = max(0.0, 1.0 - step / abs(self.linear_mps)) if self.linear_mps else 0.0
         angular = self.angular_radps - _clamp(
@@ -63,7 +63,7 @@ class Ramp:
         self.linear_mps, self.angular_radps = self.linear_mps * kept, angular
 
     def drop(self) -> None:
-        """Command zero at once: there is nothing to control by."""
+        """Command zero at once, because the inputs for control are missing."""
         self.linear_mps = self.angular_radps = 0.0
         self._last_s = None
 

@@ -1,4 +1,4 @@
-"""How far the robot stands from its goal, and what that means."""
+"""Distance of the robot from its goal, and the resulting verdict."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -10,10 +10,10 @@ from mtr_core.se2 import Pose2
 from .. import problems
 from ..parameters import Arrival
 
-# This is near enough for a measurement, though not within tolerance, when no correction helped.
+# Out of tolerance, but near enough for a measurement if no correction helped.
 NEAR_M = 0.10
 NEAR_RAD = math.radians(5.0)
-# A robot that was moved this far after it had settled is led back.
+# A robot that was displaced this far after it had settled drives back.
 DISPLACED_M = 0.15
 DISPLACED_RAD = math.radians(5.0)
 
@@ -33,7 +33,7 @@ class Miss:
 
 
 def miss_of(goal: Pose2, pose: Pose2, arrival: Arrival) -> Miss:
-    """How far pose is from goal."""
+    """Return the distance and heading error of pose at goal."""
     at = goal.inverse() @ pose
     within = (abs(at.x) <= arrival.goal_along_m and abs(at.y) <= arrival.goal_across_m
               and abs(at.heading) <= arrival.goal_heading_rad)
@@ -41,13 +41,13 @@ def miss_of(goal: Pose2, pose: Pose2, arrival: Arrival) -> Miss:
 
 
 def problem_of_miss(miss: Miss, corrections: int) -> Problem:
-    """What a person should know about it."""
+    """Return the sentence for the Operator."""
     return problems.OFF_GOAL(corrections=corrections, distance_m=miss.distance_m,
                              turn_deg=math.degrees(abs(miss.heading_rad)))
 
 
 def was_displaced(settled_at: Optional[Pose2], pose: Pose2) -> bool:
-    """True when the robot no longer stands where it had settled."""
+    """Return True if the robot is no longer at the pose at which it had settled."""
     if settled_at is None:
         return True
     moved = settled_at.inverse() @ pose

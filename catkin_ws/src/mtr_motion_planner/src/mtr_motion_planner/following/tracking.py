@@ -12,18 +12,18 @@ from mtr_core.se2 import Pose2
 
 from ..timing.trajectory import Reference
 
-# So long after a pose the velocity computed from it takes effect: half of the planner's period, one tick of drive
-# control, and the wheels' response.
+# Delay from a pose until its velocity takes effect: half of the planner's period, one tick of drive control, and the
+# response of the wheels.
 DELAY_S = 0.06
 ALONG_GAIN_PER_S = 2.0
 HEADING_GAIN_PER_S = 5.5
-# An offset decays over this length, at higher speeds over more, as the loop's delay bounds the gain.
+# An offset decays over this length, at higher speeds over a longer one, because the loop's delay limits the gain.
 OFFSET_LENGTH_M = 0.2
 MAX_HEADING_GAIN_PER_S = 6.0
-# Feedback is bounded: a jump of the pose must not become a jump of the robot.
+# Feedback is limited, so that a jump of the pose does not cause a jump of the robot.
 FEEDBACK_MPS, FEEDBACK_RADPS = 0.15, 0.6
 MAX_OFFSET_M = 0.10
-# At a reference that stands nothing is corrected below these; the robot would only rock to and fro.
+# No correction below these at a stopped reference; the robot would only oscillate.
 DEAD_M, DEAD_RAD = 0.007, math.radians(0.25)
 
 
@@ -36,7 +36,7 @@ class Velocity:
 
 
 def deviation(reference: Reference, pose: Pose2) -> Pose2:
-    """Reference seen from the robot."""
+    """Return the reference as seen from the robot."""
     return pose.inverse() @ reference.pose
 
 
@@ -54,7 +54,7 @@ class Tracking:
 
 
 def tracked(reference: Reference, ahead: Reference, pose: Pose2, limit_mps: float) -> Tracking:
-    """Velocity that follows the reference; ahead is the reference DELAY_S later.
+    """Return the velocity that follows the reference; ahead is the reference DELAY_S later.
 
     The commanded speed never exceeds limit_mps, unless the reference itself is still braking to it.
     """
@@ -69,7 +69,7 @@ def tracked(reference: Reference, ahead: Reference, pose: Pose2, limit_mps: floa
     offset = _clamp(error.y, MAX_OFFSET_M) * _sinc(error.heading) / length ** 2
     turning = _clamp(gain * error.heading + speed * offset, FEEDBACK_RADPS)
     linear = speed * math.cos(error.heading) + along
-    # A robot that is ahead of its reference waits for it; it does not go back.
+    # A robot ahead of its reference waits for it, but does not reverse.
     linear = linear if linear * speed >= 0.0 else 0.0
     pace = min(1.0, bound / abs(linear)) if linear else 1.0
     return Tracking(Velocity(pace * linear, ahead.angular_radps + turning), pace)

@@ -1,4 +1,4 @@
-"""Watches the motion: a robot that is held, and one that is about to touch the Car."""
+"""Monitors the motion for a robot that is held up, and for one that is about to touch the Car."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Optional
@@ -15,36 +15,36 @@ from ..parameters import MotionParameters
 from .tracking import DELAY_S, Velocity
 
 STALL_AFTER_S = 2.0
-# Drive control forgets that the base did not follow when nobody has wanted to move for a second (kRestS).
+# Drive control resets its lock for an unresponsive base after one second without a motion request (kRestS).
 REST_S = 2.0
 MOVED_M, MOVED_RAD = 0.01, math.radians(1.0)
-# The plan keeps the margins; half of the footprint's is left for errors of control before the robot is stopped.
+# The plan keeps the margins; half of the footprint's margin is reserved for control errors before the robot is stopped.
 GUARD_SHARE = 0.5
-# A pose that leaves more room than the present one may be driven to from anywhere.
+# A pose with more room than the present one may be approached from anywhere.
 OPENING_M = 0.002
 SIDES = ((math.radians(45.0), "ahead"), (math.radians(135.0), "to the left"), (math.radians(180.0), "behind"))
 
 
 class StallWatch:
-    """Notices that the robot does not follow the command, and lets it rest between one attempt and the next."""
+    """Detects that the robot does not follow the command, and inserts a rest between two attempts."""
 
     def __init__(self) -> None:
         self._since_s: Optional[float] = None
         self._from: Optional[Pose2] = None
 
     def reset(self) -> None:
-        """Forget what was seen."""
+        """Reset the observation."""
         self._since_s = self._from = None
 
     def stalls(self, pose: Pose2, is_wanted: bool, now_s: float) -> bool:
-        """True when motion has been wanted for a while and the pose stayed."""
+        """Return True if motion was requested for a while without a change of the pose."""
         if not is_wanted or self._from is None or self._since_s is None or _has_moved(self._from, pose):
             self._since_s, self._from = now_s, pose
             return False
         return now_s - self._since_s > STALL_AFTER_S
 
     def rests(self, now_s: float) -> bool:
-        """True for a while after each attempt to move of which nothing came."""
+        """Return True for a while after each attempt to move that had no effect."""
         since_s = now_s if self._since_s is None else self._since_s + STALL_AFTER_S
         return now_s > since_s and (now_s - since_s) % (REST_S + STALL_AFTER_S) < REST_S
 
@@ -56,7 +56,7 @@ def _has_moved(before: Pose2, now: Pose2) -> bool:
 
 def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: Velocity, parameters: MotionParameters
                     ) -> bool:
-    """True when the robot, braking now, would come too close to the Car and closer than it is."""
+    """Return True if the robot, braking now, would come too close to the Car and closer than it is."""
     speed = max(abs(robot.speed_mps), abs(wanted.linear_mps) * 0.1)
     reach = speed ** 2 / (2.0 * parameters.limits.acceleration_mps2) + speed * DELAY_S
     if wanted.linear_mps == 0.0 or keep_out.turn_distance(pose) > keep_out.robot.radius_m + reach + 0.1:
@@ -68,7 +68,7 @@ def is_heading_into(keep_out: KeepOut, pose: Pose2, robot: RobotState, wanted: V
 
 
 def problem_of_drive(drive: CollisionStop) -> Problem:
-    """What a person should know about drive control's collision stop; no problem when the way is free."""
+    """Return the sentence about drive control's collision stop; no problem if the path is free."""
     if drive.zone == Zone.CLEAR:
         return NO_PROBLEM
     if drive.zone == Zone.BLIND:

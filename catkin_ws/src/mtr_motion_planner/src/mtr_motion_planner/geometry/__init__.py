@@ -1,2 +1,2 @@
-"""Circles, routes and curves, and what they have to stay away from."""
+"""Circles, routes and curves, and the areas that they have to avoid."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,7 @@
 """Oriented circles and the straight lines that join them.
 
-A circle's signed radius says how the robot passes it: positive in a left turn, negative in a right turn, 0 is a point.
+The signed radius of a circle gives the direction: positive for a left turn, negative for a right turn, 0 for a
+point.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -10,7 +11,7 @@ from typing import Optional, Tuple
 from mtr_core.se2 import Pose2, wrap_angle
 
 TURN = 2.0 * math.pi
-# A turn that is longer than a whole one by rounding is no turn.
+# A turn that is longer than 360 degrees only by rounding counts as no turn.
 ROUNDING_RAD = 1e-6
 
 
@@ -23,11 +24,11 @@ class Circle:
     radius: float
 
     def point(self, direction: float) -> Tuple[float, float]:
-        """Where the robot is on it while it travels in a direction."""
+        """Return the robot's position on the circle at a direction of travel."""
         return self.x + self.radius * math.sin(direction), self.y - self.radius * math.cos(direction)
 
     def turn(self, before: float, after: float) -> float:
-        """Signed angle that the robot turns on it between two directions of travel."""
+        """Return the signed angle of the turn on the circle between two directions of travel."""
         if self.radius == 0.0:
             return wrap_angle(after - before)
         sign = math.copysign(1.0, self.radius)
@@ -37,12 +38,12 @@ class Circle:
 
 
 def circle_through(pose: Pose2, radius: float) -> Circle:
-    """Circle on which the robot is when it stands at the pose."""
+    """Return the circle of this radius on which a robot at the pose drives."""
     return Circle(pose.x - radius * math.sin(pose.heading), pose.y + radius * math.cos(pose.heading), radius)
 
 
 def tangent(first: Circle, second: Circle) -> Optional[Tuple[float, float]]:
-    """Direction and length of the straight line from one circle to the next, None when there is none."""
+    """Return direction and length of the straight line from one circle to the next, or None."""
     dx, dy = second.x - first.x, second.y - first.y
     distance, offset = math.hypot(dx, dy), second.radius - first.radius
     if distance < abs(offset) or distance < 1e-9:

@@ -1,4 +1,4 @@
-"""A curve that the robot can follow without a stop: its curvature changes linearly between breakpoints."""
+"""A curve that the robot can follow without a stop: the curvature is piecewise linear in the distance."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -22,7 +22,7 @@ class CurvePiece:
 
 @dataclass(frozen=True)
 class Curve:
-    """Samples (n,) at equal distances along the way, in the frame of the plan.
+    """Samples (n,) at equal distances along the path, in the frame of the plan.
 
     Attributes:
         step_m: distance between two samples.
@@ -56,12 +56,12 @@ class Curve:
 
 
     def after(self, first: int) -> "Curve":
-        """The rest from a sample on."""
+        """Return the rest from a sample on."""
         return Curve(self.step_m, self.x[first:], self.y[first:], self.heading[first:], self.curvature[first:],
                      self.bend[first:])
 
     def slid(self, aside: FloatArray) -> "Curve":
-        """The same headings and curvatures, on a way that goes to the left by a length in each step between samples."""
+        """Return the curve with the same headings, shifted to the left by a length in each step between samples."""
         steps = np.diff(self.x) + 1j * np.diff(self.y)
         steps = steps + aside * np.exp(0.5j * (self.heading[1:] + self.heading[:-1] + math.pi))
         places = np.concatenate(([0.0], np.cumsum(steps)))
@@ -70,7 +70,7 @@ class Curve:
 
 
 def merged(pieces: Sequence[CurvePiece], gap_m: float) -> List[CurvePiece]:
-    """Pieces without empty ones; arcs of the same sense with a short straight line between them become one."""
+    """Return the pieces without empty ones; arcs of the same sense with a short line between them become one."""
     kept: List[CurvePiece] = []
     for piece in pieces:
         if piece.length < 1e-6:
@@ -92,10 +92,10 @@ def _one_arc(pieces: Sequence[CurvePiece]) -> CurvePiece:
 
 def breakpoints(pieces: Sequence[CurvePiece], widths: Sequence[float], first_curvature: float
                 ) -> Tuple[List[float], List[float]]:
-    """Distances and curvatures between which the curvature is linear.
+    """Return distances and curvatures between which the curvature is linear.
 
-    widths has one entry for the beginning, where the curvature comes from first_curvature, and one for each joint.
-    A ramp lies half on each side of its joint, which keeps the angle turned; pieces too short for it shorten it.
+    widths has one entry for the start, where the curvature comes from first_curvature, and one for each joint. A ramp
+    is centred on its joint, which preserves the turned angle; pieces that are too short shorten it.
     """
     lengths = [piece.length for piece in pieces]
     distances, values = [0.0], [first_curvature]
@@ -118,13 +118,13 @@ def breakpoints(pieces: Sequence[CurvePiece], widths: Sequence[float], first_cur
 
 
 def trace(start: Pose2, distances: Sequence[float], values: Sequence[float]) -> Curve:
-    """Samples of the curve that begins at the pose."""
+    """Return samples of the curve that starts at the pose."""
     steps = max(2, math.ceil(distances[-1] / STEP_M))
     step = distances[-1] / steps
     along = np.linspace(0.0, distances[-1], steps + 1)
     curvature = np.interp(along, distances, values)
     middle = np.interp(along[:-1] + 0.5 * step, distances, values)
-    # Simpson's rule is exact for the angle inside one clothoid; the chord's direction is that of its middle.
+    # Simpson's rule is exact for the angle inside one clothoid; the chord has the direction of its middle.
     turned = (curvature[:-1] + 4.0 * middle + curvature[1:]) * (step / 6.0)
     heading = start.heading + np.concatenate(([0.0], np.cumsum(turned)))
     chord = heading[:-1] + 0.5 * turned + (curvature[:-1] - curvature[1:]) * (step / 12.0)

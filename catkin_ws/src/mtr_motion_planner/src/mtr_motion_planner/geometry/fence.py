@@ -1,4 +1,4 @@
-"""The bound of the test area: footprint and stopping distance stay inside; poses are those of the turn centre."""
+"""The bound of the test area for footprint and stopping distance; poses are of the turn centre."""
 # SPDX-License-Identifier: Apache-2.0
 import functools
 from typing import Sequence
@@ -17,7 +17,7 @@ from .robot_outline import RobotOutline
 
 
 def corners_of(numbers: Sequence[float]) -> Sequence[Point]:
-    """Points from x, y, x, y, ...; ConfigurationError when they bound no area."""
+    """Return points from x, y, x, y, ...; ConfigurationError if the polygon is invalid."""
     corners = tuple(zip(numbers[::2], numbers[1::2]))
     if corners and not Polygon(corners).is_valid:
         raise ConfigurationError("Parameter geofence_xy crosses itself; allowed is a simple polygon.")
@@ -25,20 +25,20 @@ def corners_of(numbers: Sequence[float]) -> Sequence[Point]:
 
 
 def bound_of(corners: Sequence[Point], margin_m: float = 0.0) -> Polygon:
-    """Area inside these corners and farther than the margin from its border."""
+    """Return the area inside these corners, at least the margin away from the border."""
     polygon = Polygon(corners)
     return polygon.buffer(-margin_m, join_style=JOIN_STYLE.mitre) if margin_m else polygon
 
 
 class Fence:
-    """Common part of areas in the frame of the plan."""
+    """The intersection of areas in the frame of the plan."""
 
     def __init__(self, bounds: Sequence[Polygon], robot: RobotOutline, limits: MotionLimits):
         self._area = prep(functools.reduce(lambda one, other: one.intersection(other), bounds))
         self._robot, self._limits = robot, limits
 
     def holds(self, poses: FloatArray, speeds: FloatArray) -> bool:
-        """True when the robot may have these poses (rows of x, y, heading) at these signed speeds in m/s."""
+        """Return True if the robot may have these poses (rows of x, y, heading) at these signed speeds in m/s."""
         ahead, back, aside = self._robot.front_m, -self._robot.rear_m, self._robot.half_width_m
         reach = speeds * np.abs(speeds) / (2.0 * self._limits.acceleration_mps2)
         cos, sin = np.cos(poses[:, 2]), np.sin(poses[:, 2])
@@ -49,5 +49,5 @@ class Fence:
         return self._area.contains(MultiPoint(np.concatenate(points)))
 
     def holds_pose(self, pose: Pose2) -> bool:
-        """True when the robot may stand there."""
+        """Return True if the robot may stop at the pose."""
         return self.holds(np.array([[pose.x, pose.y, pose.heading]]), np.zeros(1))

@@ -1,4 +1,4 @@
-"""How far beyond its reported outline the Car may be, side by side, by its own uncertainty and the robot's."""
+"""Growth of the Car's reported outline, side by side, by the uncertainty of Car and robot."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple, Tuple
@@ -10,10 +10,10 @@ from shapely.ops import unary_union
 from ..inputs import EstimatedCar, RobotState, SideSigmas
 from ..parameters import Margins
 
-# The robot stays away from where a side of the Car may be within so many sigmas. An end without a data sheet is
-# published where the LiDARs' plane meets it, and its sigma says that it lies farther out by twice as much at most.
+# Number of sigmas by which each side of the Car is moved outwards. Without a data sheet the end of the Car is reported
+# in the LiDARs' plane, and its sigma covers a true end that is at most twice as far out.
 MARGIN_SIGMAS = 2.0
-# An end that is known this well may be approached more closely than what no LiDAR sees there requires.
+# An end known this well may be approached more closely than invisible protrusions require.
 KNOWN_SIGMA_M = 0.02
 
 
@@ -26,7 +26,7 @@ class Growth(NamedTuple):
     right: float = 0.0
 
     def is_more_than(self, other: "Growth", by_m: float) -> bool:
-        """True when a side has grown by more than that against the other."""
+        """Return True if a side has grown by more than this compared with the other."""
         return any(mine > theirs + by_m for mine, theirs in zip(self, other))
 
 
@@ -34,15 +34,15 @@ NO_GROWTH = Growth()
 
 
 class CarBounds(NamedTuple):
-    """What the robot has to know of the Car besides its outline.
+    """Properties of the Car in addition to its outline.
 
     Attributes:
-        growth: what uncertainty adds to each side.
-        fittings: what stands out of the outline, as the laboratory has entered it.
+        growth: growth of each side by uncertainty.
+        fittings: protrusions beyond the outline, as entered by the laboratory.
         front_is_known: the front may be approached more closely than protrusion_m.
-        rear_is_known: the same of the rear.
-        size: length and width of the Car, m; infinite when only its outline is known.
-        own_sigma_m: what of the growth's 1 sigma is the robot's own position.
+        rear_is_known: the same for the rear.
+        size: length and width of the Car, m; infinite if only its outline is known.
+        own_sigma_m: the robot's own position in the 1 sigma of the growth.
     """
 
     growth: Growth = NO_GROWTH
@@ -54,7 +54,7 @@ class CarBounds(NamedTuple):
 
     @property
     def total(self) -> Growth:
-        """How far each side of the outline moves outwards."""
+        """Distance by which each side of the outline moves outwards."""
         return Growth(*(sigma_m + fitting_m for sigma_m, fitting_m in zip(self.growth, self.fittings)))
 
 
@@ -62,9 +62,9 @@ EXACT_BOUNDS = CarBounds()
 
 
 def bounds_of(car: EstimatedCar, robot: RobotState, reach_m: float, margins: Margins) -> CarBounds:
-    """Bounds of a Car for the robot, whose key is reach_m ahead of the point that is planned for.
+    """Return the bounds of a Car for the robot, whose key is reach_m ahead of the planned point.
 
-    The prior outline of a Car that is not located has a margin of its own.
+    The prior outline of a Car that is not located has its own margin.
     """
     fittings = Growth(margins.front_fitting_m, margins.rear_fitting_m)
     if not car.located:
@@ -76,12 +76,12 @@ def bounds_of(car: EstimatedCar, robot: RobotState, reach_m: float, margins: Mar
 
 
 def own_sigma_of(robot: RobotState, reach_m: float) -> float:
-    """1 sigma of where the robot's key is, m."""
+    """Return 1 sigma of the position of the robot's key, m."""
     return math.hypot(robot.position_sigma_m, reach_m * robot.heading_sigma)
 
 
 def sigmas_of(car: EstimatedCar, robot: RobotState, reach_m: float) -> SideSigmas:
-    """1 sigma of the distance between robot and each side of the Car, at the side's corners."""
+    """Return 1 sigma of the distance between the robot and each side of the Car, at the side's corners."""
     half_length, half_width = (max((abs(point[axis]) for point in car.outline), default=0.0) for axis in (0, 1))
     own_m = own_sigma_of(robot, reach_m)
     levers_m = (half_width, half_width, half_length, half_length)
@@ -90,7 +90,7 @@ def sigmas_of(car: EstimatedCar, robot: RobotState, reach_m: float) -> SideSigma
 
 
 def grown(polygon: Polygon, heading: float, by: Growth) -> Polygon:
-    """The polygon with each side of the Car, whose heading it has, moved outwards; its convex hull when one is."""
+    """Return the polygon with its sides moved outwards in the axes of the heading; if any moves, the convex hull."""
     if not any(by):
         return polygon
     return unary_union([translate(polygon, *_turned(x, y, heading)) for x in (by.front, -by.rear)

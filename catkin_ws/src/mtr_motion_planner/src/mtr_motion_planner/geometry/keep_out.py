@@ -1,4 +1,4 @@
-"""The Car's outline as something to stay away from, for the robot's true footprint at poses of its turn centre."""
+"""The Car's outline as an area to avoid, for the robot's true footprint at poses of its turn centre."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Iterator, List, Optional, Sequence, Tuple
@@ -18,37 +18,37 @@ from ..parameters import Margins
 from .growth import EXACT_BOUNDS, CarBounds, Growth, grown
 from .robot_outline import RobotOutline
 
-# The outline is sampled this densely; a footprint 0.1 m beside it is then seen at most 2 mm too far away.
+# Sampling of the outline; for a footprint at a distance of 0.1 m the distance is at most 2 mm too large.
 OUTLINE_STEP_M = 0.04
 MIN_AREA_M2 = 0.05
-# A line that only grazes a zone by less than this runs along its edge.
+# A line that enters a zone by less than this counts as running along its edge.
 GRAZE_M = 0.005
-# A plan may fall short of what it has to keep away by so much.
+# A plan may fall below a required distance by this much.
 ROUNDING_M = 0.005
-# mirror_m and protrusion_m hold this beyond what stands out of a Car, for errors of control and for small sigmas.
+# Part of mirror_m and protrusion_m beyond the largest protrusion of a Car, for errors of control and small sigmas.
 CONTROL_M = 0.02
 FRAME = Pose2(0.0, 0.0, 0.0)
 CORNERS = ((1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0))
-# A robot that points at an end within 60 degrees approaches it; one that passes by or turns there does not.
+# A robot that points at an end within 60 degrees approaches it; a robot that passes or turns there does not.
 APPROACH_COSINE = 0.5
-# Sides shorter than this give way to a corner that lies no farther than that from the hull.
+# A shorter side is replaced by a corner that is at most CORNER_MARGIN_M away from the hull.
 SHORT_SIDE_M, CORNER_MARGIN_M = 1.0, 0.3
 
 
 class OutlineUnusable(ProblemError):
-    """The outline is no polygon that one could drive around."""
+    """The outline is not a polygon that a path can surround."""
 
 
 class KeepOut:
     """The Car in the frame of the plan.
 
     Attributes:
-        robot: that stays away from it.
-        bounds: what of it is uncertain or stands out.
-        told: outline as it was reported.
-        outline: the same, grown by its bounds.
-        hull: convex hull of the grown one.
-        plain: around the hull, with few corners.
+        robot: the robot that avoids the Car.
+        bounds: uncertainty and protrusions of the Car.
+        told: the reported outline.
+        outline: the reported outline, grown by its bounds.
+        hull: convex hull of the grown outline.
+        plain: polygon around the hull with few corners.
     """
 
     def __init__(self, outline: Sequence[Point], robot: RobotOutline, margins: Margins, car: Pose2 = FRAME,
@@ -62,14 +62,14 @@ class KeepOut:
         self.plain: Polygon = plain_of(self.hull)
         self._edge = _sampled(self.outline)
         self._body_in_car = self._body()
-        # Gaps of the key from the grown outline, by side.
+        # Required gaps of the key from the grown outline, by side.
         self._required = self._required_gaps()
         self._turning = grown(self.hull, car.heading, Growth(*(
             max(0.0, robot.front_m + gap_m - self.pivot_gap_m) for gap_m in self._required)))
 
     def _body(self) -> Tuple[FloatArray, FloatArray]:
-        """Edge of the grown body in the Car's frame. What stands out of the Car's size in the LiDARs' plane, such as
-        noise and a tow bar, is left out: mirror_m and protrusion_m count from the size."""
+        """Return the edge of the grown body in the Car's frame. Points beyond the Car's size in the LiDARs' plane, such
+        as noise and a tow bar, are omitted: mirror_m and protrusion_m refer to the size."""
         length, width = self.bounds.size
         inside = self.told
         if math.isfinite(length + width):
@@ -80,34 +80,34 @@ class KeepOut:
         return _in_axes(self._car, *_sampled(grown(inside, self._car.heading, self.bounds.total)))
 
     def _required_gaps(self) -> Growth:
-        """What was entered as a fitting stands out of an end, and nothing else does."""
+        """Return the required gaps by side; an end with an entered fitting has no other protrusion."""
         margins, growth = self._margins, self.bounds.growth
         ends = (margins.keep_out_m if fitting_m else margins.protrusion_m - min(CONTROL_M, growth_m)
                 for growth_m, fitting_m in zip(growth[:2], self.bounds.fittings))
         return Growth(*ends, *(margins.mirror_m - min(CONTROL_M, growth_m) for growth_m in growth[2:]))
 
     def without_growth(self) -> "KeepOut":
-        """The same Car as if everything of it were known."""
+        """Return the same Car without uncertainty."""
         return KeepOut(list(self.told.exterior.coords)[:-1], self.robot, self._margins, self._car,
                        CarBounds(fittings=self.bounds.fittings, size=self.bounds.size))
 
     @property
     def least_clearance_m(self) -> float:
-        """The footprint never gets closer to the grown outline by plan."""
+        """Least planned distance of the footprint from the grown outline."""
         return self._margins.keep_out_m
 
     @property
     def pivot_gap_m(self) -> float:
-        """Distance of the turn centre from the Car that the footprint needs for a turn on the spot."""
+        """Distance of the turn centre from the Car that a turn on the spot requires."""
         return self.robot.radius_m + self._margins.keep_out_m
 
     @property
     def route_gap_m(self) -> float:
-        """Distance of the turn centre from the Car on the way around it; beside it the key can only turn away there."""
+        """Distance of the turn centre from the Car on the route around it, where the key can only turn away."""
         return max(self.robot.half_width_m + self._margins.route_margin_m, self.pivot_gap_m + 0.02)
 
     def clearances(self, poses: FloatArray) -> FloatArray:
-        """Distance of the footprint from the outline at each pose (rows of x, y, heading); 0 when they overlap."""
+        """Return the footprint's distance from the outline at each pose (rows of x, y, heading); 0 if they overlap."""
         cos, sin = np.cos(poses[:, 2:3]), np.sin(poses[:, 2:3])
         dx, dy = self._edge[0] - poses[:, 0:1], self._edge[1] - poses[:, 1:2]
         along = cos * dx + sin * dy
@@ -116,17 +116,17 @@ class KeepOut:
         return np.sqrt((ahead * ahead + aside * aside).min(axis=1))
 
     def gaps_beyond(self, pose: Pose2) -> Growth:
-        """How far beyond the line of each side of the grown body the key is; negative: on the Car's side of it."""
+        """Return the key's distance beyond the line of each side of the grown body; negative on the Car's side."""
         x, y = _in_axes(self._car, *(np.array(value) for value in self.robot_front(pose)))
         along, across = self._body_in_car
         return Growth(float(x - along.max()), float(along.min() - x), float(y - across.max()), float(across.min() - y))
 
     def robot_front(self, pose: Pose2) -> Point:
-        """Where the key's front is."""
+        """Return the position of the key's front."""
         return pose.apply(self.robot.front_m, 0.0)
 
     def key_room(self, poses: FloatArray) -> FloatArray:
-        """How much farther than it must be what is foremost, the key, is from the side or end that it is before."""
+        """Return the key's distance from the Car's side or end in front of it minus the required one, at each pose."""
         front_m, cos, sin = self.robot.front_m, np.cos(poses[:, 2]), np.sin(poses[:, 2])
         x, y = _in_axes(self._car, poses[:, 0] + front_m * cos, poses[:, 1] + front_m * sin)
         along, across = self._body_in_car[0] - x[:, None], self._body_in_car[1] - y[:, None]
@@ -136,7 +136,7 @@ class KeepOut:
         return np.minimum(beside - required, before - self._required_before(x, poses[:, 2]))
 
     def _required_before(self, x: FloatArray, headings: FloatArray) -> FloatArray:
-        """Gap of a key at x of the Car from the end that it is before, by the robot's heading."""
+        """Return the required gap of a key at x of the Car from the nearest end, by the robot's heading."""
         is_ahead, forward = x > 0.0, np.cos(headings - self._car.heading)
         is_approach = np.where(is_ahead, self.bounds.front_is_known & (forward < -APPROACH_COSINE),
                                self.bounds.rear_is_known & (forward > APPROACH_COSINE))
@@ -144,34 +144,34 @@ class KeepOut:
         return np.where(is_approach, np.minimum(required, self._margins.keep_out_m), required)
 
     def room(self, poses: FloatArray) -> FloatArray:
-        """How much farther than they must be footprint and key (columns) are from the Car; negative: too close."""
+        """Return distances of footprint and key (columns) from the Car minus the required ones; negative: too close."""
         clearances = self.clearances(poses)
-        # The key is part of the footprint: where that is farther away, so is the key.
+        # The key is part of the footprint, so its distance is at least the footprint's.
         widest_m = max(self._margins.mirror_m, self._margins.protrusion_m)
         key_room, is_close = np.full_like(clearances, np.inf), clearances < widest_m
         key_room[is_close] = self.key_room(poses[is_close])
         return np.column_stack((clearances - self._margins.keep_out_m, key_room))
 
     def least_room(self, start: Pose2) -> FloatArray:
-        """Room that a way from the start must leave: where there is too little it may not become less."""
+        """Return the room that a path must keep: a start with too little room must not be followed by less."""
         return np.minimum(self.room(rows_of(start))[0], 0.0) - ROUNDING_M
 
     def clearance(self, pose: Pose2) -> float:
-        """Distance of the footprint from the outline, 0 inside it."""
+        """Return the distance of the footprint from the outline, 0 inside it."""
         if self.outline.contains(ShapelyPoint(pose.x, pose.y)):
             return 0.0
         return float(self.clearances(rows_of(pose))[0])
 
     def distance(self, pose: Pose2) -> float:
-        """Distance of the turn centre from the hull."""
+        """Return the distance of the turn centre from the hull."""
         return float(self.hull.distance(ShapelyPoint(pose.x, pose.y)))
 
     def turn_distance(self, pose: Pose2) -> float:
-        """Distance of the turn centre from the hull, less what a turn of the key needs beyond the footprint."""
+        """Return the distance of the turn centre from the hull, less the extra room of the key in a turn."""
         return float(self._turning.distance(ShapelyPoint(pose.x, pose.y)))
 
     def crosses(self, line: Sequence[Point], gap_m: float) -> bool:
-        """True when the turn centre would come closer to the hull than the gap on the line."""
+        """Return True if the turn centre would come closer to the hull than the gap on the line."""
         return bool(self.hull.distance(LineString(line)) < gap_m - GRAZE_M)
 
 
@@ -181,16 +181,16 @@ def rows_of(pose: Pose2) -> FloatArray:
 
 
 def _in_axes(frame: Pose2, x: FloatArray, y: FloatArray) -> Tuple[FloatArray, FloatArray]:
-    """Coordinates of points as seen from a pose."""
+    """Return coordinates of points as seen from a pose."""
     cos, sin, dx, dy = math.cos(frame.heading), math.sin(frame.heading), x - frame.x, y - frame.y
     return cos * dx + sin * dy, cos * dy - sin * dx
 
 
 def centres(zone: Polygon, radius: float, gap_m: float) -> List[Point]:
-    """Corners, counterclockwise, of the polygon that is the convex zone grown by the gap when grown by the radius.
+    """Return a counterclockwise polygon that, grown by the radius, covers the convex zone grown by the gap.
 
     Each corner of the zone moves inwards on its bisector by radius - gap, so that it stays within that distance of the
-    new polygon: grown by the radius this covers the zone grown by the gap, and no bend is tighter.
+    new polygon. No bend of the grown polygon is tighter than the radius.
     """
     corners = list(zone.exterior.coords)[:-1]
     inset = radius - gap_m
@@ -203,10 +203,10 @@ def centres(zone: Polygon, radius: float, gap_m: float) -> List[Point]:
 
 
 def plain_of(hull: Polygon) -> Polygon:
-    """The counterclockwise hull with corners in place of its short sides, the shortest first.
+    """Return the counterclockwise hull with corners in place of its short sides, the shortest first.
 
-    A measured Car is round at its corners. A way that bends once about each is quicker than one that bends at every
-    corner of the outline.
+    A measured Car has round corners. A path with one bend at each is quicker than one that bends at every corner of the
+    outline.
     """
     corners = list(hull.exterior.coords)[:-1]
     while True:
@@ -229,7 +229,7 @@ def _corners_for_short_sides(corners: Sequence[Point], hull: Polygon) -> Iterato
 
 
 def _meeting(before: Point, first: Point, last: Point, after: Point) -> Optional[Point]:
-    """Where two sides would meet without the one between first and last; None when they would not."""
+    """Return the intersection of two sides without the side between first and last, or None."""
     ax, ay, bx, by = first[0] - before[0], first[1] - before[1], last[0] - after[0], last[1] - after[1]
     cross = bx * ay - by * ax
     if cross <= 0.0:
@@ -239,11 +239,11 @@ def _meeting(before: Point, first: Point, last: Point, after: Point) -> Optional
 
 
 def polygon_of(points: Sequence[Point]) -> Polygon:
-    """Simple polygon of a size that can be a Car; OutlineUnusable says what is wrong."""
+    """Return a simple polygon with a plausible size of a Car; raises OutlineUnusable with the cause."""
     if len(points) < 3:
         raise OutlineUnusable(problems.OUTLINE_UNKNOWN())
     polygon = Polygon(points)
-    # Points on a line are an invalid polygon too; their hull tells them from one that crosses itself.
+    # Collinear points are an invalid polygon too; the hull distinguishes them from a self-intersecting one.
     if polygon.convex_hull.area < MIN_AREA_M2:
         raise OutlineUnusable(problems.OUTLINE_WITHOUT_SIZE())
     if not polygon.is_valid:

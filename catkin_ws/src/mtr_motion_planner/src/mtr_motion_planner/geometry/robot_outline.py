@@ -1,4 +1,4 @@
-"""The robot from above, about the point that it turns about."""
+"""The robot in plan view, relative to its turn centre."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 
@@ -12,8 +12,8 @@ class RobotOutline:
     """The robot's rectangle at poses of its turn centre.
 
     Attributes:
-        footprint: outline in base_link, as the URDF has it.
-        slip: which has the turn centre.
+        footprint: outline in base_link from the URDF.
+        slip: contains the turn centre.
     """
 
     footprint: Footprint
@@ -21,20 +21,20 @@ class RobotOutline:
 
     @property
     def front_m(self) -> float:
-        """From the turn centre to the front, where the key is."""
+        """Distance from the turn centre to the front, where the key is."""
         return self.footprint.front_m - self.slip.turn_centre_x_m
 
     @property
     def rear_m(self) -> float:
-        """From the turn centre to the rear."""
+        """Distance from the turn centre to the rear."""
         return self.footprint.rear_m + self.slip.turn_centre_x_m
 
     @property
     def half_width_m(self) -> float:
-        """From the turn centre to a side."""
+        """Distance from the turn centre to a side."""
         return self.footprint.half_width_m
 
     @property
     def radius_m(self) -> float:
-        """About the turn centre, of what a turn on the spot sweeps."""
+        """Radius about the turn centre of the area swept by a turn on the spot."""
         return self.footprint.radius_m(self.slip.turn_centre_x_m)

@@ -9,12 +9,12 @@ from mtr_core.se2 import Pose2, wrap_angle
 from ..inputs import Point
 from .circles import Circle, tangent
 
-# More than this in one arc is a loop that no quick route has.
+# A larger arc is a loop, which no quick route has.
 MAX_ARC_RAD = math.radians(250.0)
 
 
 class TurnPolygon:
-    """Polygon whose corners a route turns about.
+    """Polygon around whose corners a route turns.
 
     Attributes:
         corners: counterclockwise.
@@ -27,7 +27,7 @@ class TurnPolygon:
         self._supports: Dict[Tuple[Circle, int], Optional[int]] = {}
 
     def support(self, circle: Circle, side: int) -> Optional[int]:
-        """Corner on which the tangent from the circle lies that has the whole ring to its left (1) or right (-1)."""
+        """Return the corner of the tangent from the circle that has the whole ring to its left (1) or right (-1)."""
         key = (circle, side)
         if key not in self._supports:
             self._supports[key] = self._support(circle, side)
@@ -62,14 +62,14 @@ class Leg:
 
 @dataclass(frozen=True)
 class Route:
-    """Legs; the first turns out of the start, the last one, without a line, into the end. Radius 0: on the spot."""
+    """Legs; the first turns out of the start, the last, without a line, into the end. Radius 0: turn on the spot."""
 
     legs: Tuple[Leg, ...]
-    points: Tuple[Point, ...]  # where the straight lines begin and end
+    points: Tuple[Point, ...]  # ends of the straight lines
 
 
 def route_along(circles: Sequence[Circle], first_heading: float, last_heading: float) -> Optional[Route]:
-    """Route that turns on each circle; None when a circle cannot be joined with the next, or is looped around."""
+    """Return the route that turns on each circle; None if two circles cannot be joined, or if the route has a loop."""
     heading, legs, points = first_heading, [], []
     for circle, following in zip(circles, circles[1:]):
         joined = tangent(circle, following)
@@ -86,7 +86,7 @@ def route_along(circles: Sequence[Circle], first_heading: float, last_heading: f
 
 
 def around(first: Circle, last: Circle, ring: TurnPolygon, side: int) -> Optional[List[Circle]]:
-    """Circles on which a route with the ring to its left (side 1) or right (-1) turns, first and last included."""
+    """Return the circles of a route with the ring to its left (side 1) or right (-1), including first and last."""
     begin = ring.support(first, side)
     back = ring.support(Circle(last.x, last.y, -last.radius), -side)
     if begin is None or back is None:
@@ -98,10 +98,10 @@ def around(first: Circle, last: Circle, ring: TurnPolygon, side: int) -> Optiona
 
 
 def moved(pose: Pose2, way: float) -> Pose2:
-    """Pose moved along its own heading."""
+    """Return the pose moved along its own heading."""
     return pose @ Pose2(way, 0.0, 0.0)
 
 
 def facing(pose: Pose2, sign: int) -> Pose2:
-    """The robot's pose with the heading of travel, or back."""
+    """Convert between the robot's pose and the pose in its direction of travel."""
     return pose if sign > 0 else Pose2(pose.x, pose.y, wrap_angle(pose.heading + math.pi))

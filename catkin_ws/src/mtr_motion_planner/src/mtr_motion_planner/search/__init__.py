@@ -1,2 +1,2 @@
-"""Choice of the quickest way to a goal."""
+"""Choice of the quickest path to a goal."""
 # SPDX-License-Identifier: Apache-2.0

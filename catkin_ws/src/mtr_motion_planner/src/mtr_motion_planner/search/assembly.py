@@ -1,4 +1,4 @@
-"""From a candidate to motions with trajectories that are known to be free."""
+"""Turns a candidate into motions with collision-free trajectories."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Iterator, List, Optional, Sequence, Tuple
@@ -21,23 +21,23 @@ from .candidates import MOVING_MPS, WayCandidate
 from .options import StraightPiece
 from .shaping import ATTEMPTS, CLOSE_M, Driving, Start, curve_of
 
-# Away from start and goal a rounded corner may use up the route's margin to this share of it.
+# Away from start and goal a rounded corner may reduce the route's margin to this share.
 CORNER_SHARE = 0.4
 ENDS_M = 0.6
 NO_TURN_RAD = 0.002
-# These lengths of a stop are tried, as shares of the shortest; on a tight curve and by rounding it takes longer.
+# Tried lengths of a stop, as shares of the shortest; on a tight curve, and by rounding, the stop is longer.
 BRAKE_SHARES, BRAKE_M, BRAKE_RAD = (1.05, 1.4, 2.0, 3.0), 0.02, 0.02
-# One of so many samples, 60 ms, is checked for what it comes close to.
+# One in this many samples, every 60 ms, is checked for collisions.
 CHECKED = 3
 
-Begun = Tuple[PlannedMotion, float]  # with its first speed
+Begun = Tuple[PlannedMotion, float]  # with its start speed
 
 
 class Assembly:
-    """Works out motions for one Car, robot and speed limit.
+    """Plans motions for one Car, robot and speed limit.
 
     Attributes:
-        blends_left: attempts to overlap turns with drives that may still be made; each takes some milliseconds.
+        blends_left: remaining attempts to overlap turns with drives; each needs some milliseconds.
     """
 
     def __init__(self, keep_out: KeepOut, fence: Optional[Fence], parameters: MotionParameters, speed: float):
@@ -47,7 +47,10 @@ class Assembly:
 
     def work_out(self, candidate: WayCandidate, start: Moving, goal: Pose2, best_s: float = math.inf
                  ) -> Optional[List[PlanPart]]:
-        """Parts of a candidate; None when its curve does not exist or is not free. best_s: nothing longer is of use."""
+        """Return the parts of a candidate; None if its curve does not exist or is not free.
+
+        best_s: time of the best plan so far; turns are only overlapped if the result can be quicker.
+        """
         out, sign, into = candidate.out, candidate.sign, candidate.into
         before: List[Begun] = []
         after: List[Begun] = []
@@ -70,7 +73,7 @@ class Assembly:
 
     def _blends(self, candidate: WayCandidate, begin: Moving, end: Pose2, transit: List[Begun], best_s: float
                 ) -> Iterator[Blend]:
-        """The transit with turns that overlap with the drive, the quickest first."""
+        """Yield the transit with turns that overlap with the drive, the quickest first."""
         turns, slip = self._turns(transit), self._parameters.slip
         if turns is None:
             return
@@ -84,7 +87,7 @@ class Assembly:
 
     def _blend(self, candidate: WayCandidate, begin: Moving, end: Pose2, overlap_s: Tuple[float, float]
                ) -> Optional[Blend]:
-        """What the overlaps add to the way is taken from where the drive begins and ends, until it is as planned."""
+        """Shift start and aim of the drive by the distance that the overlaps add, until the blend ends as planned."""
         start, aim = begin.pose, end
         for _ in range(ATTEMPTS):
             transit = self._transit(candidate, Moving(start, begin.linear_mps, begin.angular_radps), aim)
@@ -98,14 +101,14 @@ class Assembly:
             x, y = trajectory.poses[-1, :2]
             if math.hypot(end.x - x, end.y - y) < CLOSE_M:
                 return Blend(next(motion for motion, _ in transit if isinstance(motion, CurveMotion)), trajectory)
-            # Once the first turn is done the robot is to be on the drive's own way, which keeps away from the Car.
+            # After the first turn the robot must be on the drive's own path, which keeps its distance from the Car.
             begun = Pose2(begin.pose.x + aside.real, begin.pose.y + aside.imag, begin.pose.heading)
             aim = Pose2(aim.x + end.x - x + begun.x - start.x, aim.y + end.y - y + begun.y - start.y, end.heading)
             start = begun
         return None
 
     def _turns(self, transit: List[Begun]) -> Optional[Turns]:
-        """Their trajectories; None when the robot is too fast to stop on the drive."""
+        """Return the trajectories; None if the robot is too fast to stop on the drive."""
         limits = self._parameters.limits
         middle = next(index for index, (motion, _) in enumerate(transit) if isinstance(motion, CurveMotion))
         first, drive, last = (motions[0][0].timed(limits, self._speed, max(motions[0][1], 0.0)) if motions else None
@@ -129,7 +132,7 @@ class Assembly:
         return motions
 
     def timed(self, motions: Sequence[Begun], start: Pose2) -> Optional[List[PlanPart]]:
-        """Motions with trajectories; None when one cannot be driven from its first speed or is not free."""
+        """Return motions with trajectories; None if one is not free or cannot be driven from its start speed."""
         least_room = self._keep_out.least_room(start)
         total, done, parts = sum(motion.length_m for motion, _ in motions), 0.0, []
         for motion, speed in motions:
@@ -151,7 +154,7 @@ class Assembly:
         return self._fence is None or self._fence.holds(poses, trajectory.linear[::CHECKED])
 
     def brake(self, start: Moving) -> PlanPart:
-        """Stop on the present curve, or the turn on the spot; as short as it can be timed."""
+        """Stop on the present curve, or end the turn on the spot, within the shortest possible distance."""
         limits, speed, rate = self._parameters.limits, abs(start.linear_mps), abs(start.angular_radps)
         if speed <= MOVING_MPS:
             angle = limits.stopping_angle(rate)
@@ -160,7 +163,7 @@ class Assembly:
             return next(PlanPart(turn, timed) for turn in turns for timed in [turn.timed(limits, 0.0, rate)] if timed)
         sign = 1 if start.linear_mps > 0.0 else -1
         bend = start.angular_radps / speed
-        # Where even the longest stop on the curve is too short, the straight one is not.
+        # If even the longest stop on the curve is too short, the straight one is not.
         curves = (trace(facing(start.pose, sign), [0.0, share * limits.stopping_distance(speed) + BRAKE_M], ends)
                   for ends in ([bend, 0.0], [0.0, 0.0]) for share in BRAKE_SHARES)
         stops = (CurveMotion(curve, sign) for curve in curves)
@@ -168,11 +171,11 @@ class Assembly:
 
 
 def line(start: Pose2, straight: StraightPiece) -> CurveMotion:
-    """Straight motion from a pose of the robot."""
+    """Return a straight motion from a pose of the robot."""
     return CurveMotion(trace(facing(start, straight.sign), [0.0, straight.length], [0.0, 0.0]), straight.sign)
 
 
 def pivot(start: Pose2, heading: float) -> List[Begun]:
-    """Turn on the spot to a heading, nothing where none is needed."""
+    """Return a turn on the spot to a heading; empty if none is needed."""
     turn = wrap_angle(heading - start.heading)
     return [(Pivot(start, turn), 0.0)] if abs(turn) > NO_TURN_RAD else []

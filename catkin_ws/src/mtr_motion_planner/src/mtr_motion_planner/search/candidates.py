@@ -1,4 +1,4 @@
-"""All ways from a start to a goal that are worth trying, the quickest by estimate first."""
+"""All reasonable paths from a start to a goal, the quickest by estimate first."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 from dataclasses import dataclass
@@ -17,20 +17,19 @@ from .estimate import time_of
 from .options import StraightPiece, Target, arrivals, departures
 from .shaping import RouteShape, route_of
 
-# The turns at both ends have these radii, in m, beside the one that is driven at full speed: they are about as tight as
-# linear and angular acceleration build up together from rest. Tighter turns are made while the robot sets out
-# (blend.py).
+# Radii of the turns at both ends in m, in addition to the radius at full speed. They match the simultaneous build-up of
+# linear and angular acceleration from rest. Tighter turns are made while the robot starts to drive (blend.py).
 TIGHT_RADII_M = (0.45,)
 MAX_RING_M = 1.5
 MOVING_MPS = 0.02
-# A robot that moves has no time to build up a high yaw rate in a short turn: these are the radii, as shares of that at
-# full speed.
+# A moving robot has no time to build up a high yaw rate in a short turn: its radii, as multiples of the radius at full
+# speed.
 MOVING_SHARES = (1.0, 2.0, 5.0)
 
 
 @dataclass(frozen=True)
 class WayCandidate:
-    """A way: straight out (0: not needed), a shaped transit, straight in; sign -1: the rear leads in the transit."""
+    """A path: straight out (0: not needed), a shaped transit, straight in; sign -1: the rear leads in the transit."""
 
     time_s: float
     out: StraightPiece
@@ -40,7 +39,7 @@ class WayCandidate:
 
 
 class WayCandidates:
-    """Makes them for one Car, robot and speed limit."""
+    """Generates candidates for one Car, robot and speed limit."""
 
     def __init__(self, keep_out: KeepOut, parameters: MotionParameters, speed: float):
         self._keep_out, self._parameters, self._speed = keep_out, parameters, speed
@@ -52,7 +51,7 @@ class WayCandidates:
                                           for zone in (keep_out.plain, keep_out.hull))
 
     def between(self, start: Moving, goal: Target) -> List[WayCandidate]:
-        """Candidates, the quickest first; PlanRefused when start or goal lies too close to the Car."""
+        """Return the candidates, the quickest first; raises PlanRefused if start or goal is too close to the Car."""
         outs = departures(start.pose, self._keep_out)
         ins = arrivals(goal, self._keep_out, self._parameters)
         found = [candidate for out, into, sign in itertools.product(outs, ins, (1, -1))
@@ -61,7 +60,7 @@ class WayCandidates:
 
     def _transits(self, start: Moving, goal: Pose2, out: StraightPiece, into: StraightPiece, sign: int
                   ) -> Iterator[WayCandidate]:
-        """Transits in one sense of travel; straight pieces in the same sense are part of them."""
+        """Yield transits in one direction of travel; straight segments in the same direction are part of them."""
         speed = start.linear_mps
         moving = abs(speed) > MOVING_MPS
         if moving and speed * (out.sign or sign) < 0.0:

@@ -1,4 +1,4 @@
-"""A quick guess of how long a route takes, to try the most promising routes first."""
+"""A quick estimate of the duration of a route, to try the most promising routes first."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -6,12 +6,12 @@ from ..geometry.route import Leg, Route
 from ..limits import MotionLimits
 from .shaping import RouteShape
 
-# Most turns on the spot can overlap with the drive by this (blend.py).
+# Most turns on the spot can overlap with the drive by this time (blend.py).
 OVERLAP_S = 1.5
 
 
 def time_of(route: Route, shape: RouteShape, limits: MotionLimits, speed: float, start_speed: float) -> float:
-    """Time in s from the start speed to rest, turns on the spot included."""
+    """Return the time in s from the start speed to rest, including turns on the spot."""
     total = limits.ramp_s
     entry = start_speed
     legs = route.legs
@@ -40,12 +40,13 @@ def _corner_speed(leg: Leg, limits: MotionLimits, speed: float, at_an_end: bool)
     corner = min(speed, limits.corner_speed(1.0 / leg.radius))
     if not at_an_end:
         return corner
-    # There is no straight line to make a short turn longer: the yaw rate builds up within the turn.
+    # A short turn at an end cannot be stretched, because it has no straight line: its yaw rate builds up within the
+    # turn.
     return min(corner, abs(leg.radius) * math.sqrt(limits.angular_acceleration_radps2 * max(abs(leg.turn), 0.01)))
 
 
 def _line_time(length: float, entry: float, leave: float, speed: float, acceleration: float) -> float:
-    """Time on a straight line between two speeds; as if it were driven at their mean where it is too short."""
+    """Return the time on a straight line between two speeds; a line that is too short is driven at their mean."""
     peak_square = acceleration * length + 0.5 * (entry ** 2 + leave ** 2)
     if peak_square <= max(entry, leave) ** 2:
         return 2.0 * length / max(entry + leave, 1e-3)

@@ -1,4 +1,4 @@
-"""Whether the robot may stand at a goal for the Car's sake, and if not, what to do about it."""
+"""Checks whether the robot may stop at a goal next to the Car, and recommends a remedy."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -16,7 +16,7 @@ SENTENCES = {"front": problems.FRONT_UNCERTAIN, "rear": problems.REAR_UNCERTAIN,
 
 
 def problem_at(goal: Pose2, keep_out: KeepOut) -> Problem:
-    """Why the robot must not stand there; no problem when it may."""
+    """Return why the robot must not stop at the goal; no problem if it may."""
     room_m = room_at(goal, keep_out)
     if room_m >= 0.0:
         return NO_PROBLEM
@@ -34,7 +34,7 @@ def problem_at(goal: Pose2, keep_out: KeepOut) -> Problem:
 
 
 def room_at(pose: Pose2, keep_out: KeepOut) -> float:
-    """How much farther than it must be the robot is from the Car; negative: too close."""
+    """Return the robot's distance from the Car minus the required distance; negative: too close."""
     room_m = float(keep_out.room(rows_of(pose)).min())
     if keep_out.outline.contains(ShapelyPoint(pose.x, pose.y)):
         return min(room_m, -keep_out.least_clearance_m)
@@ -42,7 +42,7 @@ def room_at(pose: Pose2, keep_out: KeepOut) -> float:
 
 
 def _side_before(goal: Pose2, keep_out: KeepOut) -> str:
-    """The side that the robot's front is before; at a corner the one that has grown more."""
+    """Return the side in front of the robot; at a corner the side that has grown more."""
     growth = keep_out.bounds.growth._asdict()
     gaps_m = keep_out.gaps_beyond(goal)._asdict()
     before = [side for side, gap_m in gaps_m.items() if gap_m > -growth[side]] or list(gaps_m)

@@ -1,4 +1,4 @@
-"""Ways to leave a start and to come to a goal: straight out from close to the Car, straight in, or turning there."""
+"""Ways to leave a start and to reach a goal: straight out from close to the Car, straight in, or turning there."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -18,14 +18,14 @@ from ..timing.plan import PlanRefused
 
 STEP_M = 0.05
 MAX_STRAIGHT_M = 6.0
-# A correction comes to the goal on a straight piece, which takes out what is left across its axis.
+# A correction reaches the goal on a straight segment, on which the error across its axis is removed.
 CORRECTION_RUN_IN_M = 0.5
 SIGNS = {Direction.ANY: (1, -1), Direction.FORWARD: (1,), Direction.BACKWARD: (-1,)}
 
 
 @dataclass(frozen=True)
 class StraightPiece:
-    """Straight piece of a length in m at the start or at the goal; sign -1: backwards, 0: none."""
+    """Straight segment of a length in m at the start or at the goal; sign -1: backwards, 0: none."""
 
     sign: int = 0
     length: float = 0.0
@@ -36,7 +36,7 @@ NONE = StraightPiece()
 
 @dataclass(frozen=True)
 class Target:
-    """Pose of the turn centre to come to; a correction comes from close by."""
+    """Goal pose of the turn centre; a correction starts nearby."""
 
     pose: Pose2
     direction: Direction = Direction.ANY
@@ -44,27 +44,27 @@ class Target:
 
 
 def departures(start: Pose2, keep_out: KeepOut) -> List[StraightPiece]:
-    """None needed where the robot may turn, else the shortest ways straight out; PlanRefused when there is none."""
+    """Return NONE if the robot may turn, else the shortest straight ways out; raises PlanRefused without any."""
     if keep_out.turn_distance(start) >= keep_out.pivot_gap_m:
         return [NONE]
     found = [StraightPiece(sign, length) for sign in (-1, 1)
              for length in _free_after(start, sign, keep_out.least_room(start), keep_out)]
     if keep_out.distance(start) >= keep_out.pivot_gap_m:
-        found.append(NONE)  # the key may be turned away from the Car
+        found.append(NONE)  # The key may be turned away from the Car.
     if not found:
         raise PlanRefused(problems.HEMMED_IN())
     return found
 
 
 def arrivals(goal: Target, keep_out: KeepOut, parameters: MotionParameters) -> List[StraightPiece]:
-    """Straight pieces into the goal, none where the robot may turn at it; PlanRefused when no way leads there."""
+    """Return straight segments into the goal, NONE if the robot may turn there; raises PlanRefused without any."""
     if keep_out.turn_distance(goal.pose) >= keep_out.pivot_gap_m:
         return _after_a_turn(goal, parameters)
     least_room = np.full(2, -ROUNDING_M)
     found = [StraightPiece(sign, length + parameters.run_in_m) for sign in SIGNS[goal.direction]
              for length in _free_after(goal.pose, -sign, least_room, keep_out)]
     if keep_out.distance(goal.pose) >= keep_out.pivot_gap_m:
-        found += _after_a_turn(goal, parameters)  # of the key beside the Car
+        found += _after_a_turn(goal, parameters)  # turn of a key next to the Car
     if not found:
         raise PlanRefused(problems.NO_STRAIGHT_PIECE())
     return found
@@ -79,7 +79,7 @@ def _after_a_turn(goal: Target, parameters: MotionParameters) -> List[StraightPi
 
 
 def _free_after(pose: Pose2, sign: int, least_room: FloatArray, keep_out: KeepOut) -> Sequence[float]:
-    """Length, if any, of the shortest straight piece from the pose to where the robot may turn."""
+    """Return the length of the shortest free straight segment from the pose to a place for a turn, if any."""
     lengths = STEP_M * np.arange(1, math.ceil(MAX_STRAIGHT_M / STEP_M))
     poses = np.column_stack((pose.x + sign * lengths * math.cos(pose.heading),
                              pose.y + sign * lengths * math.sin(pose.heading), np.full_like(lengths, pose.heading)))

@@ -1,4 +1,4 @@
-"""From a start to a goal without touching the Car, in the shortest time."""
+"""The quickest path from a start to a goal that does not touch the Car."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Optional
@@ -17,29 +17,29 @@ from .candidates import MOVING_MPS, WayCandidates
 from .goal_check import problem_at
 from .options import StraightPiece, Target
 
-# A robot this close to the goal's axis drives straight along it; the controller takes the rest out on the way, as early
-# as it can. With the direction of travel given the axis matters more than the time.
+# A robot this close to the goal's axis drives straight along it; the controller removes the offset as early as
+# possible. With a given direction of travel the axis matters more than the time.
 ON_AXIS_PER_M = 0.06
 ON_AXIS_M = {Direction.ANY: 0.03, Direction.FORWARD: 0.12, Direction.BACKWARD: 0.12}
 ON_AXIS_RAD = {Direction.ANY: math.radians(3.0), Direction.FORWARD: math.radians(10.0),
                Direction.BACKWARD: math.radians(10.0)}
-# Within this distance a correction may go either way, whatever direction was asked for.
+# Within this distance a correction may drive in either direction, even if the goal specifies one.
 CORRECTION_M = 0.10
 MIN_CLEARANCE_M = 0.02
 TURNING_RADPS = 0.05
-# A way longer than the straight line by more than this is compared with a stop and a new beginning.
+# A path longer than the straight line by more than this is compared with a stop and a restart.
 DETOUR_SHARE, DETOUR_M = 1.15, 0.3
 
-# By so much the estimate of a candidate's time may be too high.
+# Possible excess of the estimated time of a candidate.
 DOUBT_S = 0.3
 
 
 class Effort(NamedTuple):
-    """How much is tried for the quickest way.
+    """Effort of the search for the quickest path.
 
     Attributes:
-        tried: candidates that are worked out at most.
-        compared: of those, the ones that are free to drive.
+        tried: maximum number of candidates that are planned in detail.
+        compared: maximum number of collision-free candidates among them.
         blends: attempts to overlap turns with drives.
     """
 
@@ -49,8 +49,8 @@ class Effort(NamedTuple):
 
 
 STANDING = Effort(120, 8, 40)
-# A robot that moves follows its old plan for as long as the new one takes (replanning.py). This takes 0.09 s
-# on average, 0.26 s at most (standing: 0.1 and 0.5 s).
+# A moving robot follows its old plan until the new one is complete (replanning.py). This needs 0.09 s on average and at
+# most 0.26 s (at rest: 0.1 and 0.5 s).
 MOVING = Effort(6, 2, 3)
 
 
@@ -63,7 +63,7 @@ class Planning:
         self._assembly = Assembly(keep_out, fence, parameters, speed)
 
     def plan(self, start: Moving, goal: Target) -> Plan:
-        """The quickest plan found that goes on from the present motion, with a stop first if need be."""
+        """Return the quickest plan found that continues the present motion, with a stop first if necessary."""
         self._check(start.pose, goal.pose)
         effort = MOVING if moves(start) else STANDING
         self._assembly.blends_left = effort.blends
@@ -71,7 +71,7 @@ class Planning:
         parts = None if turns_on_the_spot else self._parts(start, goal, effort)
         if moves(start) and self._may_gain_by_a_stop(parts, start.pose, goal.pose):
             brake = self._assembly.brake(start)
-            # Where there is no other way, the robot will stand while this one is sought.
+            # Without another path the robot will be at rest during the search for this one.
             stopped = self._parts(Moving(brake.trajectory.at(math.inf).pose), goal, effort if parts else STANDING)
             parts = quicker(parts, None if stopped is None else [brake, *stopped])
         if parts is None:
@@ -79,7 +79,7 @@ class Planning:
         return Plan(goal.pose, tuple(parts))
 
     def straight(self, start: Moving, goal: Target) -> Optional[Plan]:
-        """The plan without a turn, after a stop if need be; quickly made, None where there is none."""
+        """Return a plan without a turn, after a stop if necessary; it is made quickly. None without one."""
         self._check(start.pose, goal.pose)
         parts = self._straight(start, goal.pose, goal.direction)
         if parts is None and abs(start.linear_mps) > MOVING_MPS:
@@ -89,7 +89,7 @@ class Planning:
         return None if parts is None else Plan(goal.pose, tuple(parts))
 
     def _may_gain_by_a_stop(self, parts: Optional[List[PlanPart]], start: Pose2, goal: Pose2) -> bool:
-        """False for a plan without a stop that is hardly longer than the straight line."""
+        """Return False for a plan without a stop that is hardly longer than the straight line."""
         return parts is None or sum(part.trajectory.length_m for part in parts) > (
             DETOUR_SHARE * start.distance_to(goal) + DETOUR_M)
 
@@ -109,7 +109,7 @@ class Planning:
         return self._quickest(start, goal, effort) if parts is None else parts
 
     def _straight(self, start: Moving, goal: Pose2, direction: Direction) -> Optional[List[PlanPart]]:
-        """The straight piece when the goal lies ahead or behind on the robot's own axis; no parts when it is there."""
+        """Return the straight segment if the goal is on the robot's axis; no parts if the robot is at the goal."""
         arrival = self._parameters.arrival
         offset = goal.inverse() @ start.pose
         way = abs(offset.x)
@@ -142,17 +142,17 @@ class Planning:
 
 
 def duration_of(parts: List[PlanPart]) -> float:
-    """Time in s that all parts take."""
+    """Return the total time of the parts in s."""
     return sum(part.trajectory.duration_s for part in parts)
 
 
 def quicker(first: Optional[List[PlanPart]], second: Optional[List[PlanPart]]) -> Optional[List[PlanPart]]:
-    """The one that takes less time; None is no plan."""
+    """Return the quicker one; None stands for a missing plan."""
     if first is None or second is None:
         return second if first is None else first
     return second if duration_of(second) < duration_of(first) else first
 
 
 def moves(start: Moving) -> bool:
-    """True when a plan from there must go on from a motion."""
+    """Return True if a plan from there must continue a motion."""
     return abs(start.linear_mps) > MOVING_MPS or abs(start.angular_radps) > TURNING_RADPS

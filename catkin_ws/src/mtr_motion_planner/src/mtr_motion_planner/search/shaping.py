@@ -1,4 +1,4 @@
-"""From a route to a curve without jumps of curvature that ends where the route is to end."""
+"""Converts a route into a curve with continuous curvature and the same end."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass, replace
@@ -16,15 +16,15 @@ from ..limits import MotionLimits
 from ..parameters import Slip
 from ..timing.speeds import speeds_on
 
-# Rounding the joints moves the end; the route is bent until it is this close.
+# Rounding the joints moves the end; the route is adjusted until the end is this close.
 CLOSE_M, CLOSE_RAD = 0.001, 0.0005
 ATTEMPTS = 8
 # Two arcs of the same sense with a straight line shorter than this between them are driven as one.
 MERGE_M = 0.25
-# A straight line gives at most this share to the turn at one of its ends.
+# A straight line loses at most this share to the turn at one of its ends.
 GIVEN_SHARE = 0.45
 MAX_STRETCHED_RAD = 2.0
-# Turns at the ends below this are made gentle; the smallest as if they were so large.
+# Turns at the ends below this angle are widened, the smallest as if they had the minimum angle.
 SMALL_TURN_RAD, MIN_TURN_RAD = 0.35, 0.002
 
 
@@ -39,14 +39,14 @@ class Start:
 
 @dataclass(frozen=True)
 class RouteShape:
-    """What a route is to look like.
+    """Shape of a route.
 
     Attributes:
         first, last: signed radii of the turns out of the start and into the end, m; 0: on the spot.
-        way_out: straight piece before the first turn, m.
-        run_in: straight piece after the last one, m.
-        ring: what it turns about, None to go straight from the first turn to the last.
-        side: 1 to have the ring to the left.
+        way_out: straight segment before the first turn, m.
+        run_in: straight segment after the last one, m.
+        ring: polygon around which the route turns, None for a straight line from the first turn to the last.
+        side: 1 for a route with the ring to its left.
     """
 
     first: float
@@ -58,7 +58,7 @@ class RouteShape:
 
 
 def route_of(shape: RouteShape, start: Pose2, end: Pose2) -> Optional[Route]:
-    """Route between two poses in the direction of travel."""
+    """Return the route between two poses in the direction of travel."""
     begin, finish = moved(start, shape.way_out), moved(end, -shape.run_in)
     first, last = circle_through(begin, shape.first), circle_through(finish, shape.last)
     circles = around(first, last, shape.ring, shape.side) if shape.ring else [first, last]
@@ -67,7 +67,7 @@ def route_of(shape: RouteShape, start: Pose2, end: Pose2) -> Optional[Route]:
 
 @dataclass(frozen=True)
 class Driving:
-    """How a curve is driven.
+    """Constraints of a drive along a curve.
 
     Attributes:
         speed: limit in m/s.
@@ -79,9 +79,9 @@ class Driving:
 
 
 def curve_of(shape: RouteShape, start: Start, end: Pose2, driving: Driving) -> Optional[Curve]:
-    """Smooth curve where the base goes, slip included.
+    """Return the smooth curve of the base, including its slip.
 
-    With a turn on the spot at either end the curve's heading there is its own.
+    With a turn on the spot at either end, the curve has its own heading there.
     """
     limits, speed, aim = driving.limits, driving.speed, end
     for _ in range(ATTEMPTS):
@@ -136,7 +136,7 @@ def _pieces(route: Route) -> List[CurvePiece]:
 
 
 def _widths(pieces: Sequence[CurvePiece], initial: float, limits: MotionLimits, speed: float) -> Tuple[float, ...]:
-    """Length over which the curvature changes at the beginning and at each joint, at the speed that is driven there."""
+    """Return the lengths of curvature changes at the start and at each joint, at the speed driven there."""
     curvatures = [initial, *(piece.curvature for piece in pieces)]
     widths = []
     for before, after in zip(curvatures, curvatures[1:]):
@@ -146,9 +146,9 @@ def _widths(pieces: Sequence[CurvePiece], initial: float, limits: MotionLimits, 
 
 
 def stretched(pieces: Sequence[CurvePiece], limits: MotionLimits, speed: float) -> List[CurvePiece]:
-    """Small turns between two straight lines made longer at the cost of these.
+    """Return the pieces with small turns between two straight lines made longer, at the expense of the lines.
 
-    There is no time to build up a yaw rate and take it back on a short arc; the same turn on a longer one is quicker.
+    On a short arc the time is too short to build up a yaw rate and to reduce it; a longer arc is quicker.
     """
     longer = list(pieces)
     for i in range(1, len(pieces) - 1):
@@ -168,11 +168,11 @@ def stretched(pieces: Sequence[CurvePiece], limits: MotionLimits, speed: float) 
 
 
 def _gentle(shape: RouteShape, route: Route, limits: MotionLimits, speed: float) -> RouteShape:
-    """The same for the first and the last turn; both are made from or to standstill if the robot stands there."""
+    """Widen small first and last turns, which start or end at rest if the robot is at rest there."""
     def radius(signed: float, turn: float) -> float:
         size = max(abs(turn), MIN_TURN_RAD)
         minimum = 2.0 * speed / math.sqrt(limits.angular_acceleration_radps2 * size)
-        # From rest with full linear and angular acceleration: length = half of a t^2 while the turn is done.
+        # From rest with full linear and angular acceleration: during the turn, length = a t^2 / 2.
         minimum = min(minimum, 4.0 * limits.acceleration_mps2 / limits.angular_acceleration_radps2)
         return math.copysign(max(abs(signed), minimum), signed) if signed and size < SMALL_TURN_RAD else signed
 

@@ -1,7 +1,7 @@
-"""Turning while driving: the turns on the spot at a drive's ends overlap with it, so that neither waits for the other.
+"""Overlap of the turns on the spot at a drive's ends with the drive, to save time.
 
-The robot leaves before it faces its way and turns away from it before it has come to rest. Speeds and yaw rates of the
-motions are added; where that leads is integrated, sideways slip included.
+The robot starts to drive before it faces its path, and turns away from it before it has stopped. Speeds and yaw rates
+of the motions are added, and the resulting path is integrated, including sideways slip.
 """
 # SPDX-License-Identifier: Apache-2.0
 import itertools
@@ -19,21 +19,20 @@ from .motion import CurveMotion, PlannedMotion
 from .speeds import SAMPLE_S
 from .trajectory import Trajectory
 
-# The turns before and after the drive may overlap with it by these times at most. In an overlap of 1.8 s the robot
-# slides 2 cm farther aside than calculated: at the beginning the drive takes that out, at the end a correction of 4.5 s
-# would have to.
+# Maximum overlap of the turns before and after the drive. In an overlap of 1.8 s the robot slides 2 cm farther sideways
+# than calculated. The drive compensates this at its start, but at its end a correction of 4.5 s would be necessary.
 FIRST_S, LAST_S = 2.2, 1.6
 STEP_S = 0.2
-# So many times for each turn are tried together.
+# Number of overlap times per turn that are combined.
 CHOICES = 4
-# Sampled rates differ from the limits by this; drive control allows more than the planner's limits.
+# Sampled rates may exceed the limits by this factor; drive control's limits are above the planner's.
 SAMPLING_SHARE = 1.03
 FIRST, DRIVE, LAST = range(3)
 
 
 @dataclass(frozen=True)
 class Turns:
-    """A turn on the spot, a drive and another turn on the spot; None where no turn is needed."""
+    """A turn on the spot, a drive and another turn on the spot; None for a turn that is not needed."""
 
     first: Optional[Trajectory]
     drive: Trajectory
@@ -41,36 +40,36 @@ class Turns:
 
     @property
     def duration_s(self) -> float:
-        """One after the other."""
+        """Time without overlap."""
         return sum(part.duration_s for part in (self.first, self.drive, self.last) if part)
 
 
 @dataclass(frozen=True)
 class Blend(PlannedMotion):
-    """The motions of some turns, overlapping; it cannot be timed anew in its middle."""
+    """Overlapping motions of some turns. It cannot be retimed in the middle."""
 
     drive: CurveMotion
     trajectory: Trajectory
 
     @property
     def length_m(self) -> float:
-        """Way of the turn centre."""
+        """Path length of the turn centre."""
         return self.drive.length_m
 
     def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Trajectory:
-        """From rest, as it was made."""
+        """Return the trajectory from rest, as constructed."""
         return self.trajectory
 
     def lag(self, error: Pose2) -> float:
-        """Way that the robot is behind, m."""
+        """Return the distance in m by which the robot is behind."""
         return self.drive.lag(error)
 
     def from_way(self, way: float) -> None:
-        """The rest of it needs another plan."""
+        """Return None, because the rest needs another plan."""
 
 
 def overlaps_of(turns: Turns, limits: MotionLimits, slip: Slip) -> Iterator[Tuple[float, float]]:
-    """Times by which both turns may overlap within the limits, the longest first."""
+    """Yield pairs of overlap times of both turns within the limits, the longest first."""
     def keep(pair: Tuple[float, float]) -> bool:
         return keeps(overlapped(turns, pair, slip)[0], limits)
 
@@ -86,7 +85,7 @@ def _times(turn: Optional[Trajectory], max_s: float) -> List[float]:
 
 def overlapped(turns: Turns, overlap_s: Tuple[float, float], slip: Slip, begin: complex = 0j
                ) -> Tuple[Trajectory, complex]:
-    """The three at once, as far as they overlap, from x + iy; and how far the first turn leads aside of the drive."""
+    """Return the overlapping motions from x + iy, and the lateral offset that the first turn adds to the drive."""
     drive, timeline = turns.drive, _timeline_of(turns, overlap_s)
     heading = timeline.spread(drive.poses[:, 2], DRIVE)
     linear, angular, ways = (timeline.spread(row, DRIVE) for row in (drive.linear, drive.angular, drive.ways))
@@ -113,7 +112,7 @@ class _Timeline:
     lengths: List[int]
 
     def spread(self, values: FloatArray, which: int) -> FloatArray:
-        """Samples of one of them over the whole time; before and after it they stay as they are at its ends."""
+        """Return samples of one motion over the whole time; outside the motion its end values apply."""
         count = int(max(start + length for start, length in zip(self.starts, self.lengths)))
         before, after = self.starts[which], count - self.starts[which] - len(values)
         return np.concatenate((np.full(before, values[0]), values, np.full(after, values[-1])))
@@ -125,13 +124,13 @@ def _timeline_of(turns: Turns, overlap_s: Tuple[float, float]) -> _Timeline:
     starts = np.round(np.array([0.0, before_s, before_s + turns.drive.duration_s + after_s]) / SAMPLE_S).astype(int)
     lengths = [len(part.ways) if part else 1 for part in (turns.first, turns.drive, turns.last)]
     starts[LAST] -= lengths[LAST] - 1
-    # The turn at the end may take longer than everything before it.
+    # The turn at the end may be longer than everything before it.
     starts -= min(0, starts[LAST])
     return _Timeline(starts, lengths)
 
 
 def keeps(trajectory: Trajectory, limits: MotionLimits) -> bool:
-    """True when yaw rate, its change and the acceleration across the robot stay within the limits."""
+    """Return True if yaw rate, angular and lateral acceleration are within the limits."""
     return bool((np.abs(trajectory.angular) <= SAMPLING_SHARE * limits.max_angular_radps).all()
                 and (np.abs(np.diff(trajectory.angular)) <=
                      SAMPLING_SHARE * SAMPLE_S * limits.angular_acceleration_radps2).all()

@@ -16,29 +16,29 @@ from .speeds import SAMPLE_S, history_way, speeds_along, speeds_on, ways_at_samp
 from .trajectory import Trajectory
 
 PIVOT_STEP_RAD = 0.02
-# A robot slower than this is taken to stand.
+# A slower robot counts as stopped.
 STANDING_MPS, STANDING_RADPS = 0.02, 0.03
 
 
 class PlannedMotion(ABC):
-    """What the robot does between two stops."""
+    """Motion of the robot between two stops."""
 
     @property
     @abstractmethod
     def length_m(self) -> float:
-        """Way of the turn centre."""
+        """Path length of the turn centre."""
 
     @abstractmethod
     def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Optional[Trajectory]:
-        """Trajectory from the beginning, at the start speed, to rest; None when there is none."""
+        """Return the trajectory from the start speed to rest; None if it does not exist."""
 
     @abstractmethod
     def lag(self, error: Pose2) -> float:
-        """How far the robot is behind on its way, m, or on the spot rad; error is the reference seen from it."""
+        """Return how far the robot is behind, m, or rad on the spot; error is the reference as seen from the robot."""
 
     @abstractmethod
     def from_way(self, way: float) -> "Optional[PlannedMotion]":
-        """The rest of it from a way on, m or rad; None when that needs another plan."""
+        """Return the rest from a distance on, m or rad; None if that requires another plan."""
 
 
 @dataclass(frozen=True)
@@ -54,7 +54,7 @@ class CurveMotion(PlannedMotion):
         return self.curve.length
 
     def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Optional[Trajectory]:
-        """None when the robot cannot stop on the curve from the start speed."""
+        """Return the trajectory; None if the robot cannot stop on the curve from the start speed."""
         curve = self.curve
         start_speed = start_speed if start_speed > STANDING_MPS else 0.0
         first = math.ceil(history_way(start_speed, limits.ramp_s) / curve.step_m)
@@ -76,11 +76,11 @@ class CurveMotion(PlannedMotion):
         return Trajectory(ways, poses, self.sign * speed, angular, curve.length)
 
     def lag(self, error: Pose2) -> float:
-        """Way that the robot is behind, m."""
+        """Return the distance in m by which the robot is behind."""
         return error.x * self.sign
 
     def from_way(self, way: float) -> "CurveMotion":
-        """The rest of it; at least one step is left."""
+        """Return the rest of the curve; at least one step remains."""
         curve = self.curve
         begin = max(0.0, min(way, curve.length - curve.step_m))
         along = curve.step_m * np.arange(len(curve.x))
@@ -99,11 +99,11 @@ class Pivot(PlannedMotion):
 
     @property
     def length_m(self) -> float:
-        """None: the turn centre stays."""
+        """Zero, because the turn centre does not move."""
         return 0.0
 
     def timed(self, limits: MotionLimits, max_speed: float, start_speed: float = 0.0) -> Optional[Trajectory]:
-        """start_speed is the present yaw rate towards the angle, rad/s. None when it is too fast to stop."""
+        """Return the trajectory; start_speed is the yaw rate towards the angle, rad/s. None if it is too high."""
         size = abs(self.angle)
         start_rate = start_speed if start_speed > STANDING_RADPS else 0.0
         first = history_way(start_rate, limits.angular_ramp_s)
@@ -120,10 +120,10 @@ class Pivot(PlannedMotion):
         return Trajectory(ways, poses, np.zeros_like(ways), np.gradient(heading, SAMPLE_S), 0.0)
 
     def lag(self, error: Pose2) -> float:
-        """Angle that the robot is behind, rad."""
+        """Return the angle in rad by which the robot is behind."""
         return math.copysign(1.0, self.angle) * error.heading
 
     def from_way(self, way: float) -> "Pivot":
-        """The rest of it."""
+        """Return the rest of the turn."""
         turned = math.copysign(min(way, abs(self.angle)), self.angle)
         return Pivot(Pose2(self.start.x, self.start.y, wrap_angle(self.start.heading + turned)), self.angle - turned)

@@ -1,4 +1,4 @@
-"""A plan: motions with their trajectories, one after the other, each from and to standstill but the first."""
+"""A plan: a sequence of motions with their trajectories; only the first may start in motion, and each ends at rest."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import List, Tuple
@@ -12,7 +12,7 @@ from .trajectory import Trajectory
 
 
 class PlanRefused(ProblemError):
-    """There is no plan that the robot may follow; the text says why."""
+    """No plan exists that the robot may follow; the text states the cause."""
 
 
 @dataclass(frozen=True)
@@ -33,20 +33,20 @@ class PlanPart:
 
     @property
     def is_on_the_spot(self) -> bool:
-        """True when its way is an angle."""
+        """True if the motion is a turn on the spot."""
         return self.trajectory.length_m == 0.0
 
 
 @dataclass(frozen=True)
 class Plan:
-    """Parts that lead to the goal, in the goal's frame."""
+    """Parts of a path to the goal, in the goal's frame."""
 
     goal: Pose2
     parts: Tuple[PlanPart, ...]
 
     @property
     def duration_s(self) -> float:
-        """Time that it takes."""
+        """Duration of the plan."""
         return sum(part.trajectory.duration_s for part in self.parts)
 
     @property
@@ -56,5 +56,5 @@ class Plan:
             (self.goal.x, self.goal.y)]
 
     def length_after(self, index: int) -> float:
-        """Way in m of the parts behind the one with the index."""
+        """Return the path length in m of the parts after the given one."""
         return sum(part.trajectory.length_m for part in self.parts[index + 1:])

@@ -1,7 +1,7 @@
-"""From a way to its timing: as fast as the limits allow, with jerk-limited changes of speed.
+"""Timing of a path: as fast as the limits allow, with jerk-limited changes of speed.
 
-Speeds along the way come from a forward and a backward pass (as in time-optimal path parametrisation); a moving average
-over the time in which the acceleration may build up then limits the jerk. The average keeps the way, and where the
+Speeds along the path result from a forward and a backward pass (as in time-optimal path parametrisation). A moving
+average over the build-up time of the acceleration then limits the jerk. The average preserves the distance. If the
 acceleration phases are at least that long, it is the quickest S-curve.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -16,17 +16,17 @@ from ..geometry.curve import Curve
 from ..limits import MotionLimits
 
 SAMPLE_S = 0.02
-# The change of curvature alone may take this share of the angular acceleration.
+# The change of curvature alone may use this share of the angular acceleration.
 BEND_SHARE = 0.9
-# So much is left over by rounding when a stop ends exactly where it must.
+# Rounding error of the squared speed if a stop ends exactly at the end.
 ROUNDING = 1e-6
 
-# A gain is the change of the squared speed by m of way, either sign, at a sample and a squared speed.
+# A gain is the change of the squared speed per metre, of either sign, at a sample and a squared speed.
 Gain = Callable[[int, float], float]
 
 
 def speed_caps(curve: Curve, limits: MotionLimits, max_speed: float) -> FloatArray:
-    """Highest speed at each sample of a curve."""
+    """Return the highest speed at each sample of a curve."""
     bends, changes = np.maximum(np.abs(curve.curvature), 1e-9), np.maximum(np.abs(curve.bend), 1e-9)
     caps = np.minimum(limits.max_angular_radps / bends, np.sqrt(limits.lateral_acceleration_mps2 / bends))
     caps = np.minimum(caps, limits.max_linear_mps / (1.0 + limits.curve_lever_m * bends))
@@ -35,7 +35,7 @@ def speed_caps(curve: Curve, limits: MotionLimits, max_speed: float) -> FloatArr
 
 
 def curve_gain(curve: Curve, limits: MotionLimits) -> Gain:
-    """What linear and angular acceleration allow on a curve."""
+    """Return the gain that linear and angular acceleration allow on a curve."""
     bends, changes = np.abs(curve.curvature).tolist(), np.abs(curve.bend).tolist()
     linear, angular = 2.0 * limits.acceleration_mps2, 2.0 * limits.angular_acceleration_radps2
 
@@ -49,16 +49,16 @@ def curve_gain(curve: Curve, limits: MotionLimits) -> Gain:
 
 
 def speeds_on(curve: Curve, limits: MotionLimits, max_speed: float, start_speed: float) -> Optional[List[float]]:
-    """Speed at each sample of a curve, ending at rest; None when there is no stop in time."""
+    """Return the speed at each sample of a curve, ending at rest; None if the robot cannot stop in time."""
     return speeds_along(speed_caps(curve, limits, max_speed), curve_gain(curve, limits), curve.step_m, start_speed,
                         2.0 * limits.acceleration_mps2)
 
 
 def speeds_along(caps: FloatArray, gain: Gain, step: float, start_speed: float, max_gain: float
                  ) -> Optional[List[float]]:
-    """Speed at each sample, ending at rest; None when there is no stop in time.
+    """Return the speed at each sample, ending at rest; None if the robot cannot stop in time.
 
-    max_gain is the gain that braking may use where the start is faster than the caps.
+    max_gain is the gain for braking if the start is faster than the caps.
     """
     braking = start_speed ** 2 - max_gain * step * np.arange(len(caps))
     squares = np.maximum(caps ** 2, braking).tolist()
@@ -76,9 +76,10 @@ def speeds_along(caps: FloatArray, gain: Gain, step: float, start_speed: float, 
 
 
 def ways_at_samples(speeds: List[float], step: float, first_way: float, ramp_s: float) -> FloatArray:
-    """Way at each SAMPLE_S, with limited jerk; speeds belong to ways from first_way on, the first is the present one.
+    """Return the distance at each SAMPLE_S, with limited jerk. speeds are given from first_way on, starting with the
+    present.
 
-    first_way is at least history_way: what the moving average still takes from the speed before the start.
+    first_way is at least history_way: the distance that the moving average adds for the speed before the start.
     """
     start = speeds[0]
     speed = np.asarray(speeds)
@@ -96,7 +97,7 @@ def ways_at_samples(speeds: List[float], step: float, first_way: float, ramp_s: 
 
 
 def _evenly(times: FloatArray, ways: FloatArray, speeds: FloatArray) -> FloatArray:
-    """Ways at each SAMPLE_S, with constant acceleration from one time to the next."""
+    """Return the distance at each SAMPLE_S, with constant acceleration between two times."""
     at = np.minimum(np.arange(0.0, times[-1] + 2.0 * SAMPLE_S, SAMPLE_S), times[-1])
     index = np.clip(np.searchsorted(times, at, side="right") - 1, 0, len(times) - 2)
     passed, span = at - times[index], times[index + 1] - times[index]
@@ -104,7 +105,7 @@ def _evenly(times: FloatArray, ways: FloatArray, speeds: FloatArray) -> FloatArr
 
 
 def history_way(start_speed: float, ramp_s: float) -> float:
-    """Way that the moving average still takes from the speed before the start."""
+    """Return the distance that the moving average adds for the speed before the start."""
     return start_speed * SAMPLE_S * 0.5 * (_window(ramp_s) - 1)
 
 

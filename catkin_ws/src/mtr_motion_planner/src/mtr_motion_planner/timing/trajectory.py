@@ -1,4 +1,4 @@
-"""Where the robot is to be, and how fast, at each instant until it stands."""
+"""Planned pose and velocity at each instant until the robot is at rest."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from functools import cached_property
@@ -14,10 +14,10 @@ from .speeds import SAMPLE_S
 
 @dataclass(frozen=True)
 class Reference:
-    """Pose and velocity to have at an instant.
+    """Planned pose and velocity at an instant.
 
     Attributes:
-        way: since the motion's beginning, m, or on the spot rad.
+        way: distance since the start of the motion, m, or rad on the spot.
     """
 
     pose: Pose2
@@ -30,9 +30,9 @@ class Trajectory:
     """Samples of a motion; constant after their end.
 
     Attributes:
-        duration_s: until the robot is to stand.
-        length_m: way of the turn centre.
-        ways: (n,) m, or on the spot rad, since the beginning.
+        duration_s: time until the robot is at rest.
+        length_m: path length of the turn centre.
+        ways: (n,) distance since the start, m, or rad on the spot.
         poses: (n, 3) x, y in m and heading in rad of the turn centre, in the frame of the plan.
         linear, angular: (n,) m/s, backwards negative, and rad/s.
     """
@@ -48,7 +48,7 @@ class Trajectory:
         return rows
 
     def at(self, time_s: float) -> Reference:
-        """Reference at a time since the beginning."""
+        """Return the reference at a time since the start."""
         place = min(max(time_s, 0.0) / SAMPLE_S, len(self._rows) - 1.0)
         index = min(int(place), len(self._rows) - 2)
         share = place - index
