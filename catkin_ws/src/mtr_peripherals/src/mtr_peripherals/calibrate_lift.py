@@ -1,4 +1,4 @@
-"""Orders the firmware to drive the lift to both stops and remember them, and says in one sentence what became of it."""
+"""Orders the firmware to calibrate the lift by driving to both stops, and prints the result in one sentence."""
 # SPDX-License-Identifier: Apache-2.0
 import argparse
 import sys
@@ -27,13 +27,13 @@ class NewestState:
         self.report: Optional[Report] = None
 
     def take(self, message: FirmwareState) -> None:
-        """A report has come."""
+        """Store a valid report."""
         if is_sound(message):
             self.report = Report(message.calibration_id, message.calibration_state, message.time_us)
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Calibrate; 0 when the lift is calibrated."""
+    """Calibrate the lift; return 0 on success."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("stroke_m", type=float, help="m between the lift's stops, measured by hand")
     parser.add_argument("--dry-run", action="store_true", help="only print the order")
@@ -57,7 +57,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def calibrate(stroke_m: float) -> Tuple[bool, str]:
-    """Wire the job to the topics and do it."""
+    """Run the calibration on the node's topics."""
     newest = NewestState()
     publisher = rospy.Publisher(names.FIRMWARE_CALIBRATE, FirmwareCalibrate, queue_size=1)
     rospy.Subscriber(names.FIRMWARE_STATE, FirmwareState, newest.take, queue_size=1)
@@ -68,7 +68,7 @@ def calibrate(stroke_m: float) -> Tuple[bool, str]:
 
 
 def is_heard_by_all(publisher: rospy.Publisher) -> bool:
-    """Wait for all that listen: the peripherals node ends a calibration that it has not heard of."""
+    """Wait for all subscribers, because the peripherals node aborts a calibration whose orders it does not receive."""
     subscribers = dict(rosgraph.Master(rospy.get_name()).getSystemState()[1])
     wanted = len(subscribers.get(publisher.resolved_name, []))
     for _ in range(round(ANSWER_WITHIN_S / PERIOD_S)):

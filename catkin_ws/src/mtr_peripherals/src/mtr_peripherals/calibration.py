@@ -1,4 +1,4 @@
-"""Calibration of the servos: the only place where they meet buttons."""
+"""Calibration of the servos: the only place that assigns servos to buttons."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Iterable, Tuple
@@ -14,18 +14,18 @@ MAX_BUTTON = 255
 
 
 class RequestRefused(ProblemError):
-    """The lift or a servo cannot do what is asked."""
+    """The lift or a servo cannot execute the request."""
 
 
 @dataclass(frozen=True)
 class Calibration(ParameterSet):
-    """What config/calibration.yaml says.
+    """Values of config/calibration.yaml.
 
     Attributes:
         button_of_servo: number of the button that each servo presses, in the firmware's order; 1 or 2 servos.
-        minimum_strength, maximum_strength: allowed travel of a press as a share of the servo's.
-        default_hold_s: time a button is held when the order names none.
-        maximum_hold_s: longest time a button is held; the firmware counts 16-bit milliseconds.
+        minimum_strength, maximum_strength: allowed travel of a press as a share of the servo's travel.
+        default_hold_s: hold time of a button if the order specifies none.
+        maximum_hold_s: longest hold time of a button; the firmware counts 16-bit milliseconds.
     """
 
     button_of_servo: Tuple[int, ...] = (1, 2)
@@ -43,7 +43,7 @@ class Calibration(ParameterSet):
             check_range("button_of_servo", button, 1, MAX_BUTTON)
 
     def servos(self, buttons: Iterable[int]) -> int:
-        """Bits of the servos that press the buttons. Raises RequestRefused."""
+        """Return the bits of the servos that press the buttons. Raises RequestRefused."""
         bits = 0
         for button in buttons:
             if button not in self.button_of_servo:
@@ -55,14 +55,14 @@ class Calibration(ParameterSet):
         return bits
 
     def strength(self, strength: float) -> float:
-        """The strength when it is allowed. Raises RequestRefused."""
+        """Return the strength if it is allowed. Raises RequestRefused."""
         if not self.minimum_strength <= strength <= self.maximum_strength:
             raise RequestRefused(problems.STRENGTH(value=strength, low=self.minimum_strength,
                                                    high=self.maximum_strength))
         return strength
 
     def hold_ms(self, duration_s: float) -> int:
-        """Time to hold in whole ms; 0 asks for the default. Raises RequestRefused."""
+        """Return the hold time in whole ms; a duration of 0 selects the default. Raises RequestRefused."""
         if duration_s == 0.0:
             duration_s = self.default_hold_s
         if not 0.0 < duration_s <= self.maximum_hold_s:

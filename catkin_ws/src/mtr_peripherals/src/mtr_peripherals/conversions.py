@@ -1,4 +1,4 @@
-"""ROS messages to the peripherals' plain data and back."""
+"""Converts ROS messages to the peripherals' plain data and back."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Optional, Union
@@ -37,13 +37,13 @@ JOINTS = ("lift", "front_left_wheel", "front_right_wheel", "rear_left_wheel", "r
 
 
 def health_of(message: FirmwareHealth) -> Health:
-    """The firmware's counters that a person may have to know of."""
+    """Return the firmware's counters that may be reported to the Operator."""
     return Health(message.refused_commands, message.last_refusal, message.checksum_errors, message.skipped_frames,
                   message.calibration_copies, message.resets, message.reset_cause)
 
 
 def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> Inputs:
-    """What the other nodes say; None for one that is silent."""
+    """Return the inputs from the other nodes; None for a silent node."""
     if desired is None:
         return Inputs(mode=mode.mode) if mode else Inputs()
     wanted = desired_state_from(desired)
@@ -53,7 +53,7 @@ def inputs_from(desired: Optional[DesiredState], mode: Optional[RobotMode]) -> I
 
 
 def firmware_report(state: FirmwareState, stamp_ns: int, times: FirmwareTimes) -> FirmwareReport:
-    """A FirmwareState, sent at stamp_ns of the steady clock."""
+    """Return a FirmwareState that was sent at stamp_ns of the steady clock."""
     started = state.press_state in (PressState.PRESSING.value, PressState.DONE.value)
     return FirmwareReport(
         stamp_ns=stamp_ns, lift_height_m=state.lift_height_m, press_id=state.press_id,
@@ -64,37 +64,37 @@ def firmware_report(state: FirmwareState, stamp_ns: int, times: FirmwareTimes) -
 
 
 def inputs_report(message: FirmwareInputs, arrival_ns: int, times: FirmwareTimes) -> InputsReport:
-    """A FirmwareInputs that arrived at a time of the steady clock."""
+    """Return a FirmwareInputs that arrived at a time of the steady clock."""
     return InputsReport(times.steady_ns(message.time_us, arrival_ns), message.signal)
 
 
 def signals_message(order: SignalOrder, latest_us: int) -> FirmwareSignals:
-    """Warning signals, for the firmware, which follows them until latest_us of its clock."""
+    """Return the warning signals for the firmware, valid until latest_us of its clock."""
     return seal(FirmwareSignals(signal=order.signal.value, beacon=order.has_beacon, stop_input=order.uses_stop_input,
                                 latest_us=latest_us))
 
 
 def command_message(outcome: Outcome, seq: int, latest_us: int) -> FirmwareCommand:
-    """Lift and LEDs, for the firmware, which obeys it until latest_us of its clock."""
+    """Return the command for lift and LEDs, valid until latest_us of the firmware's clock."""
     return seal(FirmwareCommand(seq=seq % 2 ** 32, lift_height_m=outcome.lift_height_m, led_pattern=outcome.led.value,
                                 stop=outcome.stop, latest_us=latest_us))
 
 
 def press_message(press: ServoPress, latest_us: int) -> FirmwarePress:
-    """One press, for the firmware, which does not begin it after latest_us of its clock."""
+    """Return the order for one press, which the firmware does not start after latest_us of its clock."""
     return seal(FirmwarePress(id=press.id, servos=press.servos, strength=press.strength, hold_ms=press.hold_ms,
                               latest_us=latest_us))
 
 
 def emergency_word(message: MotionLock, steady_stamp_ns: int) -> EmergencyWord:
-    """What the owner of a motion lock says of its emergency stop."""
+    """Return the emergency stop in the motion lock of its owner."""
     reason = problem_of(message.problems, message.reason) or problems.EMERGENCY_ENGAGED(owner=message.owner)
     return EmergencyWord(message.owner, reason if message.engaged else NO_PROBLEM, steady_stamp_ns, message.emergency)
 
 
 def state_message(outcome: Outcome, battery: float, stamp: Time, clock_of_robot: RobotClock,
                   firmware_resets: int) -> PeripheralsState:
-    """State in the terms of the domain."""
+    """Return the state of the peripherals in domain terms."""
     message = PeripheralsState(
         alive=outcome.alive, key_height_m=outcome.key_height_m, pressed_buttons=list(outcome.pressed_buttons),
         presses=[_report_message(report, clock_of_robot) for report in outcome.results], battery=battery,
@@ -106,14 +106,14 @@ def state_message(outcome: Outcome, battery: float, stamp: Time, clock_of_robot:
 
 
 def joint_message(outcome: Outcome, stamp: Time) -> JointState:
-    """Joints for robot_state_publisher; the wheels' angles do not matter to anyone."""
+    """Return the joints for robot_state_publisher; the wheels' angles are not used."""
     message = JointState(name=list(JOINTS), position=[outcome.lift_now_m] + [0.0] * (len(JOINTS) - 1))
     message.header.stamp = stamp
     return message
 
 
 def battery_charge(percentage: Optional[float]) -> float:
-    """0 to 1, NaN when unknown."""
+    """Return the charge from 0 to 1, or NaN if it is unknown."""
     return percentage if percentage is not None and 0.0 <= percentage <= 1.0 else math.nan
 
 

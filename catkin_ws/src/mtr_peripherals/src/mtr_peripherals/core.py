@@ -29,31 +29,31 @@ from .parameters import Parameters
 from .presses import Presses
 
 NS = 1e-9
-# From a lock to wheels that brake, as in drive control's `reaction_s`, whose other part is its tick.
+# Time from a lock until the wheels brake, as in drive control's `reaction_s` without its tick.
 WHEELS_ANSWER_S = 0.06
-# Between two ticks nobody looks, neither here nor in the state machine, which stops the robot for it, nor in drive
-# control: a silence is told so early that the wheels brake when it has lasted as long as it may.
+# Neither this node nor the state machine, which stops the robot, nor drive control detects a silence between two ticks.
+# So it is reported this long before its limit, and the wheels brake when the limit is reached.
 TOLD_BEFORE_S = (PERIPHERALS.period_ns + STATE_MACHINE.period_ns + DRIVE_CONTROL.period_ns) * NS + WHEELS_ANSWER_S
-# A person who holds the button wants the lift this far ahead; somewhat more than the period of its messages.
+# Distance in s of the manual target ahead of the lift; somewhat more than the period of the controller's messages.
 MANUAL_LEAD_S = 0.3
-# States in which a part of the robot is not well, or the state machine does not say.
+# States of a faulty part, or of an unknown state of the robot.
 UNWELL_STATES = (State.STARTING, State.FAULT)
 
 
 @dataclass(frozen=True)
 class Inputs:
-    """What the other nodes say at a tick; the defaults are what holds when they are silent.
+    """Inputs from the other nodes at a tick; the defaults apply while they are silent.
 
     Attributes:
         mode: state of the robot.
-        has_goal: the robot is on its way somewhere.
-        is_held: the robot stands until the Operator has it go on; somebody may be at the mast.
-        manual_lift_mps: rate that the manual controller wants, upwards; 0: it wants nothing.
+        has_goal: the robot drives to a goal.
+        is_held: the robot is on hold until the Operator resumes it; a person may be at the mast.
+        manual_lift_mps: rate commanded by the manual controller, upwards positive; 0: none.
         linear_mps: velocity sent to the wheels, negative backwards.
         sets_off: the state machine waits for the signal before motion.
         board: newest report of the board's inputs and signals.
-        calibrates: a person's calibrate_lift repeats its request.
-        emergency: why an emergency stop is engaged, no problem when none is.
+        calibrates: calibrate_lift repeats its request.
+        emergency: why an emergency stop is engaged, no problem if none is.
     """
 
     desired: DesiredState = DesiredState()
@@ -70,16 +70,16 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What goes to the firmware (stop, lift_height_m, led, press) and to the other nodes (the rest).
+    """Outputs for the firmware (stop, lift_height_m, led, press) and for the other nodes (the rest).
 
-    Times are those of the steady clock.
+    Times are of the steady clock.
 
     Attributes:
-        stop: the firmware holds the lift, releases the servos and begins no press.
-        manual_lifts: times that the manual controller took the lift.
-        signals: for the firmware; None leaves those in force.
+        stop: the firmware holds the lift, releases the servos and starts no press.
+        manual_lifts: number of times that the manual controller started to move the lift.
+        signals: for the firmware; None leaves the signals in force.
         signal_given: number of the signal that the board reports.
-        lift_jams: times that the lift gave up after a jam.
+        lift_jams: number of times that the lift gave up after a jam.
     """
 
     stop: bool
@@ -99,14 +99,14 @@ class Outcome:
     lift_jams: int = 0
 
 
-# What goes to the firmware when an emergency stop is engaged between two ticks.
+# Order to the firmware when an emergency stop is engaged between two ticks.
 STOPPED = Outcome(stop=True, lift_height_m=math.nan, led=Led.PAUSED, press=None, alive=False, lift_now_m=0.0,
                   key_height_m=math.nan, pressed_buttons=(), results=[], led_shown="", message=NO_PROBLEM,
                   manual_lifts=0)
 
 
 class Peripherals:
-    """Decides at each tick what lift, servos and LEDs do."""
+    """Controls lift, servos and LEDs at each tick."""
 
     def __init__(self, parameters: Parameters, lift: KeyLift):
         self._parameters, self._key_lift = parameters, lift
@@ -116,7 +116,7 @@ class Peripherals:
         self._is_manual = False
 
     def step(self, inputs: Inputs, report: Optional[FirmwareReport], now_ns: int) -> Outcome:
-        """Decide at now_ns of the steady clock; report is the firmware's newest one."""
+        """Decide at now_ns of the steady clock; report is the firmware's newest."""
         silence = self._silence(report, now_ns)
         lift_height_m, refusal = self._lift(inputs, report) if not silence else (math.nan, NO_PROBLEM)
         press = self._press(inputs, report, now_ns)
@@ -148,7 +148,7 @@ class Peripherals:
             self._presses.take_up(desired.press, report, now_ns)
         is_stopped = desired.stop or inputs.is_held or inputs.mode in UNWELL_STATES
         stop = inputs.emergency or (problems.STOPPED() if is_stopped else NO_PROBLEM)
-        # A press that has begun ends by itself; a new one needs a live link.
+        # A started press ends by itself; a new one requires a live link.
         return self._presses.step(desired.press if desired.link_alive else NO_PRESS, report, now_ns, stop)
 
     def _count_manual_lift(self, inputs: Inputs) -> None:
@@ -177,7 +177,7 @@ class Peripherals:
             return math.nan, refused.problem
 
     def _while_calibrating(self, inputs: Inputs, report: FirmwareReport) -> Tuple[float, Problem]:
-        """Any height lets the firmware go on, NaN ends its calibration: the lift moves by itself then."""
+        """Return a valid height, which lets the firmware continue to calibrate, or NaN, which aborts it."""
         if inputs.desired.session_id or inputs.manual_lift_mps:
             return math.nan, problems.CALIBRATION_REFUSED()
         if not inputs.calibrates:

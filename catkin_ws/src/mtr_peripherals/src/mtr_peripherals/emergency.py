@@ -1,4 +1,4 @@
-"""Emergency stops: who engages one, and who has to be heard so that lift and servos may move."""
+"""Emergency stops: the engaged ones, and those whose messages lift and servos require."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, Iterable, Optional
@@ -14,11 +14,11 @@ NS = 1e-9
 
 @dataclass(frozen=True)
 class EmergencyWord:
-    """What an owner of a motion lock says; the reason says why it is engaged, no problem when it is not.
+    """Message of a motion lock's owner; the reason states why the lock is engaged, no problem if it is released.
 
     Attributes:
-        steady_stamp_ns: when, on the steady clock.
-        emergency: it is an emergency stop.
+        steady_stamp_ns: its stamp on the steady clock.
+        emergency: the lock is an emergency stop.
     """
 
     owner: str
@@ -28,19 +28,19 @@ class EmergencyWord:
 
 
 class EmergencyStops:
-    """The required ones, and each other that was ever heard: one that falls silent stays engaged.
+    """All required emergency stops, and each other one since its first message: a silent one counts as engaged.
 
-    One that fell silent while it was engaged is latched, as in drive control.
+    An emergency stop that fell silent while it was engaged is latched, as in drive control.
     """
 
     def __init__(self, required_owners: Iterable[str], timeout_s: float):
         self._timeout_s = timeout_s
-        # Nothing of a required owner that was not heard yet.
+        # None for a required owner without a message yet.
         self._words: Dict[str, Optional[EmergencyWord]] = dict.fromkeys(required_owners)
         self._latch = EmergencyLatch(timeout_s)
 
     def take(self, word: EmergencyWord) -> bool:
-        """Take an owner's word; True when it engages one that was released or never heard."""
+        """Process an owner's message; return True if it engages a released or new emergency stop."""
         if not word.emergency and word.owner not in self._words:
             return False
         was_engaged = word.owner in self._latch
@@ -49,7 +49,7 @@ class EmergencyStops:
         return bool(word.reason) and not was_engaged
 
     def reason(self, now_ns: int) -> Problem:
-        """Why lift and servos stand still at a time of the steady clock; no problem when they may move."""
+        """Return why lift and servos must stop at a time of the steady clock; no problem if they may move."""
         causes = (self._cause(owner, word, now_ns) for owner, word in sorted(self._words.items()))
         cause = next((cause for cause in causes if cause), None)
         return problems.EMERGENCY_STOP(cause=cause) if cause else NO_PROBLEM

@@ -10,7 +10,7 @@ from . import problems
 
 
 class PressState(enum.Enum):
-    """What the firmware says of a press; the values are those of FirmwareState."""
+    """State of a press as reported by the firmware, with the values of FirmwareState."""
 
     NONE = 0
     PRESSING = 1
@@ -20,7 +20,7 @@ class PressState(enum.Enum):
 
 
 class Led(enum.Enum):
-    """Patterns of the LEDs; the values are those of FirmwareCommand."""
+    """Patterns of the LEDs, with the values of FirmwareCommand."""
 
     OFF = 0
     STARTING = 1
@@ -36,7 +36,7 @@ class Led(enum.Enum):
 
 
 class Signal(enum.Enum):
-    """Warning signals; the values are those of FirmwareSignals."""
+    """Warning signals, with the values of FirmwareSignals."""
 
     NONE = 0
     SETS_OFF = 1
@@ -44,24 +44,24 @@ class Signal(enum.Enum):
 
 
 class StopInput(enum.Enum):
-    """State of the board's stop input; the values are those of FirmwareInputs."""
+    """State of the board's stop input, with the values of FirmwareInputs."""
 
     UNUSED = 0
     CLOSED = 1
     OPEN = 2
 
 
-# Of FirmwareState.fault.
+# Values of FirmwareState.fault.
 GIVEN_UP = 4
 FAULTS = {1: problems.LIFT_JAMMED, 2: problems.LIFT_SENSOR_BROKEN, 3: problems.NO_COMMANDS,
           GIVEN_UP: problems.LIFT_GAVE_UP}
 
-# Of FirmwareState.lift_state.
+# Value of FirmwareState.lift_state.
 CALIBRATING = 2
 
-# FirmwareInputs come every 80 ms.
+# FirmwareInputs arrive every 80 ms.
 SIGNAL_SILENT_S = 0.5
-# A closed input that is reported later says nothing; drive control then treats the topic as silent after 0.25 s.
+# A later report of a closed input is ignored; drive control then treats the topic as silent after 0.25 s.
 STOP_LATE_S = 0.15
 
 
@@ -112,7 +112,7 @@ def signal_order(sets_off: bool, linear_mps: float, is_controlled: bool, uses_st
     """Return the signals at a tick.
 
     linear_mps: velocity sent to the wheels. is_controlled: an application controls the robot, which may move at any
-    time; the beacon shows it.
+    time and therefore shows its beacon.
     """
     signal = Signal.SETS_OFF if sets_off else Signal.REVERSES if linear_mps < 0.0 else Signal.NONE
     has_beacon = sets_off or is_controlled or linear_mps != 0.0
@@ -120,16 +120,16 @@ def signal_order(sets_off: bool, linear_mps: float, is_controlled: bool, uses_st
 
 
 def given_signal(report: Optional[InputsReport], now_ns: int) -> int:
-    """Return the signal that the board reports as given; none when it is silent."""
+    """Return the signal that the board reports as given, or NONE if it is silent."""
     if report is None or not is_fresh((now_ns - report.stamp_ns) * NS, SIGNAL_SILENT_S):
         return Signal.NONE.value
     return report.signal
 
 
 def is_stop(state: int, age_s: float) -> Optional[bool]:
-    """Return whether a report of the stop input means stop: any state but closed does, however old it is.
+    """Return whether a report of the stop input means stop: any state but closed does at any age.
 
-    None for a closed input whose report waited on its way; it says nothing about now.
+    None for a delayed report of a closed input, because it does not state the current position.
     """
     if state != StopInput.CLOSED.value:
         return True

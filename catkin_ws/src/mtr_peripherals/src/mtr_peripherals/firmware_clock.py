@@ -1,6 +1,6 @@
 """Maps the firmware's clock, 32-bit microseconds that wrap, to the robot's steady clock, and that to the robot's clock.
 
-Whatever is done to the robot's clock, the firmware's is compared with the steady one only.
+The firmware's clock is compared with the steady clock only, so that steps of the robot's clock have no effect.
 """
 # SPDX-License-Identifier: Apache-2.0
 from typing import Optional
@@ -10,10 +10,11 @@ from mtr_core.liveness import Instant
 MICROSECOND_NS = 1000
 WRAP_US = 2 ** 32
 WRAP_NS = WRAP_US * MICROSECOND_NS
-# A ceramic resonator, as on an Arduino Mega, is off by up to 0.5 %; the estimate may follow twice that.
+# The error of a ceramic resonator, as on an Arduino Mega, is up to 0.5 %; the estimate may follow twice that drift.
 DRIFT_LIMIT = 0.01
-# A message earlier than this against the estimate, or that tells an earlier time, is of a firmware that has started
-# again; later ones waited on the way. When nothing but such have come for so long, the estimate is wrong.
+# A message that is earlier than the estimate by more than this, or whose time decreases, shows a restarted firmware. A
+# message that is later by more than this was delayed. If only such messages arrive for LATE_FOR_NS, the estimate is
+# wrong.
 RESTART_NS = 1_000_000_000
 LATE_FOR_NS = 5_000_000_000
 # Two readings of the same offset differ by less, see mtr_core.lockstep.clock.
@@ -21,13 +22,13 @@ SAME_OFFSET_NS = 2_000_000
 
 
 def nearest_unwrapped_ns(time_us: int, near_ns: int) -> int:
-    """Time in ns that is time_us modulo the wrap and nearest to near_ns."""
+    """Return the time in ns that equals time_us modulo the wrap and is nearest to near_ns."""
     time_ns = time_us * MICROSECOND_NS
     return time_ns + (near_ns - time_ns + WRAP_NS // 2) // WRAP_NS * WRAP_NS
 
 
 class SharedClock:
-    """The simulated firmware's clock is the robot's own but for a constant, modulo the wrap."""
+    """The simulated firmware's clock, which differs from the robot's clock only by a constant, modulo the wrap."""
 
     restarts = 0
 
@@ -35,25 +36,25 @@ class SharedClock:
         self._start_us = start_us
 
     def observe(self, time_us: int, arrival_ns: int) -> int:
-        """Steady time at which the firmware sent a message, from its time and the steady time near arrival."""
+        """Return the steady time at which the firmware sent a message, from its time and the time near arrival."""
         return nearest_unwrapped_ns(time_us - self._start_us, arrival_ns)
 
     def steady_ns(self, time_us: int, near_ns: int) -> int:
-        """Steady time of an instant of the firmware's clock that lies near a known one."""
+        """Return the steady time of an instant of the firmware's clock near a known one."""
         return nearest_unwrapped_ns(time_us - self._start_us, near_ns)
 
     def firmware_us(self, steady_ns: int) -> Optional[int]:
-        """The firmware's clock at a steady time."""
+        """Return the firmware's clock at a steady time."""
         return (steady_ns // MICROSECOND_NS + self._start_us) % WRAP_US
 
 
 class FirmwareClock:
-    """A clock of its own: a message is late by transport, never early, so the least delay is the best estimate.
+    """A separate clock: a message may be late by transport, never early, so the least delay yields the best estimate.
 
     The estimate of the offset rises slowly to follow drift, and falls at once when a message had less delay.
 
     Attributes:
-        restarts: how often the firmware has started again.
+        restarts: number of restarts of the firmware.
     """
 
     def __init__(self) -> None:
@@ -63,7 +64,7 @@ class FirmwareClock:
         self._in_time_ns = 0
 
     def observe(self, time_us: int, arrival_ns: int) -> int:
-        """Steady time at which the firmware sent a message, from its time and the steady time at arrival."""
+        """Return the steady time at which the firmware sent a message, from its time and the steady time at arrival."""
         if self._last_firmware_ns is None:
             return self._begin(time_us, arrival_ns)
         firmware_ns = nearest_unwrapped_ns(time_us, arrival_ns - self._offset_ns)
@@ -81,11 +82,11 @@ class FirmwareClock:
         return firmware_ns + self._offset_ns
 
     def steady_ns(self, time_us: int, near_ns: int) -> int:
-        """Steady time of an instant of the firmware's clock that lies near a known steady time."""
+        """Return the steady time of an instant of the firmware's clock near a known steady time."""
         return nearest_unwrapped_ns(time_us, near_ns - self._offset_ns) + self._offset_ns
 
     def firmware_us(self, steady_ns: int) -> Optional[int]:
-        """The firmware's clock at a steady time, None before its first message."""
+        """Return the firmware's clock at a steady time, or None before its first message."""
         if self._last_firmware_ns is None:
             return None
         return (steady_ns - self._offset_ns) // MICROSECOND_NS % WRAP_US
@@ -98,16 +99,16 @@ class FirmwareClock:
 
 
 class RobotClock:
-    """Steady times on the robot's clock: what lies between the two changes only when the robot's clock is set."""
+    """Converts steady times to the robot's clock, with an offset that changes only when the robot's clock is set."""
 
     def __init__(self) -> None:
         self._offset_ns: Optional[int] = None
 
     def update(self, now: Instant) -> None:
-        """Take a reading of both clocks."""
+        """Process a reading of both clocks."""
         if self._offset_ns is None or abs(now.offset_ns - self._offset_ns) > SAME_OFFSET_NS:
             self._offset_ns = now.offset_ns
 
     def robot_ns(self, steady_ns: int) -> int:
-        """The robot's time of a steady time, as its clock stands now."""
+        """Return the time of the robot's clock at a steady time, for its present offset."""
         return steady_ns + (self._offset_ns or 0)

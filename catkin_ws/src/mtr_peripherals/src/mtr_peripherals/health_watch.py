@@ -1,11 +1,11 @@
-"""What the firmware's counters say that a person should know: one sentence at a time, and not too often."""
+"""Warnings from the firmware's counters for the Operator: one sentence at a time, at a limited rate."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, replace
 from typing import Optional
 
-# The next sentence comes at the earliest after this; until then what happens is added up.
+# Shortest time between two sentences; events in between are summed up.
 QUIET_S = 10.0
-# Good copies of the lift's calibration in a sound memory.
+# Good copies of the lift's calibration in an intact memory.
 ALL_COPIES = 2
 # By FirmwareHealth.last_refusal.
 REFUSED_FIELDS = {1: "the lift's height", 2: "the LED pattern", 3: "the press id", 4: "the servos", 5: "the strength",
@@ -31,14 +31,14 @@ class Health:
 
 
 class HealthWatch:
-    """Compares each report with the last one that was spoken of."""
+    """Compares each report with the last one that was reported to the Operator."""
 
     def __init__(self) -> None:
         self._known: Optional[Health] = None
         self._spoken_s: Optional[float] = None
 
     def sentence(self, health: Health, now_s: float) -> str:
-        """Sentence for the Operator, empty when there is nothing new or it is too early to say it."""
+        """Return a sentence for the Operator; empty if nothing changed or it is too early."""
         known = self._known or replace(health, calibration_copies=ALL_COPIES)
         if _was_reset(known, health):
             known = Health(calibration_copies=known.calibration_copies, resets=known.resets)
@@ -55,7 +55,7 @@ class HealthWatch:
 
 
 def _was_reset(known: Health, health: Health) -> bool:
-    """It says so, or a counter has stepped back; each counts from 0 again."""
+    """Return True if the reset count changed or a counter decreased; the counters then start at 0."""
     return (health.resets != known.resets or health.refused_commands < known.refused_commands
             or health.checksum_errors < known.checksum_errors or health.skipped_frames < known.skipped_frames)
 

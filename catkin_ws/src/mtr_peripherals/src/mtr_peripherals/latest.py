@@ -1,4 +1,4 @@
-"""The newest message of a topic that need not come, with its age on the steady clock."""
+"""The newest message of an optional topic, with its age on the steady clock."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Generic, Optional, Tuple, TypeVar
 
@@ -8,16 +8,16 @@ T = TypeVar("T")
 
 
 class Latest(Generic[T]):
-    """Holds one message; written by one thread, read by another."""
+    """Stores one message; written by one thread, read by another."""
 
     def __init__(self) -> None:
         self._taken: Optional[Tuple[T, int]] = None
 
     def take(self, message: T, steady_stamp_ns: int) -> None:
-        """A message of that time."""
+        """Store a message with its steady time."""
         self._taken = message, steady_stamp_ns
 
     def at(self, now_ns: int, limit_s: float) -> Optional[T]:
-        """The message when it is not older than that, else None."""
+        """Return the message if it is not older than the limit, otherwise None."""
         taken = self._taken
         return taken[0] if taken and is_fresh((now_ns - taken[1]) * NS, limit_s) else None

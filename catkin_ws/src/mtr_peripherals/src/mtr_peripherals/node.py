@@ -54,16 +54,16 @@ from .latest import Latest
 from .orders import FirmwareOrders
 from .parameters import Parameters
 
-# Each report of emulated firmware is there by then: it reports every 40 ms, needs 10 ms on the line, and the simulator
-# hands on every 20 ms.
+# Delay after which each report of emulated firmware has arrived: it reports every 40 ms, needs 10 ms on the line, and
+# the simulator forwards it every 20 ms.
 EMULATED_LAG_NS = 100_000_000
-# The firmware's clock when it is powered on, at time 0 of a simulation: 2 minutes before it wraps, see its config.hpp.
+# The firmware's clock at power-on, at time 0 of a simulation: 2 minutes before it wraps, see its config.hpp.
 EMULATED_CLOCK_START_US = 2 ** 32 - 1 - 120_000_000
-# It speaks every 40 ms while the person wants it, as LiftCommand says.
+# The manual controller publishes LiftCommand every 40 ms while its axis is deflected.
 MANUAL_LIFT_SILENT_S = 0.2
-# calibrate_lift repeats its order every 100 ms as long as the person lets it run.
+# calibrate_lift repeats its order every 100 ms while it runs.
 CALIBRATE_SILENT_S = 0.5
-# Of motion locks; each owner speaks ten times a second.
+# Queue of motion locks; each owner publishes ten times a second.
 LOCKS_QUEUED = 50
 
 
@@ -81,7 +81,7 @@ class PeripheralsNode:
         self._manual_lift: Latest[LiftCommand] = Latest()
         self._calibrate: Latest[FirmwareCalibrate] = Latest()
         self._emergency = EmergencyStops(parameters.emergency_owners, parameters.emergency_silent_after_s)
-        # From a decision to its last message; a stop that comes in between leaves after them.
+        # Held from a decision to its last message; a stop in between is sent after them.
         self._deciding = threading.Lock()
         self._health = HealthWatch()
         self._start = QuietStart()
@@ -117,7 +117,7 @@ class PeripheralsNode:
                              tcp_nodelay=True))
 
     def spin(self) -> None:
-        """Run until shutdown; lift and servos then stop at once, and not when the firmware misses the orders."""
+        """Run until shutdown, then stop lift and servos at once instead of by the firmware's time-out."""
         rospy.on_shutdown(self._stop)
         while not rospy.is_shutdown():
             self._step(self._ticker.sleep())
@@ -200,12 +200,12 @@ class PeripheralsNode:
         return steady_stamp_ns(message.header.stamp.to_nsec(), now, before)
 
     def _manual_lift_mps(self, now_ns: int) -> float:
-        """Rate wanted by the manual controller, 0 when it wants nothing or is silent."""
+        """Return the rate of the manual controller, or 0 if it commands none or is silent."""
         message = self._manual_lift.at(now_ns, MANUAL_LIFT_SILENT_S)
         return message.rate_mps if message else 0.0
 
     def _linear_mps(self, tick: int) -> float:
-        """Velocity sent to the wheels, 0 when drive control is silent."""
+        """Return the velocity sent to the wheels, or 0 if drive control is silent."""
         drive = self._fresh(self._drive, tick)
         return drive.linear_mps if drive else 0.0
 
@@ -230,5 +230,5 @@ class PeripheralsNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("peripherals", Parameters, PeripheralsNode)

@@ -1,11 +1,11 @@
-"""What the core has decided, as orders that the firmware may obey until a time of its own clock."""
+"""Sends the core's decisions as orders that are valid until a time of the firmware's clock."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Callable
 
 from .conversions import FirmwareTimes, command_message, press_message, signals_message
 from .core import STOPPED, Outcome
 
-# The firmware obeys a command for so long: longer than the period, shorter than the silence that stops it.
+# Lifetime of a command: longer than its period, shorter than the silence that stops the firmware.
 COMMAND_LIFETIME_NS = 500_000_000
 
 
@@ -20,11 +20,11 @@ class FirmwareOrders:
         self._has_ended = False
 
     def send(self, outcome: Outcome, now_ns: int) -> None:
-        """What the firmware shall do, decided at now_ns of the steady clock."""
+        """Send the orders that were decided at now_ns of the steady clock."""
         latest_us = self._times.firmware_us(now_ns + COMMAND_LIFETIME_NS)
         if latest_us is None or self._has_ended:
             return
-        # First, so that the board knows of its stop input before it moves anything.
+        # Signals come first, so that the board knows of its stop input before it moves anything.
         if outcome.signals:
             self._send_signals(signals_message(outcome.signals, latest_us))
         self._seq += 1
@@ -34,6 +34,6 @@ class FirmwareOrders:
             self._send_press(press_message(outcome.press, press_latest_us))
 
     def end(self, now_ns: int) -> None:
-        """Lift and servos stop now, and not when the firmware misses the orders."""
+        """Stop lift and servos at once instead of by the firmware's time-out."""
         self.send(STOPPED, now_ns)
         self._has_ended = True

@@ -10,19 +10,20 @@ from .calibration import Calibration
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the node is started with.
+    """Start parameters of the node.
 
     Attributes:
-        firmware_silent_after_s: age of the newest FirmwareState at which the robot brakes at the latest because the
-            firmware has failed; that is told 0.28 s earlier, by ticks of three nodes and what the wheels take.
-        order_silent_after_s: age of DesiredState and RobotMode at which they hold no longer.
-        emergency_silent_after_s: age of an emergency stop's word at which it counts as engaged; it speaks every 0.1 s.
-        emergency_owners: emergency stops that have to be heard; each other one counts from its first word on.
+        firmware_silent_after_s: age of the newest FirmwareState at which the robot brakes at the latest, because the
+            firmware has failed. The silence is reported 0.28 s earlier, for the ticks of three nodes and the reaction
+            of the wheels.
+        order_silent_after_s: age at which DesiredState and RobotMode are no longer valid.
+        emergency_silent_after_s: age of an emergency stop's message at which it counts as engaged; its period is 0.1 s.
+        emergency_owners: required emergency stops; any other one counts from its first message on.
         battery_silent_after_s: age at which the battery's charge is unknown.
-        emulated_firmware: in simulation, the firmware is the flashed one on an emulated board: its clock starts
-            elsewhere, and its reports take time to come.
-        stop_input: a stop chain is connected to the board's stop input; an open or silent input is a stop. It is
-            reported on a topic of its own, which belongs to drive control's e_stop_topics.
+        emulated_firmware: in simulation, the flashed firmware runs on an emulated board; its clock starts at another
+            time, and its reports are delayed.
+        stop_input: a stop chain is connected to the board's stop input; an open or silent input is a stop. It has its
+            own topic, which must be in drive control's e_stop_topics.
         calibration: of the servos.
     """
 

@@ -1,4 +1,4 @@
-"""Carries out each press once and keeps the reports."""
+"""Executes each press once and stores the reports."""
 # SPDX-License-Identifier: Apache-2.0
 import struct
 import zlib
@@ -14,20 +14,20 @@ from .calibration import Calibration, RequestRefused
 from .firmware import FirmwareReport, PressState, ServoPress
 
 KEPT_REPORTS = 8
-# The firmware must not begin a press later than this after it was first ordered.
+# Time after its first order in which the firmware may start a press.
 BEGIN_WITHIN_NS = 2_000_000_000
-# Travel of the servo, transport and repetition; a press that is not done after its hold and this has failed.
+# Time for servo travel, transport and repetition; a press that is not complete after its hold time and this has failed.
 PRESS_MARGIN_NS = 3_000_000_000
 MILLISECOND_NS = 1_000_000
 MAX_FIRMWARE_ID = 2 ** 32 - 1
-# As many as the dispatcher refuses after they have lost control.
+# The dispatcher refuses as many former sessions.
 REMEMBERED_SESSIONS = 1000
 
 
 def firmware_id_of(press: Press) -> int:
-    """Id of a press for the firmware, the same whoever asks: this node may have started again since it was ordered.
+    """Return the id of a press for the firmware, which a restarted node computes again.
 
-    Presses of a session count up, so they never meet; those of another session begin elsewhere.
+    Presses within a session count up, so their ids differ; presses of another session start at another number.
     """
     return (zlib.crc32(struct.pack("<Q", press.session_id)) + press.id) % MAX_FIRMWARE_ID + 1
 
@@ -51,19 +51,19 @@ class Presses:
         self._calibration = calibration
         self.results: Deque[PressReport] = deque(maxlen=KEPT_REPORTS)
         self._running: Optional[_Running] = None
-        # Id of each session's newest press.
+        # Newest press id by session.
         self._newest: Dict[int, int] = {}
 
     @property
     def pressed_buttons(self) -> Tuple[int, ...]:
-        """Buttons held down now."""
+        """Buttons currently held down."""
         return self._running.press.buttons if self._running and self._running.seen else ()
 
     def take_up(self, press: Press, report: Optional[FirmwareReport], now_ns: int) -> None:
-        """Take the first press that an application wants after the start of this node: perhaps an old one.
+        """Process the first press after the start of this node, which may be an old one.
 
-        What the firmware knows of it is followed; one that it does not know is not ordered again, as nobody knows
-        what became of it.
+        If the firmware knows the press, its report is followed. Otherwise it is not ordered again, because its result
+        is unknown.
         """
         if self._newest or report is None:
             return
@@ -77,9 +77,9 @@ class Presses:
 
     def step(self, press: Press, report: Optional[FirmwareReport], now_ns: int,
              stop: Problem = NO_PROBLEM) -> Optional[ServoPress]:
-        """Take the wanted press and the firmware's newest report; returns what to send the firmware now.
+        """Process the requested press and the firmware's newest report; return the order for the firmware.
 
-        stop: why no press may begin.
+        stop: why no press may start.
         """
         if report is None:
             return None
@@ -121,7 +121,7 @@ class Presses:
         elif running.seen:
             self._finish(running.press, now_ns, now_ns, problems.PRESS_RESTARTED())
         elif stop:
-            # It may be on its way, and be taken before the stop.
+            # The order may be in transit and may arrive before the stop.
             self._finish(running.press, now_ns, now_ns, problems.PRESS_CUT_SHORT())
         if self._running and now_ns > running.deadline_ns:
             self._finish(running.press, now_ns, now_ns, problems.PRESS_LATE())

@@ -1,8 +1,8 @@
-"""What the peripherals say to the Operator."""
+"""Sentences of the peripherals for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 
-# What the lift or a servo cannot do
+# Requests that the lift or a servo cannot execute
 KEY_HEIGHT = Sentence("peripherals.key_height", "Key height {value} m was refused; allowed is {low} to {high} m.")
 NO_BUTTON = Sentence("peripherals.no_button", "A press without a button was refused.")
 UNKNOWN_BUTTON = Sentence("peripherals.unknown_button",
@@ -10,7 +10,7 @@ UNKNOWN_BUTTON = Sentence("peripherals.unknown_button",
 STRENGTH = Sentence("peripherals.strength", "Strength {value} was refused; allowed is {low} to {high}.")
 DURATION = Sentence("peripherals.duration", "Duration {value} s was refused; allowed is above 0 to {high} s.")
 
-# What stops lift and servos
+# Reasons for stopped lift and servos
 EMERGENCY_STOP = Sentence("peripherals.emergency_stop", "Lift and servos stand still: {cause}")
 EMERGENCY_ENGAGED = Sentence("peripherals.emergency_engaged", "The emergency stop of {owner} is engaged.")
 EMERGENCY_SILENT = Sentence("peripherals.emergency_silent", "The emergency stop of {owner} is silent.")

@@ -1,4 +1,4 @@
-"""Makes the fake firmware importable by the tests beside it, and has a core that it answers."""
+"""Makes the fake firmware of this folder importable, and provides a core connected to it."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys
@@ -10,7 +10,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).parent))
 
 @pytest.fixture
 def core():
-    """One that has heard of an application that wants no press."""
+    """Return a core with an application in control that requests no press."""
     from peripherals_under_test import LIVE, START, restarted
 
     from mtr_peripherals.firmware import FirmwareReport

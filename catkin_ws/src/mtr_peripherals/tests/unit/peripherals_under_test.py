@@ -1,4 +1,4 @@
-"""The core of the peripherals with a fake firmware, as its tests use them."""
+"""The core of the peripherals with a fake firmware, for its tests."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -19,7 +19,7 @@ PRESS = Press(1, 3, (2,), 0.8, 0.25)
 
 
 def desired(inputs=LIVE, **changes):
-    """Inputs with something else wanted."""
+    """Return inputs with changes of the desired state."""
     return replace(inputs, desired=replace(inputs.desired, **changes))
 
 
@@ -28,11 +28,11 @@ ENGAGED = problems.EMERGENCY_ENGAGED(owner="controller_input")
 
 
 class FakeFirmware:
-    """Carries out one press at a time, as the firmware does, in whole ticks.
+    """Executes one press at a time, like the firmware, in whole ticks.
 
     Attributes:
         pressed: ids that were pressed, in order.
-        deaf: how many press messages get lost.
+        deaf: number of press messages that get lost.
         refuses: every press is refused.
     """
 
@@ -56,12 +56,12 @@ class FakeFirmware:
 
 
 def restarted():
-    """The core of a node that has just started, and has heard of nobody."""
+    """Return the core of a node that has just started, without any received message."""
     return Peripherals(Parameters(), KeyLift(shipped_geometry().key()))
 
 
 def run(core, inputs, firmware, ticks, first=0):
-    """Let core and firmware answer each other; the last outcome."""
+    """Step core and firmware alternately; return the last outcome."""
     for i in range(first, first + ticks):
         outcome = core.step(inputs, firmware.report, START + i * TICK)
         firmware.step(outcome.press, START + i * TICK)

@@ -1,4 +1,4 @@
-"""Calibration from the command line: one sound order until the firmware answers, and the truth about the outcome."""
+"""Calibration from the command line: one valid order until the firmware answers, and the correct result."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
@@ -9,7 +9,7 @@ from mtr_peripherals.lift_calibration import DONE, REFUSED, UNDER_WAY, Calibrati
 
 
 class Firmware:
-    """Takes the order after some repetitions and ends as told."""
+    """Accepts the order after some repetitions and ends with a given state."""
 
     def __init__(self, takes_after=2, ends=DONE, last_id=41):
         self.state, self.orders = Report(last_id, DONE), []

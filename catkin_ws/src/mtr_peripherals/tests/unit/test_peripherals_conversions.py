@@ -1,4 +1,4 @@
-"""ROS messages to the peripherals' plain data and back."""
+"""Conversion of ROS messages to the peripherals' plain data and back."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

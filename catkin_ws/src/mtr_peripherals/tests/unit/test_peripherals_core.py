@@ -1,4 +1,4 @@
-"""What the peripherals say of themselves: whether the firmware lives, its faults, the LEDs."""
+"""Reports of the peripherals: liveness of the firmware, its faults, the LEDs."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The firmware's clock on the robot's clock."""
+"""Conversion of the firmware's clock to the robot's clock."""
 # SPDX-License-Identifier: Apache-2.0
 import random
 
@@ -83,7 +83,7 @@ def test_instant_is_mapped_though_the_robots_clock_is_hours_ahead():
 
 
 def observed(*reports):
-    """How often the firmware was taken for restarted after these (time us, arrival ns)."""
+    """Return the number of detected restarts after these reports (time us, arrival ns)."""
     clock = FirmwareClock()
     for time_us, arrival_ns in reports:
         clock.observe(time_us, arrival_ns)
@@ -128,7 +128,7 @@ def test_time_of_the_firmware_is_told_across_the_wrap_and_unknown_before_its_fir
 
 @pytest.mark.parametrize("step_s", [-3600.0, -0.4, -0.05, -0.02, 0.02, 0.05, 0.4, 3600.0])
 def test_step_of_the_robots_clock_moves_a_press_by_that_step_and_by_nothing_else(step_s):  # A10, B4
-    """Today: press times up to 0.385 s early for 40 s after a step of 0.4 s."""
+    """Press times must be correct at once after a step of the robot's clock, not only after an adaptation."""
     firmware, robot, step_ns = FirmwareClock(), RobotClock(), int(step_s * SECOND)
     for i in range(250):
         steady_ns = 500 * SECOND + i * 40 * MS

@@ -1,4 +1,4 @@
-"""Counters of the firmware that increase become one sentence, and not one per report."""
+"""Increasing counters of the firmware yield one sentence, not one per report."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 

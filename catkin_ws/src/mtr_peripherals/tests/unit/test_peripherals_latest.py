@@ -1,4 +1,4 @@
-"""The newest message of a topic, on the steady clock."""
+"""The newest message of a topic and its age on the steady clock."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

@@ -1,4 +1,4 @@
-"""Who moves the lift, in which order of precedence, and when it stands whoever wants it moved."""
+"""Precedence of the orders that move the lift, and the causes that stop it for all of them."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace

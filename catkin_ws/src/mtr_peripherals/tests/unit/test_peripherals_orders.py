@@ -1,4 +1,4 @@
-"""Orders for the firmware: with its own time, none before that is known, none after the end."""
+"""Orders for the firmware with its own time: none before that time is known, and none after the end."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -16,7 +16,7 @@ OUTCOME = replace(STOPPED, stop=False, lift_height_m=0.5, press=ServoPress(3, 1,
 
 
 class Wire:
-    """What was sent."""
+    """Stores the sent messages."""
 
     def __init__(self):
         self.clock, self.commands, self.presses, self.signals = FirmwareClock(), [], [], []
@@ -25,7 +25,7 @@ class Wire:
 
 @pytest.fixture
 def wire():
-    """To a firmware whose clock shows 1 s at 10 s of the steady one."""
+    """Return the link to a firmware whose clock shows 1 s at 10 s of the steady clock."""
     found = Wire()
     found.clock.observe(1_000_000, 10 * SECOND)
     return found

@@ -1,4 +1,4 @@
-"""Presses against a fake firmware: each is made once, none after a stop, and the Operator is told what became of it."""
+"""Presses with a fake firmware: each is executed once, none after a stop, and each result is reported."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -62,7 +62,7 @@ def test_press_of_a_session_that_comes_back_is_not_made_again(core):
 def test_presses_of_countless_sessions_take_bounded_memory():
     presses, report = Presses(Calibration()), FirmwareReport(START)
     for session_id in range(1, 2 * REMEMBERED_SESSIONS):
-        # Stopped, each is over at once.
+        # With a stop, each press ends at once.
         presses.step(replace(PRESS, session_id=session_id), report, START, ENGAGED)
     assert len(presses._newest) == REMEMBERED_SESSIONS
 
