@@ -1,1 +1,1 @@
-"""High-level behaviour of the robot: what it may do next, and its faults."""
+"""High-level behaviour of the robot: its permitted next actions, and its faults."""

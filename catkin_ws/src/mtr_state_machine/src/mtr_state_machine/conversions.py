@@ -1,4 +1,4 @@
-"""ROS messages to the observation, and the decision to ROS messages."""
+"""Converts ROS messages to the observation, and the decision to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Dict, Optional
@@ -17,16 +17,17 @@ from .core import Decision
 from .observation import NO_EMERGENCY, Car, CheckReport, Drive, Emergency, Observation, Part
 
 OWNER = "state_machine"
-# Word of DriveStatus.
+# Value of DriveStatus.source.
 MANUAL = "manual"
-# Signal of PeripheralsState.
+# Value of PeripheralsState.signal.
 SETS_OFF = 1
 
 
 def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], ages_s: Dict[Part, float],
                 now_s: float, emergency: Emergency = NO_EMERGENCY) -> Observation:
-    """What the newest message of each part, with its age, the self-check's and emergency stops tell at a time of the
-    steady clock.
+    """Return the observation at a time of the steady clock.
+
+    It consists of the newest message of each part with its age, the self-check and the emergency stops.
     """
     arrived = {part: message for part, message in messages.items() if message is not None}
     age_s = {part: ages_s[part] for part in arrived}
@@ -46,23 +47,23 @@ def observation(messages: Dict[Part, Optional[Any]], check: Optional[CarCheck], 
 
 
 def car(message: CarEstimate) -> Car:
-    """The Car locator's state."""
+    """Return the Car locator's state."""
     return Car(CarState(message.state), waypoint_from(message.next_waypoint), message.map_car_id, _problem(message))
 
 
 def check_report(message: CarCheck) -> CheckReport:
-    """The self-check's state."""
+    """Return the self-check's state."""
     return CheckReport(message.id, Check(message.state), _problem(message))
 
 
 def drive(message: DriveStatus) -> Drive:
-    """Who moves the wheels, and how often somebody or something else did."""
+    """Return the source of motion, and drive control's counts of manual drives and blockages."""
     is_moving = message.linear_mps != 0.0 or message.angular_radps != 0.0
     return Drive(message.source == MANUAL, is_moving, message.manual_drives, message.blockages)
 
 
 def mode_message(decision: Decision, stamp: Time) -> RobotMode:
-    """Mode and goal, for the other nodes."""
+    """Return mode and goal for the other nodes."""
     goal = decision.goal
     message = RobotMode(
         mode=decision.state.value, max_speed_mps=decision.max_speed_mps, mapping=decision.mapping,
@@ -76,7 +77,7 @@ def mode_message(decision: Decision, stamp: Time) -> RobotMode:
 
 
 def lock_message(decision: Decision, stamp: Time) -> MotionLock:
-    """Reason to stand still, for drive control."""
+    """Return the state machine's motion lock for drive control."""
     message = MotionLock(owner=OWNER, engaged=bool(decision.lock_reason), reason=decision.lock_reason.text,
                          problems=messages_of(decision.lock_reason, ProblemMessage))
     message.header.stamp = stamp

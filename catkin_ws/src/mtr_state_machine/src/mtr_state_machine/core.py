@@ -15,23 +15,23 @@ from .observation import Observation, Part
 from .parameters import Parameters
 from .table import AGAIN, Event, StateTable
 
-# More changes of state in one tick than the table is long would mean that two rows undo each other.
+# More state changes in one tick than this would mean that two rows undo each other.
 MAX_EVENTS_PER_TICK = 4
 UNWELCOME = (Result.REFUSED, Result.BLOCKED)
 LOCKED_STATES = (State.STARTING, State.FAULT)
-# A lost position stops the robot like any fault. It is found again only on the way, so that after this time, in which
-# the robot has come to rest, it can be driven by hand; without a goal nothing else drives it.
+# A lost position stops the robot like any fault, but it can only be recovered by motion. So manual driving is allowed
+# after this time, in which the robot has come to rest; without a goal no other source drives it.
 STANDS_AFTER_S = 1.0
-# A map that is ordered where the position is lost gives it a new one, once the Car locator and localization have heard
-# of it; until then the robot stands.
+# A map ordered while the position is lost provides a new position, once the order has reached Car locator and
+# localization; until then the robot remains at rest.
 POSITION_AWAITED_S = 3.0
-# States that rest on the Car's frame.
+# States that depend on the Car's frame.
 FRAME_STATES = (State.FOLLOWING_WAYPOINT, State.CHECKING_CAR)
 
 
 @dataclass(frozen=True)
 class Decision:
-    """What follows from an observation; lock_reason is no problem when the robot may move."""
+    """Result of an observation; lock_reason is empty if the robot may move."""
 
     state: State
     goal: Goal
@@ -49,7 +49,7 @@ class Decision:
 
 
 class StateMachine:
-    """Decides at each tick; keeps the state, the orders in force to map and to check, and the goal."""
+    """Decides at each tick; stores the state, the active orders to map and to check, and the goal."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
@@ -63,7 +63,7 @@ class StateMachine:
         self._map_revision = 0
         self._before_fault = State.READY_TO_MAP_CAR
         self._fault = NO_PROBLEM
-        # Under the last word of a dispatcher that died; the application says its order again to the next one.
+        # Order in the last message of a dispatcher that died; the application repeats the order to the next dispatcher.
         self._was_ordered = False
         self._is_map_lost = False
         self._failed_waypoint = (0, 0)
@@ -73,7 +73,7 @@ class StateMachine:
 
     @property
     def state(self) -> State:
-        """Where the robot is now."""
+        """Current state of the robot."""
         return self._table.state
 
     def step(self, seen: Observation) -> Decision:
@@ -108,7 +108,7 @@ class StateMachine:
         return seen.only_position_is_lost(self._parameters.noticed_after_s)
 
     def _awaits_position(self, seen: Observation) -> bool:
-        """A map has been ordered where the position is lost, and has not begun yet."""
+        """Return True if a map was ordered while the position was lost, and has not started yet."""
         since_s = self._awaits_position_since_s
         return (since_s is not None and self.state is State.MAPPING_CAR and self._only_position_is_lost(seen)
                 and seen.now_s - since_s < POSITION_AWAITED_S)
@@ -124,7 +124,7 @@ class StateMachine:
         if seen.car.state is not CarState.LOCATED:
             failed = seen.car.state is CarState.FAILED
             return seen.car.message if failed and seen.car.message else problems.CAR_LOST()
-        # A localization that was restarted may come by the same number again: once lost, the map stays lost.
+        # A restarted localization may reuse the number, so a lost map stays lost.
         self._is_map_lost = self._is_map_lost or seen.map_revision != self._map_revision
         if self._is_map_lost:
             return problems.OTHER_MAP(cause=problems.CAR_LOST())
@@ -192,9 +192,9 @@ class StateMachine:
         return seen.check.id == self._check_car_id and seen.check.state is state
 
     def _is_new_attempt(self, seen: Observation, problem: Problem) -> bool:
-        """A waypoint that is not the one under which mapping failed tries again."""
+        """Return True for a waypoint other than the one during which mapping failed; it tries again."""
         of_car = self._car_problem(seen)
-        # A map that cannot be used leaves the robot without a position, too.
+        # An unusable map also leaves the robot without a position.
         failed = self._before_fault is State.MAPPING_CAR and of_car and (problem == of_car
                                                                         or self._only_position_is_lost(seen))
         new = seen.desired.waypoint.id and _waypoint_key(seen) != self._failed_waypoint
@@ -221,7 +221,7 @@ class StateMachine:
         self._waypoint.update(self._goals.goal if following else NO_GOAL, seen.motion)
 
     def _wanted(self, seen: Observation) -> Optional[Tuple[Waypoint, Hashable]]:
-        """Where the robot shall go, and what for; None to stand still."""
+        """Return the wanted waypoint and its purpose; None to stop."""
         desired, of_locator = seen.desired, seen.car.next_waypoint
         if self.state is State.FOLLOWING_WAYPOINT and desired.waypoint.id:
             return desired.waypoint, desired.session_id
@@ -250,7 +250,8 @@ class StateMachine:
         return self._lost_since_s is not None and seen.now_s - self._lost_since_s >= STANDS_AFTER_S
 
     def _keep_fault(self, seen: Observation, problem: Problem) -> None:
-        """A part that failed is a reason for a person to come near; a Car that was not found is none."""
+        """Store the fault of a part as the reason for a hold, because a person may approach; a Car that was not found
+        is none."""
         if problem and problem != self._car_problem(seen):
             self._fault = problem
         if seen.is_silent(Part.DISPATCHER, self._parameters.noticed_after_s):

@@ -1,4 +1,4 @@
-"""Emergency stops, by the motion locks of their owners, as far as a hold needs them."""
+"""State of the emergency stops for holds, from the motion locks of their owners."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Set
 
@@ -6,9 +6,9 @@ from .observation import Emergency
 
 
 class EmergencyWatch:
-    """Takes the words of all owners; one that is short of a tick counts, too.
+    """Processes all messages of the owners, so that an engagement between two ticks also counts.
 
-    Silence counts as nothing here: drive control stops for it, and an owner that was started anew begins engaged.
+    Silence is ignored here: drive control stops for it, and the emergency stop of a restarted owner is engaged.
     """
 
     def __init__(self) -> None:
@@ -16,7 +16,7 @@ class EmergencyWatch:
         self._stops = 0
 
     def take(self, owner: str, engaged: bool) -> None:
-        """An owner of an emergency stop says how it stands."""
+        """Process the message of an emergency stop's owner."""
         if engaged and owner not in self._engaged:
             self._stops += 1
             self._engaged.add(owner)
@@ -24,5 +24,5 @@ class EmergencyWatch:
             self._engaged.discard(owner)
 
     def now(self) -> Emergency:
-        """What was said last, and how often one was engaged since the start."""
+        """Return the newest state, and the number of engagements since the start."""
         return Emergency(bool(self._engaged), self._stops)

@@ -1,4 +1,4 @@
-"""Goals for the motion planner, and what became of the Operator's waypoint."""
+"""Goals for the motion planner, and the result of the Operator's waypoint."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Hashable, Optional
 
@@ -10,10 +10,10 @@ MICROSECONDS_PER_S = 1e6
 
 
 class Goals:
-    """Makes goals of waypoints: each time that one is taken up it is a new goal.
+    """Converts waypoints to goals; a resumed waypoint is a new goal.
 
     Attributes:
-        goal: the present goal, NO_GOAL to stand still.
+        goal: the present goal, NO_GOAL to stop.
     """
 
     def __init__(self) -> None:
@@ -22,10 +22,10 @@ class Goals:
         self._wanted: Optional[Hashable] = None
 
     def pursue(self, waypoint: Waypoint, purpose: Hashable, now_s: float) -> None:
-        """Make the waypoint the goal; the same one for another purpose is taken up anew.
+        """Make the waypoint the goal; the same waypoint for another purpose is a new goal.
 
-        now_s, of the steady clock, makes an attempt that none of before had, not even before a restart of this node:
-        the motion planner may remember it.
+        now_s of the steady clock yields an attempt number that was never used, not even before a restart of this node,
+        because the motion planner may remember it.
         """
         wanted = (waypoint.requester, waypoint.id, purpose)
         if wanted != self._wanted:
@@ -33,11 +33,11 @@ class Goals:
             self._wanted, self.goal = wanted, Goal(waypoint, self._attempts)
 
     def is_new(self, waypoint: Waypoint, purpose: Hashable) -> bool:
-        """True for a waypoint that is not the goal yet, or is for another purpose."""
+        """Return True for a waypoint that is not the goal yet, or has another purpose."""
         return (waypoint.requester, waypoint.id, purpose) != self._wanted
 
     def pause(self) -> None:
-        """Stand still; what is pursued next is a new goal, even at the same waypoint."""
+        """Stop; the next waypoint is a new goal, even if it is the same one."""
         self._wanted, self.goal = None, NO_GOAL
 
 
@@ -47,7 +47,7 @@ class WaypointResult:
     Attributes:
         session_id: session that the waypoint belongs to.
         waypoint_id: 0 before the first.
-        result: REACHED stays until the next waypoint.
+        result: REACHED remains until the next waypoint.
         message: the planner's sentence.
     """
 
@@ -58,18 +58,18 @@ class WaypointResult:
         self.message = NO_PROBLEM
 
     def expect(self, session_id: int, waypoint_id: int) -> None:
-        """The Operator wants this waypoint now; 0 is none."""
+        """Set the waypoint that the Operator wants; 0 is none."""
         if (session_id, waypoint_id) != (self.session_id, self.waypoint_id):
             self.session_id, self.waypoint_id, self.message = session_id, waypoint_id, NO_PROBLEM
             self.result = Result.PENDING if waypoint_id else Result.IDLE
 
     def reopen(self) -> None:
-        """The robot has left the waypoint for something else; it is to be reached again."""
+        """Reset the result, because the robot has left the waypoint and has to reach it again."""
         if self.waypoint_id:
             self.result, self.message = Result.PENDING, NO_PROBLEM
 
     def update(self, goal: Goal, motion: GoalReport) -> None:
-        """Take the planner's report on the goal that stands for the waypoint."""
+        """Process the planner's report on the goal of the waypoint."""
         if self.result in (Result.IDLE, Result.REACHED):
             return
         if motion.is_about(goal) and motion.result is not Result.IDLE:

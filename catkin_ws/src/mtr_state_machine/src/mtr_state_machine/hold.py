@@ -13,25 +13,24 @@ from .observation import Observation
 from .parameters import Parameters
 
 MICROSECONDS_PER_S = 1e6
-# A battery under load recovers a little when the robot stops; only a charged one is empty for the first time again.
+# The voltage of a battery recovers slightly when the robot stops; only a charged battery can cause another hold.
 RECHARGED = 0.05
-# A load step or a corrupt message is shorter.
+# Load steps and corrupt messages are shorter than this.
 EMPTY_FOR_S = 10.0
-# Times of ticks are compared half a period apart, so that rounding decides nothing.
+# Tick times are compared with half a period of tolerance, so that rounding has no effect.
 HALF_TICK_S = 0.5 * STATE_MACHINE.period_ns * NS
 
 
 class Hold:
-    """At most one at a time; a new cause makes a new one of it, which the Operator has to look at again.
+    """At most one hold; a new cause makes a new hold, which the Operator has to check again.
 
     Attributes:
-        id: not 0 while the robot is held.
+        id: not 0 while the robot is on hold.
         reason: its sentence.
     """
 
     def __init__(self, parameters: Parameters):
-        """resume_by_operator is false for a robot near which nobody comes, such as a simulated one: it is never held.
-        """
+        """resume_by_operator is false for a robot without people nearby, such as a simulated one, which has no holds."""
         self._parameters = parameters
         self._was_held_empty = False
         self._empty_since_s = math.inf
@@ -43,7 +42,7 @@ class Hold:
         self._seen_jams = -1
 
     def update(self, seen: Observation, goal: Goal) -> None:
-        """Begin with what an observation shows, and end by the Operator's word."""
+        """Process an observation: start a hold for its causes, or end it at the Operator's request."""
         if self.id and seen.desired.link_alive and seen.desired.resume_hold_id == self.id:
             self.id, self.reason = 0, NO_PROBLEM
         drive, pause_s = seen.drive, seen.now_s - self._updated_s
@@ -57,7 +56,7 @@ class Hold:
         self._seen_resets, self._seen_stops = seen.firmware_resets, seen.emergency.stops
         has_given_up = 0 <= self._seen_jams < seen.lift_jams
         self._seen_jams = seen.lift_jams
-        # Whoever releases an emergency stop stands beside the robot.
+        # A person who releases an emergency stop is next to the robot.
         if was_stopped or (seen.emergency.is_engaged and self.reason != problems.HELD_EMERGENCY()):
             self.begin(problems.HELD_EMERGENCY(), seen)
         elif was_driven or (drive.is_manual and self.reason != problems.HELD_MANUAL()):
@@ -67,7 +66,7 @@ class Hold:
         elif was_blocked and goal.waypoint.id:
             self.begin(problems.HELD_BLOCKED(), seen)
         elif has_given_up:
-            # A key height alone moves the lift, without a waypoint.
+            # A key height moves the lift even without a waypoint.
             self.begin(problems.HELD_LIFT(), seen, was_ordered=bool(seen.desired.session_id))
         elif was_reset:
             self.begin(problems.HELD_BOARD(), seen)
@@ -78,13 +77,13 @@ class Hold:
             self._watch_battery(seen)
 
     def _watch_orders(self, seen: Observation) -> None:
-        """Neither replaces another reason: its cause has to be looked at all the same."""
+        """Watch stop and silence, which do not replace another reason, because its cause still has to be checked."""
         if seen.desired.link_alive:
             if seen.desired.stop and not self.id:
                 self.begin(problems.HELD_STOP(), seen)
         elif not self._was_held_silent and self._is_long_silent(seen):
             self._was_held_silent = True
-            # A new number also for a robot on hold: an order to resume from before the silence no longer counts.
+            # A robot on hold gets a new id as well, so that a resume order from before the silence is no longer valid.
             self.begin(self.reason or problems.HELD_LINK(), seen)
 
     def _note_silence(self, seen: Observation) -> None:
@@ -97,7 +96,7 @@ class Hold:
         return seen.now_s - self._silent_since_s > self._parameters.hold_after_lost_s + HALF_TICK_S
 
     def _watch_battery(self, seen: Observation) -> None:
-        # An unknown charge is no reason: it is NaN, which is below nothing.
+        # An unknown charge is NaN and causes no hold.
         is_empty = seen.battery < self._parameters.empty_battery
         self._empty_since_s = min(self._empty_since_s, seen.now_s) if is_empty else math.inf
         if seen.battery >= self._parameters.empty_battery + RECHARGED:
@@ -107,15 +106,15 @@ class Hold:
             self.begin(problems.HELD_BATTERY(percent=100.0 * seen.battery), seen)
 
     def begin(self, reason: Problem, seen: Observation, was_ordered: bool = False) -> None:
-        """Hold the robot from now on, when an order could move it. was_ordered: one will be there again by itself."""
+        """Hold the robot if an order could move it. was_ordered: such an order will return by itself."""
         if not (self._parameters.resume_by_operator and (was_ordered or is_ordered(seen))):
             return
-        # The steady time, so that no hold of before has the id, not even one from before a restart of this node.
+        # The steady time makes the id unique, even across a restart of this node.
         self._newest_id = self.id = max(self._newest_id + 1, round(seen.now_s * MICROSECONDS_PER_S))
         self.reason = reason
 
 
 def is_ordered(seen: Observation) -> bool:
-    """True when the application wants something for which the robot moves, also while it is to stop for a moment."""
+    """Return True if the application has an order that moves the robot, even during a temporary stop."""
     desired = seen.desired
     return bool(desired.session_id and (desired.waypoint.id or desired.map_car_id or desired.check_car_id))

@@ -30,7 +30,7 @@ from .emergency import EmergencyWatch
 from .observation import Part
 from .parameters import Parameters
 
-# Of motion locks; each owner speaks ten times a second.
+# Queue of motion locks; each owner publishes ten times a second.
 LOCKS_QUEUED = 50
 
 
@@ -98,5 +98,5 @@ class StateMachineNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("state_machine", Parameters, StateMachineNode)

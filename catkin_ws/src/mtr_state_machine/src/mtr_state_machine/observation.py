@@ -1,4 +1,4 @@
-"""What the state machine knows of the robot at its tick, as plain data."""
+"""State of the robot at a tick of the state machine, as plain data."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -14,7 +14,7 @@ from . import problems
 
 
 class Part(enum.Enum):
-    """Parts of the robot that must report all the time; the value is the name a person reads."""
+    """Parts of the robot that must report continuously; the value is the displayed name."""
 
     DISPATCHER = "dispatcher"
     LOCALIZATION = "localization"
@@ -26,7 +26,7 @@ class Part(enum.Enum):
 
 @dataclass(frozen=True)
 class CheckReport:
-    """How the Car locator's self-check stands; id 0: none yet."""
+    """State of the Car locator's self-check; id 0: none yet."""
 
     id: int = 0
     state: Check = Check.NONE
@@ -35,7 +35,7 @@ class CheckReport:
 
 @dataclass(frozen=True)
 class Car:
-    """The Car locator's estimate, as far as it matters here."""
+    """Fields of the Car locator's estimate that the state machine uses."""
 
     state: CarState = CarState.UNKNOWN
     next_waypoint: Waypoint = NO_WAYPOINT
@@ -45,7 +45,7 @@ class Car:
 
 @dataclass(frozen=True)
 class Drive:
-    """What drive control says of who moved the wheels and what stopped them; counts since its start."""
+    """Source of motion in drive control, and counts of manual drives and blockages since its start."""
 
     is_manual: bool = False
     is_moving: bool = False
@@ -55,7 +55,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Emergency:
-    """The robot's emergency stops: whether one is engaged, and how often one was since the state machine's start."""
+    """The robot's emergency stops: True if one is engaged, and the number of engagements since the node's start."""
 
     is_engaged: bool = False
     stops: int = 0
@@ -66,18 +66,18 @@ NO_EMERGENCY = Emergency()
 
 @dataclass(frozen=True)
 class Observation:
-    """Everything known at one tick.
+    """All inputs of one tick.
 
     Attributes:
         now_s: the steady clock.
-        map_revision: map that the robot's pose is in.
-        age_s: age of each part's newest message; a part that is missing has not reported yet.
-        complaint: of a part that reports but is not well, e.g. a localization that is lost.
-        is_position_lost: localization looks for its place on the map, as opposed to one that lacks a sensor.
-        firmware_resets: of the board of lift and servos, since its node's start.
-        lift_jams: times that the lift gave up after a jam, since that node's start.
+        map_revision: map of the robot's pose.
+        age_s: age of each part's newest message; a missing part has not reported yet.
+        complaint: problem of a part that reports but is faulty, e.g. a lost localization.
+        is_position_lost: localization searches for its pose on the map, but lacks no sensor.
+        firmware_resets: resets of the board of lift and servos since its node's start.
+        lift_jams: number of times since that node's start that the lift gave up after a jam.
         signals_motion: the board reports that it gives the signal before motion.
-        battery: charge from 0 to 1, NaN when it is unknown.
+        battery: charge from 0 to 1, NaN if it is unknown.
         intrusion: a second node publishes on a topic that moves the robot.
     """
 
@@ -99,11 +99,11 @@ class Observation:
     intrusion: Problem = NO_PROBLEM
 
     def is_silent(self, part: Part, silent_after_s: float) -> bool:
-        """True for a part that has not reported either."""
+        """Return True for a silent part, or one that has not reported yet."""
         return not is_fresh(self.age_s.get(part, math.inf), silent_after_s)
 
     def part_problem(self, part: Part, silent_after_s: float) -> Problem:
-        """What is wrong when the part is silent or not well."""
+        """Return the problem of a silent or faulty part."""
         if part not in self.age_s:
             return problems.PART_NOT_REPORTED(part=part.value)
         if self.is_silent(part, silent_after_s):
@@ -111,7 +111,7 @@ class Observation:
         return self.complaint.get(part, NO_PROBLEM)
 
     def only_position_is_lost(self, silent_after_s: float) -> bool:
-        """Localization reports that it looks for its place on the map, and nothing else is wrong."""
+        """Return True if the only problem is that localization searches for its pose on the map."""
         others = any(self.part_problem(part, silent_after_s) for part in Part if part is not Part.LOCALIZATION)
         return (not self.is_silent(Part.LOCALIZATION, silent_after_s) and self.is_position_lost and not others
                 and not self.intrusion)

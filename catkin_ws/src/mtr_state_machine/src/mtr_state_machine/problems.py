@@ -1,4 +1,4 @@
-"""What the state machine says to the Operator."""
+"""Sentences of the state machine for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 
@@ -20,7 +20,7 @@ OTHER_MAP = Sentence("state_machine.other_map",
                      "Localization has another map than the one in which the Car was found. {cause}")
 CAR_ELSEWHERE = Sentence("state_machine.car_elsewhere", "The Car does not stand where it was measured.")
 
-# Why it stands until the Operator has it go on
+# Reasons for a hold until the Operator resumes the robot
 HELD_FAULT = Sentence("state_machine.held_fault",
                       "The robot stands after a fault until the Operator has it go on. {cause}")
 HELD_BLOCKED = Sentence("state_machine.held_blocked",
@@ -49,7 +49,7 @@ HELD_PAUSE = Sentence(
     "state_machine.held_pause",
     "The robot's state machine had stopped for {pause_s:.1f} s; the robot stands until the Operator has it go on.")
 
-# What it waits for or does
+# Actions and waits
 WAITS_FOR_WAYPOINT = Sentence("state_machine.waits_for_waypoint", "Waits for the first waypoint to map the Car.")
 SETS_OFF = Sentence("state_machine.sets_off", "Warning signal: the robot is about to set off.")
 SIGNAL_NOT_GIVEN = Sentence(

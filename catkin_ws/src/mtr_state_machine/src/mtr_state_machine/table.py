@@ -11,21 +11,21 @@ from mtr_core.states import State
 
 
 class UnknownEvent(RobotError):
-    """The event has no place in the state."""
+    """The event is not allowed in the state."""
 
 
 class Event(enum.Enum):
-    """What leads to another state."""
+    """Events that change the state."""
 
-    ALL_RUNNING = "all_running"          # every part of the robot has reported that it is well
+    ALL_RUNNING = "all_running"          # every part of the robot has reported that it is ready
     WAYPOINT_GIVEN = "waypoint_given"    # the Operator wants the robot to move
     MAP_ORDERED = "map_ordered"          # the Operator orders to map the Car (again)
-    CAR_LOCATED = "car_located"          # the Car locator has found the Car
-    CHECK_ORDERED = "check_ordered"      # the Operator orders to look whether the Car still stands there
-    CHECK_PASSED = "check_passed"        # it does
-    CHECK_WITHDRAWN = "check_withdrawn"  # the Operator does not want to know any more
-    PART_FAILED = "part_failed"          # a part is silent or cannot go on; the Car was not found or did not pass
-    READY_AGAIN = "ready_again"          # a fault is over that began in the state of this name
+    CAR_LOCATED = "car_located"          # the Car locator has located the Car
+    CHECK_ORDERED = "check_ordered"      # the Operator orders to check the Car's position
+    CHECK_PASSED = "check_passed"        # the Car is at its position
+    CHECK_WITHDRAWN = "check_withdrawn"  # the Operator has withdrawn the order to check
+    PART_FAILED = "part_failed"          # a part is silent or faulty; the Car was not found or not at its position
+    READY_AGAIN = "ready_again"          # end of a fault that started in the state of this name
     MAPPING_AGAIN = "mapping_again"
     FOLLOWING_AGAIN = "following_again"
     CHECKING_AGAIN = "checking_again"
@@ -65,10 +65,10 @@ AGAIN = {
 
 
 class StateTable:
-    """The table at work.
+    """The table in operation.
 
     Attributes:
-        state: where the robot is now (set by the library).
+        state: current state of the robot (set by the library).
         trigger: handles an event by its name (set by the library).
     """
 
@@ -80,7 +80,7 @@ class StateTable:
         Machine(model=self, states=State, transitions=rows, initial=State.STARTING, auto_transitions=False)
 
     def fire(self, event: Event) -> State:
-        """Go on to the next state and return it; UnknownEvent when the table has no such row."""
+        """Change to the next state and return it; UnknownEvent if the table has no such row."""
         try:
             self.trigger(event.value)
         except MachineError:

@@ -1,4 +1,4 @@
-"""Makes what the tests share importable, and has state machines in each of their states."""
+"""Makes the helpers of this folder importable, and provides state machines in each of their states."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import sys
@@ -16,7 +16,7 @@ from state_machine_seen import COLLECTING, LOCATED, ORDERS_CHECK, seen
 
 @pytest.fixture
 def machine():
-    """One near which nobody comes; of holds see test_state_machine_hold.py, of signals test_state_machine_signal.py."""
+    """A state machine without holds (test_state_machine_hold.py) and signals (test_state_machine_signal.py)."""
     return StateMachine(Parameters(resume_by_operator=False, signal_s=0.0))
 
 

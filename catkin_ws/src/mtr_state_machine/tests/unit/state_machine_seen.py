@@ -1,4 +1,4 @@
-"""What a state machine may be shown: a Car, orders, places and answers."""
+"""Observations for tests of the state machine: a Car, orders, poses and reports."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Mapping again where the position is lost."""
+"""Mapping again after the position was lost."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 

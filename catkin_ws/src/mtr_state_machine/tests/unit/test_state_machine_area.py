@@ -1,4 +1,4 @@
-"""A robot that needs a test area neither maps nor drives by itself without one, and says so."""
+"""A robot that needs a test area neither maps nor drives by itself without one, and reports the reason."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -36,7 +36,7 @@ def test_mapping_does_not_begin_without_an_area_and_begins_with_it(machine, desi
         decision = step(machine, desired, NO_AREA, Car())
         assert decision.state is State.READY_TO_MAP_CAR and decision.goal == NO_GOAL and not decision.mapping
         assert decision.message == NO_AREA
-        # By hand the robot may be driven: a person loads it, and drives it into its area.
+        # Manual driving is allowed: a person unloads the robot and drives it into its area.
         assert not decision.lock_reason
     assert step(machine, desired).state is State.MAPPING_CAR
     assert step(machine, desired).goal.waypoint == COLLECTING.next_waypoint

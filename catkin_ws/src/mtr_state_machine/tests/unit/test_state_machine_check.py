@@ -1,4 +1,4 @@
-"""Self-checks: orders, places, answers."""
+"""Self-checks: orders, poses and reports."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""ROS messages to the observation and the decision to ROS messages."""
+"""Conversion of ROS messages to the observation, and of the decision to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
 import genpy
 import pytest

@@ -1,4 +1,4 @@
-"""Which words of emergency stops the state machine counts. A9"""
+"""Counting of the messages of emergency stops. A9"""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_state_machine.emergency import EmergencyWatch
 from mtr_state_machine.observation import Emergency

@@ -1,4 +1,4 @@
-"""What is a fault, what the Operator reads of it, and how it ends."""
+"""Faults: causes, sentences for the Operator, and ends."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""After a fault, an emergency stop, an obstacle or manual driving the robot goes on by the Operator's word. A8, A9b"""
+"""After a fault, an emergency stop, an obstacle or manual driving the Operator has to resume the robot. A8, A9b"""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -22,7 +22,7 @@ OBSTACLE = Problem("motion_planner.obstacle", "The robot is blocked by an obstac
 
 
 class Robot:
-    """A state machine and what it sees; each step is a tick of 0.1 s."""
+    """A state machine and its observations; each step is a tick of 0.1 s."""
 
     def __init__(self, resume_by_operator=True, now_s=50.0):
         self.machine = StateMachine(Parameters(resume_by_operator=resume_by_operator, signal_s=0.0))
@@ -30,21 +30,21 @@ class Robot:
         self.seen = Observation(desired=IDLE, car=Car(), age_s=ALL_WELL)
 
     def step(self, **changes):
-        """One tick; what has changed stays so."""
+        """Run one tick; changes remain in effect."""
         self.now_s += 0.1
         self.seen = replace(self.seen, now_s=self.now_s, **changes)
         self.decision = self.machine.step(self.seen)
         return self.decision
 
     def block(self):
-        """The planner reports an obstacle for the present goal, and at the next tick none."""
+        """Report an obstacle for the present goal at one tick, and none at the next."""
         goal = self.decision.goal
         held = self.step(motion=GoalReport(goal.id, Result.BLOCKED, OBSTACLE))
         self.step(motion=GoalReport())
         return held
 
     def follow(self):
-        """Get under way to the waypoint."""
+        """Start to drive to the waypoint."""
         self.step()
         self.step(desired=WANTS, car=COLLECTING)
         self.step(car=LOCATED)
@@ -66,7 +66,7 @@ def fault(robot):
 def test_robot_whose_dispatcher_died_under_an_order_is_held_before_the_order_is_there_again(robot):
     robot.step(age_s={**ALL_WELL, Part.DISPATCHER: 0.6})
     assert robot.machine.state is State.FAULT
-    # A new dispatcher has heard of no application yet.
+    # A restarted dispatcher has not received messages of an application yet.
     held = robot.step(age_s=ALL_WELL, desired=DesiredState())
     assert held.hold_id
     assert robot.step(desired=WANTS).goal == NO_GOAL
@@ -123,7 +123,7 @@ def stopped_for_a_tick(robot):
 
 
 def silent_link(robot, lost_s=1.1):
-    """The dispatcher reports the link as lost for this long, from the first tick to the last."""
+    """Report the link as lost for this time, from the first tick to the last."""
     for _ in range(round(10.0 * lost_s) + 1):
         robot.step(desired=SILENT_LINK)
     robot.step(desired=WANTS)
@@ -387,7 +387,7 @@ def test_map_that_comes_by_its_old_number_again_is_another_one(robot, revisions)
 
 
 def emptied(robot, charge, duration_s=EMPTY_FOR_S + 0.2):
-    """The decision after the battery has had this charge for so long."""
+    """Return the decision after the battery has had this charge for a time."""
     for _ in range(round(duration_s / 0.1)):
         robot.step(battery=charge)
     return robot.decision
@@ -399,7 +399,7 @@ def test_battery_that_is_nearly_empty_holds_the_robot_once(robot, charge):
     held = emptied(robot, charge)
     assert held.hold_id and robot.step().goal == NO_GOAL and "battery" in robot.decision.message.text
     robot.step(desired=replace(WANTS, resume_hold_id=held.hold_id))
-    # The last metres to the charger are driven without another hold, although the charge goes up and down.
+    # The last metres to the charger cause no other hold, although the charge varies.
     for later in (charge, 0.06, 0.09, 0.04, 0.01):
         assert not emptied(robot, later).hold_id and robot.decision.goal != NO_GOAL
 

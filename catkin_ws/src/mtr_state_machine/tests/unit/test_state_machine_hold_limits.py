@@ -1,4 +1,4 @@
-"""Limits of a hold, to the last instant and count; each is the boundary between standing and going on."""
+"""Limits of a hold to the last instant and count: the boundaries between a hold and continued motion."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -15,7 +15,7 @@ GOAL = Goal(WAYPOINT, 1)
 
 @pytest.fixture
 def hold():
-    """A hold that has seen one observation, at time 0."""
+    """Return a hold after one observation at time 0."""
     made = Hold(True, LONGEST_PAUSE_S, EMPTY)
     made.update(seen(now_s=0.0), GOAL)
     assert not made.id
@@ -42,7 +42,7 @@ def test_pause_is_too_long_from_beyond_its_limit_on(hold, pause_s, holds):
 
 
 def charge(hold, charge_, from_s, until_s):
-    """Have this charge from one time to another, ends included."""
+    """Apply this charge from one time to another, including both ends."""
     for tick in range(round((until_s - from_s) / 0.25) + 1):
         hold.update(seen(now_s=from_s + 0.25 * tick, battery=charge_), GOAL)
 

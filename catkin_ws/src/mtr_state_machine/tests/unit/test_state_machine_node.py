@@ -1,4 +1,4 @@
-"""What the node takes from its topics between two ticks."""
+"""Messages that the node receives between two ticks."""
 # SPDX-License-Identifier: Apache-2.0
 from types import SimpleNamespace
 
@@ -13,7 +13,7 @@ from mtr_state_machine.parameters import Parameters
 
 @pytest.fixture
 def lock(monkeypatch):
-    """Gives the node a motion lock; says what it then knows of emergency stops."""
+    """Return a function that sends a motion lock to the node and returns its state of the emergency stops."""
     callbacks = {}
     for name in ("TickInput", "publisher", "Ticker", "PublisherWatch"):
         monkeypatch.setattr(node, name, lambda *_, **__: None)

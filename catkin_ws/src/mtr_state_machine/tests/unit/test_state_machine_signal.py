@@ -1,4 +1,4 @@
-"""Signal before motion: when it is due, for how long, and what happens without it."""
+"""Signal before motion: when it is due, its duration, and the behaviour without it."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -16,15 +16,15 @@ from mtr_state_machine.parameters import Parameters
 TICK_S = 0.1
 MOVES, RESTS = Drive(is_moving=True), Drive()
 NEXT = replace(WANTS, waypoint=Waypoint(8, "application/9", "car", Pose2(1.0, 1.0, 0.5), 2))
-# From the order to the report of the board.
+# Delay from the order to the board's report.
 ANSWERS_S = 0.3
 
 
 class Robot:
-    """A robot that follows a waypoint, and a board that gives a signal which is ordered.
+    """A robot that follows a waypoint, and a board that gives an ordered signal.
 
     Attributes:
-        gives: False for a board that gives none.
+        gives: False for a board without a signal.
     """
 
     def __init__(self, **parameters):
@@ -44,11 +44,11 @@ class Robot:
         return self.decision
 
     def run(self, seconds, **changes):
-        """The decisions of some time."""
+        """Return the decisions of this time."""
         return [self.step(**changes) for _ in range(round(seconds / TICK_S))]
 
     def set_off(self):
-        """Wait for the goal; seconds that it took."""
+        """Return the time in s until the robot gets the goal, or None."""
         for count in range(200):
             if self.step().goal.waypoint.id:
                 return count * TICK_S
@@ -59,7 +59,7 @@ class Robot:
 def test_robot_at_rest_has_no_goal_before_the_board_gave_the_signal_for_its_time(signal_s):
     robot = Robot(signal_s=signal_s)
     waited_s = robot.set_off()
-    # The tick in which the fixture has mapped the Car counts, too.
+    # The tick in which the fixture mapped the Car counts as well.
     assert signal_s + ANSWERS_S - 2 * TICK_S <= waited_s <= signal_s + ANSWERS_S + 2 * TICK_S
     assert robot.decision.goal.waypoint == WAYPOINT and not robot.decision.sets_off
 

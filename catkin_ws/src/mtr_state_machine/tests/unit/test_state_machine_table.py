@@ -1,4 +1,4 @@
-"""Every state meets every event: a row of the table, or an error."""
+"""Every event in every state is either a row of the table or an error."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
 
