@@ -1,4 +1,4 @@
-"""The manual controller: what a person holds in the hand becomes a velocity, a motion lock and a way of the lift."""
+"""The manual controller: converts its state to a velocity, a motion lock and a lift rate."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ UNKNOWN_AGE_S = math.nan
 
 
 class Velocity(NamedTuple):
-    """Velocity of base_link; active False: the person wants nothing."""
+    """Velocity of base_link; active False: no manual command."""
 
     linear_mps: float
     angular_radps: float
@@ -35,7 +35,7 @@ RELEASED = Velocity(0.0, 0.0, False)
 
 @dataclass(frozen=True)
 class Outcome:
-    """What the person wants at a tick; lock_reason is no problem when the robot may move."""
+    """Result of a tick; lock_reason is empty if the robot may move."""
 
     velocity: Velocity = RELEASED
     lift_mps: float = 0.0
@@ -43,10 +43,11 @@ class Outcome:
 
 
 class Controller:
-    """Decides at each tick; remembers whether the controller is lost or its emergency stop pressed.
+    """Decides at each tick; stores whether the controller is lost or its emergency stop pressed.
 
-    It is a source of the emergency stop, and what was before its start it cannot know: it begins as if pressed, and is
-    released on purpose. When it is lost the robot stands until it is back with no button held.
+    It is a source of the emergency stop. Because the state before its start is unknown, it starts as if the stop were
+    pressed, and a person has to release it. After a loss the robot stops until the controller is back with no button
+    held.
     """
 
     def __init__(self, parameters: Parameters):
@@ -61,10 +62,10 @@ class Controller:
     def take(self, joy: Joy, now_s: float, age_s: float = UNKNOWN_AGE_S) -> None:
         """Process the next message of the controller's driver.
 
-        age_s: from its stamp to its arrival. A recording that is played back is old; it may stop the robot, but
-        neither moves it nor releases anything.
+        age_s: from its stamp to its arrival. A message of a played recording is old; it may stop the robot, but neither
+        moves it nor releases anything.
         """
-        # Not at the next tick: a short press must not be missed.
+        # Process the stop at once, so that a short press is not missed before the next tick.
         if _is_held(joy.buttons, self._parameters.e_stop_button):
             self._stop = problems.EMERGENCY_STOP()
         if not math.isnan(age_s) and not is_fresh(age_s, self._parameters.silent_after_s):
@@ -83,7 +84,7 @@ class Controller:
             intrusion: another node publishes on the driver's topic.
         """
         if intrusion:
-            # As after a lost controller: the robot stays locked until the buttons are seen released.
+            # As after a loss of the controller, the robot stays locked until the buttons are released.
             self._lost, self._release_since_s = problems.LOST(), None
             return Outcome(lock_reason=intrusion)
         if self._joy is None:
@@ -119,7 +120,7 @@ class Controller:
 
 
 def velocity(parameters: Parameters, axes: Sequence[float], buttons: Sequence[int]) -> Velocity:
-    """Velocity that the controller's state asks for. An input that the controller lacks counts as released."""
+    """Return the velocity for the controller's state. A missing axis or button counts as released."""
     if _is_held(buttons, parameters.fast_button):
         linear_mps, angular_radps = parameters.fast_mps, parameters.fast_radps
     elif _is_held(buttons, parameters.slow_button):

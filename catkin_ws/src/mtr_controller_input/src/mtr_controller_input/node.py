@@ -1,4 +1,4 @@
-"""The manual controller's node: sensor_msgs/Joy in; velocity, motion lock and way of the lift out."""
+"""The manual controller's node: sensor_msgs/Joy in; velocity, motion lock and lift rate out."""
 # SPDX-License-Identifier: Apache-2.0
 import collections
 import time
@@ -24,7 +24,7 @@ OWNER = "controller_input"
 KEPT = 100
 # A restarted node publishes the released state for this many ticks, which ends the claim of its predecessor.
 RELEASED_TICKS = 50
-# A driver speaks in no slot of the schedule: within a period it has said something at any phase.
+# A driver has no slot in the schedule; within one period it has published at any phase.
 LOCKSTEP_LAG_NS = schedule.CONTROLLER_INPUT.period_ns
 
 
@@ -32,8 +32,8 @@ class ReceivedJoy(NamedTuple):
     """A message of the driver.
 
     Attributes:
-        received_ns: on the steady clock.
-        age_s: at that time, by its stamp; NaN for a driver that sets none.
+        received_ns: arrival on the steady clock.
+        age_s: age at the arrival, by its stamp; NaN for a driver without stamps.
     """
 
     received_ns: int
@@ -42,9 +42,9 @@ class ReceivedJoy(NamedTuple):
 
 
 class ArrivedJoys:
-    """Messages of the permitted driver, each with the time at which it arrived.
+    """Messages of the permitted driver, each with its arrival time.
 
-    Both times are on the steady clock, so that a controller is not lost when the robot's clock is set.
+    The times are of the steady clock, so that a step of the robot's clock does not cause a loss of the controller.
     """
 
     def __init__(self, watch: PublisherWatch) -> None:
@@ -68,9 +68,9 @@ class ArrivedJoys:
 
 
 class DueJoys:
-    """The same in lock-step: the messages that are due at a tick, for which it waits, with their stamps.
+    """The lock-step variant: waits for the messages that are due at a tick, and uses their stamps.
 
-    How long they were under way on a busy machine does not count; a driver that is gone is not waited for.
+    Delays on a busy machine have no effect, and it does not wait for a driver that is gone.
     """
 
     def __init__(self) -> None:
@@ -83,7 +83,7 @@ class DueJoys:
 
 
 class ControllerInputNode:
-    """Publishes the lock at each tick; the velocity at the start, while a dead-man button is held, and once after."""
+    """Publishes the lock at each tick, the velocity at the start, while a dead-man button is held, and once after."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
@@ -151,5 +151,5 @@ class ControllerInputNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("controller_input", Parameters, ControllerInputNode)

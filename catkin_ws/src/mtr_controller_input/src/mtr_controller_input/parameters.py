@@ -11,33 +11,33 @@ MAX_INDEX = 31
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the node is started with. Buttons and axes are indices of sensor_msgs/Joy.
+    """Start parameters of the node. Buttons and axes are indices of sensor_msgs/Joy.
 
-    The defaults are those of the Jackal's PS4 controller: hold L1 to drive slowly, R1 to drive fast; circle is the
-    emergency stop, share and options together release it; up and down on the cross move the lift.
+    The defaults fit the Jackal's PS4 controller: hold L1 to drive slowly, R1 to drive fast. Circle is the emergency
+    stop, share and options together release it; up and down on the cross move the lift.
 
     Attributes:
-        slow_button: dead-man button that allows slow driving.
-        fast_button: dead-man button that allows fast driving.
+        slow_button: dead-man button for slow driving.
+        fast_button: dead-man button for fast driving.
         e_stop_button: engages the motion lock at once.
-        release_buttons: all of them held for release_after_s, and no other, release it.
+        release_buttons: exactly these buttons held for release_after_s release the lock.
         linear_axis: forward is positive.
         angular_axis: counterclockwise is positive.
         lift_axis: up is positive.
-        slow_mps, slow_radps: velocities at full deflection while slow.
-        fast_mps, fast_radps: the same while fast; drive control allows no more with the key raised.
+        slow_mps, slow_radps: velocities at full deflection with the slow button.
+        fast_mps, fast_radps: the same with the fast button; drive control's limits with the key raised.
         lift_mps: speed of the lift while its axis is deflected and a dead-man button held.
         dead_zone: deflection below which an axis counts as released.
-        silent_after_s: age of the newest message at which the controller is lost; its driver repeats itself every
-            0.04 s. With the time of a stop it makes the half second of docs/robot.md.
-        frozen_after_s: a controller that drives and has not changed for so long is lost: no hand is that still, but a
-            driver that repeats the last message of a lost controller is (joystick_drivers issue 92).
-        heartbeat_after_s: age of the newest report, of motion sensors or raw, at which a controller that reports while
-            it is idle is lost; see presence/.
+        silent_after_s: age of the newest message at which the controller is lost; its driver publishes every 0.04 s.
+            With the time of a stop it makes the half second of docs/robot.md.
+        frozen_after_s: time without a change after which a controller that drives is lost. No hand is that still, but a
+            driver may repeat the last message of a lost controller (joystick_drivers issue 92).
+        heartbeat_after_s: age of the newest report, of motion sensors or raw, at which a controller that also reports
+            while idle is lost; see presence/.
         release_after_s: see release_buttons.
-        driver: name of the node that publishes /joy; empty: whichever node does, as long as it is the only one.
-        device: path of the controller's device, e.g. /dev/input/js0; when it disappears the controller is lost. Empty:
-            not looked at.
+        driver: name of the node that publishes /joy; empty: any node, as long as it is the only one.
+        device: path of the controller's device, e.g. /dev/input/js0; the controller is lost when it disappears. Empty:
+            not checked.
     """
 
     slow_button: int = number(4, 0, MAX_INDEX)

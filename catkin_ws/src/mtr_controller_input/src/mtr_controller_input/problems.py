@@ -1,4 +1,4 @@
-"""What the manual controller's node says to the Operator."""
+"""Sentences of the manual controller's node for the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 

@@ -29,14 +29,14 @@ RELEASING = Joy(sticks(), buttons(SHARE, OPTIONS))
 
 
 class Hand:
-    """A controller in a hand: its driver repeats the state, and time passes in ticks."""
+    """A controller in a hand: its driver repeats the state, and each repetition is a tick."""
 
     def __init__(self, parameters=PARAMETERS):
         self.controller, self.now_s, self._wobble = Controller(parameters), 100.0, 0.0
         self.hold(RELEASING, parameters.release_after_s + 2 * TICK_S)
 
     def hold(self, joy, duration_s=TICK_S, still=False):
-        """The last outcome while this state is held; a stick in a hand is never quite still."""
+        """Return the last outcome while this state is held; a stick in a hand trembles slightly."""
         for _ in range(round(duration_s / TICK_S)):
             self.now_s += TICK_S
             self._wobble = 0.0 if still else 0.01 - self._wobble
@@ -45,7 +45,7 @@ class Hand:
         return outcome
 
     def play_back(self, joy, age_s, duration_s=1.0):
-        """The last outcome while a recording is played to the driver's released controller, twice as often."""
+        """Return the last outcome while a recording is played at twice the rate of the driver's released controller."""
         for _ in range(round(duration_s / TICK_S)):
             self.hold(IDLE)
             for _ in range(2):
@@ -55,7 +55,7 @@ class Hand:
         return outcome
 
     def pull_the_plug(self, duration_s):
-        """The last outcome while nothing is heard."""
+        """Return the outcome after a time without messages."""
         self.now_s += duration_s
         return self.controller.step(self.now_s)
 
@@ -88,7 +88,7 @@ def test_controller_without_the_button_counts_as_released():
 
 
 def released():
-    """A controller whose emergency stop was released before time 0."""
+    """Return a controller whose emergency stop was released before time 0."""
     controller = Controller(PARAMETERS)
     for now_s in (-2.0, -1.0):
         controller.take(RELEASING, now_s)
@@ -150,7 +150,7 @@ def test_drive_that_never_changes_is_a_lost_controller():
 
 
 def test_idle_controller_that_is_present_may_be_still():
-    """Whether it is present is found by its reports, see test_controller_input_presence.py."""
+    """Its reports determine its presence, see test_controller_input_presence.py."""
     assert Hand().hold(IDLE, 60.0, still=True) == Outcome()
 
 

@@ -1,4 +1,4 @@
-"""A Linux input device, played by a fake one with evdev's own events, becomes a stream of states."""
+"""A Linux input device, simulated with evdev's own events, yields a stream of states."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 
@@ -14,11 +14,11 @@ PERIOD_S = 0.01
 
 
 class FakeDevice:
-    """A gamepad with one stick and two buttons; a pipe stands for the kernel's queue.
+    """A gamepad with one stick and two buttons; a pipe replaces the kernel's queue.
 
     Attributes:
-        sticks: present raw values, which the kernel tells whoever asks.
-        held: buttons that are held down.
+        sticks: current raw values as returned by the kernel.
+        held: codes of the held buttons.
     """
 
     name, path = "fake gamepad", "/dev/input/event7"
@@ -29,12 +29,12 @@ class FakeDevice:
         self.sticks, self.held, self.is_gone = {X: 128, Y: 128}, [], False
 
     def happen(self, kind, code, value):
-        """One event."""
+        """Generate one event."""
         self._queue.append(evdev.InputEvent(0, 0, kind, code, value))
         os.write(self._hand, b".")
 
     def unplug(self):
-        """From now on each call fails, as with a device that is gone."""
+        """From now on each call fails, as for a device that is gone."""
         self.is_gone = True
 
     def capabilities(self):

@@ -1,4 +1,4 @@
-"""Events of a Linux input device become the numbers that joy_node would give."""
+"""Events of a Linux input device yield the same numbers as joy_node."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 

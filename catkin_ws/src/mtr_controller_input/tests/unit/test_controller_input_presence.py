@@ -1,4 +1,4 @@
-"""Loss of an idle controller, by kind of controller, on a /sys and /dev of a temporary folder."""
+"""Loss of an idle controller, by kind of controller, with /sys and /dev in a temporary folder."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 
@@ -18,7 +18,7 @@ RELEASING = Joy(RELEASED.axes, tuple(int(index in (8, 9)) for index in range(12)
 
 
 class System:
-    """A controller as the kernel shows it; what the controller reports is written into pipes.
+    """A controller in the kernel's files; its reports are written into pipes.
 
     inputs: properties of its further input devices. raw: it has raw reports.
     """
@@ -43,7 +43,7 @@ class System:
 
     def _pipe(self, path):
         os.mkfifo(path)
-        # Both ends, so that opening waits for nobody.
+        # Both ends are opened, so that opening does not block.
         self.hands.append(os.open(path, os.O_RDWR | os.O_NONBLOCK))
 
     def plug(self):
@@ -53,7 +53,7 @@ class System:
         (self.root / "dev/input/js0").unlink()
 
     def report(self, index=0):
-        """The controller sends a report."""
+        """Send a report of the controller."""
         os.write(self.hands[index], b"x" * 24)
 
 
@@ -71,7 +71,7 @@ def system(tmp_path):
 
 
 class Clock:
-    """A presence at work: each tick lasts 0.04 s."""
+    """A presence in operation: each tick lasts 0.04 s."""
 
     def __init__(self, system):
         self.system, self.now_s = system, 100.0
@@ -79,7 +79,7 @@ class Clock:
         self.is_there = True
 
     def ticks(self, duration_s, reports=True, is_idle=True):
-        """Presence after so long, and for how long the controller was there."""
+        """Run ticks for a time; return the time in s for which the controller was present."""
         there_s = 0.0
         for _ in range(round(duration_s / TICK_S)):
             self.now_s += TICK_S
@@ -110,7 +110,7 @@ def test_loss_of_an_idle_controller_locks_the_robot_until_it_is_back_and_release
     clock, controller = Clock(system(inputs=(MOTION,))), Controller(Parameters())
 
     def hold(joy, duration_s, reports=True):
-        # The driver repeats the last message all the time.
+        # The driver continuously repeats the last message.
         for _ in range(round(duration_s / TICK_S)):
             clock.ticks(TICK_S, reports)
             controller.take(joy, clock.now_s)
@@ -181,7 +181,7 @@ def test_reports_without_permission_or_of_a_strange_system_are_none(system):
 
 
 def beats(heartbeat, duration_s, period_s=TICK_S, is_idle=True, start_s=0.0):
-    """The time after regular reports."""
+    """Return the time after regular reports."""
     now_s = start_s
     while now_s < start_s + duration_s - 1e-9:
         now_s += period_s

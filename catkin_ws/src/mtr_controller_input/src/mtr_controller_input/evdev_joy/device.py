@@ -8,7 +8,7 @@ import evdev
 
 from .gamepad import EV_ABS, EV_KEY, AxisRange, Gamepad, is_gamepad
 
-# linux/input-event-codes.h: the kernel's queue ran over, events are missing.
+# linux/input-event-codes.h: the kernel's queue has overflowed, and events are missing.
 EV_SYN, SYN_DROPPED = 0, 3
 
 State = Tuple[List[float], List[int]]
@@ -16,7 +16,7 @@ State = Tuple[List[float], List[int]]
 
 def find(paths: Iterable[str], open_device: Callable[[str], evdev.InputDevice] = evdev.InputDevice
          ) -> Optional[evdev.InputDevice]:
-    """The first controller among these devices, opened; None when there is none."""
+    """Return the first controller among these devices, opened, or None."""
     for path in paths:
         with contextlib.suppress(OSError):
             device = open_device(path)
@@ -27,12 +27,12 @@ def find(paths: Iterable[str], open_device: Callable[[str], evdev.InputDevice] =
 
 
 def states(device: evdev.InputDevice, alive_period_s: float) -> Iterator[State]:
-    """State on each change, and when nothing has changed for the period; ends when the device is gone."""
+    """Yield the state on each change, and after each period without a change; end when the device is gone."""
     try:
         gamepad = gamepad_of(device)
         while True:
             ready, _, _ = select.select([device.fd], [], [], alive_period_s)
-            # Asking it for its state fails when it is gone, though nothing was to be read.
+            # Reading the state fails for a device that is gone, even if no event is pending.
             device.absinfo(evdev.ecodes.ABS_X)
             events = list(device.read()) if ready else []
             if any((event.type, event.code) == (EV_SYN, SYN_DROPPED) for event in events):
@@ -45,7 +45,7 @@ def states(device: evdev.InputDevice, alive_period_s: float) -> Iterator[State]:
 
 
 def gamepad_of(device: evdev.InputDevice) -> Gamepad:
-    """The controller as it is now: a button may be held already."""
+    """Return the controller with its current state, in which a button may already be held."""
     raw: Dict[int, int] = {code: info.value for code, info in device.capabilities().get(EV_ABS, [])}
     return Gamepad(_axes(device), _buttons(device), raw, device.active_keys())
 

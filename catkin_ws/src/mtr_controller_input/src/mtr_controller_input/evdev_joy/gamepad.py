@@ -1,4 +1,4 @@
-"""Events of a Linux input device to the axes and buttons of sensor_msgs/Joy, numbered as joy_node numbers them."""
+"""Converts events of a Linux input device to axes and buttons of sensor_msgs/Joy, numbered like in joy_node."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, List, Mapping, NamedTuple, Sequence, Tuple
 
@@ -6,12 +6,12 @@ from typing import Dict, List, Mapping, NamedTuple, Sequence, Tuple
 EV_KEY, EV_ABS = 1, 3
 BTN_GAMEPAD = 0x130
 ABS_X, ABS_Y = 0, 1
-# Axes from here on are no sticks, triggers or crosses: volume, pressure, multi-touch.
+# Axes from this code on are not sticks, triggers or crosses, but volume, pressure, multi-touch.
 ABS_END = 0x18
 
 
 class AxisRange(NamedTuple):
-    """Raw values of an axis: its ends, and how far off the middle it may rest."""
+    """Raw values of an axis: its ends, and the width of its rest zone around the middle."""
 
     low: int
     high: int
@@ -19,30 +19,30 @@ class AxisRange(NamedTuple):
 
 
 class Gamepad:
-    """Keeps the state of one controller.
+    """Stores the state of one controller.
 
     Axes and buttons are numbered in the order of their codes; left and up are positive.
     """
 
     def __init__(self, axes: Mapping[int, AxisRange], buttons: Sequence[int], raw: Mapping[int, int],
                  held: Sequence[int] = ()):
-        """raw: present values of the axes by code; held: codes of the buttons that are held down."""
+        """raw: current values of the axes by code; held: codes of the held buttons."""
         self._axes: Dict[int, AxisRange] = {code: axes[code] for code in sorted(axes) if code < ABS_END}
         self._values: Dict[int, float] = {code: self._deflection(code, raw.get(code)) for code in self._axes}
         self._buttons: Dict[int, int] = {code: int(code in held) for code in sorted(buttons)}
 
     def take(self, kind: int, code: int, value: int) -> bool:
-        """One event; True when it changed anything."""
+        """Process one event; return True if it changed the state."""
         before = self.state()
         if kind == EV_ABS and code in self._axes:
             self._values[code] = self._deflection(code, value)
         elif kind == EV_KEY and code in self._buttons:
-            # 2 is the keyboard's autorepeat.
+            # The value 2 is a keyboard's autorepeat.
             self._buttons[code] = 1 if value else 0
         return self.state() != before
 
     def state(self) -> Tuple[List[float], List[int]]:
-        """Axes from -1 to 1, and buttons, 1 while held."""
+        """Return the axes from -1 to 1, and the buttons, 1 while held."""
         return list(self._values.values()), list(self._buttons.values())
 
     def _deflection(self, code: int, raw: object) -> float:
@@ -54,5 +54,6 @@ class Gamepad:
 
 
 def is_gamepad(axes: Mapping[int, AxisRange], buttons: Sequence[int]) -> bool:
-    """True for what has a stick and a gamepad's buttons; motion sensors and touch pads come as devices of their own."""
+    """Return True for a device with a stick and a gamepad's buttons; motion sensors and touch pads are separate
+    devices."""
     return ABS_X in axes and ABS_Y in axes and BTN_GAMEPAD in buttons

@@ -1,4 +1,4 @@
-"""Publishes sensor_msgs/Joy from a Linux input device: on each change, and as a sign of life while it is there."""
+"""Publishes sensor_msgs/Joy from a Linux input device: on each change, and as a sign of life while it exists."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import time
@@ -20,12 +20,12 @@ SEARCH_AGAIN_S = 1.0
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the node is started with.
+    """Start parameters of the node.
 
     Attributes:
-        device: path of the controller, e.g. /dev/input/event5; empty: the first gamepad that is found.
-        alive_period_s: a controller that is there and still is published again after so long.
-        heartbeat_after_s: age of the newest report at which a controller that reports while it is idle is lost.
+        device: path of the controller, e.g. /dev/input/event5; empty: the first gamepad found.
+        alive_period_s: period of publication for a controller whose state does not change.
+        heartbeat_after_s: age of the newest report at which a controller that also reports while idle is lost.
     """
 
     device: str = ""
@@ -34,7 +34,7 @@ class Parameters(ParameterSet):
 
 
 class EvdevJoyNode:
-    """Searches a controller, reads it until it is gone, and searches again. Says nothing while there is none."""
+    """Searches for a controller, reads it until it is gone, and searches again. Without one it publishes nothing."""
 
     def __init__(self, parameters: Parameters):
         self._parameters = parameters
@@ -61,7 +61,7 @@ class EvdevJoyNode:
             for state in states(device, self._parameters.alive_period_s):
                 if rospy.is_shutdown():
                     return
-                # Silence is how the manual controller notices the loss.
+                # The manual controller detects the loss by the silence.
                 if presence.update(time.monotonic(), is_idle=state == before):
                     self._publish(state)
                 before = state
@@ -74,5 +74,5 @@ class EvdevJoyNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node and return its exit status."""
     return run_node("evdev_joy", Parameters, EvdevJoyNode)

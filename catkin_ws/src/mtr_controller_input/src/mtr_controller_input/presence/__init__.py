@@ -1,1 +1,1 @@
-"""Loss of a controller that its driver does not notice, by reports that the controller sends even while it is idle."""
+"""Detects the loss of a controller, if its driver does not, from the reports that it also sends while idle."""

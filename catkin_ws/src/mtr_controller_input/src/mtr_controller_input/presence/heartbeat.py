@@ -1,18 +1,19 @@
-"""Reports of a controller as a heartbeat. No ROS and no files inside."""
+"""Uses a controller's reports as a heartbeat. No ROS and no files inside."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
 from mtr_core.liveness import is_fresh
 
-# Controllers that report while they are idle do so every 1 to 15 ms; a tick of the manual controller lasts 40 ms.
+# Controllers that report while idle do so every 1 to 15 ms; a tick of the manual controller lasts 40 ms.
 REGULAR_GAP_S = 0.1
 REGULAR_FOR_S = 2.0
 
 
 class Heartbeat:
-    """Watches reports once they have arrived regularly from an idle controller: others report only what changes.
+    """Watches reports once they have arrived regularly from an idle controller: other controllers report only changes.
 
-    After a loss the controller must show that again. A stick that trembles can imitate it once, but not repeatedly.
+    After a loss the controller has to report regularly again. A trembling stick can imitate this once, but not
+    repeatedly.
     """
 
     def __init__(self, lost_after_s: float):
@@ -23,11 +24,11 @@ class Heartbeat:
 
     @property
     def is_watched(self) -> bool:
-        """True when a loss would be noticed."""
+        """True if a loss would be detected."""
         return self._is_watched
 
     def update(self, now_s: float, has_reported: bool, is_idle: bool) -> bool:
-        """Process one tick; True while the controller is lost.
+        """Process one tick; return True while the controller is lost.
 
         Args:
             has_reported: at least one report has arrived since the previous tick.

@@ -11,13 +11,13 @@ READ_BYTES, MAX_READS = 4096, 64
 
 
 class ReportFile:
-    """A device file that is read only to know whether something has arrived."""
+    """A device file that is read only to detect arriving reports."""
 
     def __init__(self, path: pathlib.Path):
         self._descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
 
     def has_reported(self) -> bool:
-        """True when something has arrived since the previous call; OSError when the device is gone."""
+        """Return True if a report has arrived since the previous call; OSError if the device is gone."""
         found = False
         for _ in range(MAX_READS):
             try:
@@ -30,14 +30,14 @@ class ReportFile:
         return found
 
     def close(self) -> None:
-        """Release the file."""
+        """Close the file."""
         os.close(self._descriptor)
 
 
 def open_reports(device: str, root: pathlib.Path = pathlib.Path("/")) -> Optional[ReportFile]:
-    """Reports of the controller whose joystick or event device this is; None when it has none that can be read.
+    """Open the reports of the controller with this joystick or event device; None if none is readable.
 
-    Motion sensors are preferred, which the kernel shows as an input device of their own; raw reports need permission.
+    Motion sensors are preferred, which the kernel presents as a separate input device; raw reports need permission.
     """
     for path in _candidates(device, root):
         with contextlib.suppress(OSError):
@@ -48,7 +48,7 @@ def open_reports(device: str, root: pathlib.Path = pathlib.Path("/")) -> Optiona
 def _candidates(device: str, root: pathlib.Path) -> Iterator[pathlib.Path]:
     name = pathlib.Path(os.path.realpath(_below(root, device))).name
     node = pathlib.Path(os.path.realpath(root / "sys/class/input" / name))
-    # <controller>/input/input7/js0, of Bluetooth and USB alike.
+    # Path <controller>/input/input7/js0, both for Bluetooth and USB.
     controller, own = node.parents[2], node.parent
     for each in sorted(controller.glob("input/input*")):
         if each != own and _has_accelerometer(each):
