@@ -10,7 +10,7 @@ from .preflight_report import PreflightReport, report_in, with_motion
 
 # A failed node is restarted after 2 s.
 ASK_PERIOD_WALL_S = 1.0
-# Number of reported nodes; a broken installation has one cause.
+# Most reported nodes at once; a broken installation has one cause.
 MAX_TOLD = 4
 
 

@@ -250,8 +250,7 @@ class StateMachine:
         return self._lost_since_s is not None and seen.now_s - self._lost_since_s >= STANDS_AFTER_S
 
     def _keep_fault(self, seen: Observation, problem: Problem) -> None:
-        """Store the fault of a part as the reason for a hold, because a person may approach; a Car that was not found
-        is none."""
+        """Store a part's fault as the reason for a hold, because a person may approach; a Car not found is none."""
         if problem and problem != self._car_problem(seen):
             self._fault = problem
         if seen.is_silent(Part.DISPATCHER, self._parameters.noticed_after_s):

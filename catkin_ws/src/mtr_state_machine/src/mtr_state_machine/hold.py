@@ -30,7 +30,7 @@ class Hold:
     """
 
     def __init__(self, parameters: Parameters):
-        """resume_by_operator is false for a robot without people nearby, such as a simulated one, which has no holds."""
+        """resume_by_operator is false for a robot without people nearby, such as a simulated one: it has no holds."""
         self._parameters = parameters
         self._was_held_empty = False
         self._empty_since_s = math.inf
