@@ -1,4 +1,4 @@
-"""Builds mtr_proto for pip, and tells catkin where its Python package lies.
+"""Builds mtr_proto for pip, and declares its Python package for catkin.
 
 For pip the module is generated from robot_link.proto; catkin's CMakeLists.txt generates it in the source tree.
 """
@@ -18,7 +18,7 @@ PACKAGE = ElementTree.parse(str(FOLDER / "package.xml"))
 
 
 class BuildWithSchema(build_py):
-    """Generates the module beside the copied package."""
+    """Generates the module in the copied package."""
 
     def run(self):
         """See build_py."""
@@ -29,17 +29,17 @@ class BuildWithSchema(build_py):
 
 
 def has_own_compiler():
-    """True in the build environment that pip makes."""
+    """Return True in pip's build environment."""
     return importlib.util.find_spec("grpc_tools") is not None
 
 
 def compiler():
-    """protoc of pip's build environment, else the system's."""
+    """Return protoc of pip's build environment, or the system's."""
     return [sys.executable, "-m", "grpc_tools.protoc"] if has_own_compiler() else ["protoc"]
 
 
 def protobuf():
-    """The protobuf that runs what the compiler generates: not older, and of the same major version or the next one."""
+    """Return the protobuf requirement for the generated module: not older, of the same or the next major version."""
     if not has_own_compiler():
         return "protobuf>=3.12"
     version = importlib.metadata.version("protobuf")
@@ -54,7 +54,7 @@ setup(
     packages=["mtr_proto"],
     package_dir={"": "src"},
     python_requires=">=3.8",
-    # What spake2 is for, and that it may lack: mtr_proto/pairing.py.
+    # mtr_proto/pairing.py explains the use of spake2, and that it is optional.
     install_requires=[protobuf(), "spake2>=0.8"],
     cmdclass={"build_py": BuildWithSchema},
 )

@@ -1,8 +1,8 @@
-"""Pairing: robot and laptop learn each other's public key from a short code that only a person carries between them.
+"""Pairing: robot and laptop exchange their public keys, authenticated by a short code that a person carries.
 
-SPAKE2 (RFC 9382, in the form of the package `spake2`, Ed25519) makes a common secret of the code. Both then prove with
-it, by HMAC-SHA256 over all that was said, that they have the same code and have seen the same keys. Who stands between
-them or guesses has one guess a try and learns nothing from it but whether it was right; the robot counts the tries.
+SPAKE2 (RFC 9382, in the form of the package `spake2`, Ed25519) derives a common secret from the code. Both sides then
+prove with HMAC-SHA256 over all messages that they have the same code and have seen the same keys. An attacker who
+guesses or is in between has one guess per try and learns only whether it was right; the robot counts the tries.
 
   laptop -> robot   HELLO     magic, SPAKE2 of the laptop, its public key, its name
   robot  -> laptop  ANSWER    SPAKE2 of the robot, its public key
@@ -40,37 +40,37 @@ _IDS = {"idA": b"mtr operator", "idB": b"mtr robot"}
 
 
 class PairingError(Exception):
-    """What came is no message of a pairing; the text is one sentence for a person."""
+    """The received data is not a message of a pairing; the text is one sentence for a person."""
 
 
 class WrongCode(PairingError):
-    """The other side has another code, or somebody stands between."""
+    """The other side has another code, or an attacker is in between."""
 
 
 class Hello(NamedTuple):
-    """What the laptop says of itself; true only once its proof has come."""
+    """The laptop's own data; trustworthy only after its proof."""
 
     public_key: str
     name: str
 
 
 class Paired(NamedTuple):
-    """What the laptop knows in the end."""
+    """The laptop's result of a pairing."""
 
     robot_key: str
     role: str
 
 
 def new_code() -> str:
-    """A code for one pairing."""
+    """Return a new code for one pairing."""
     return f"{secrets.randbelow(10 ** CODE_DIGITS):0{CODE_DIGITS}d}"
 
 
 def code_of(typed: str) -> str:
-    """The code in what a person typed, with spaces or dashes.
+    """Return the code in a typed text, which may contain spaces or dashes.
 
     Raises:
-        PairingError: it is none.
+        PairingError: the text is not a code.
     """
     digits = re.sub(r"[\s-]", "", typed)
     if not re.fullmatch(rf"[0-9]{{{CODE_DIGITS}}}", digits):
@@ -79,13 +79,13 @@ def code_of(typed: str) -> str:
 
 
 def plain_name(name: str) -> str:
-    """A name for one line of a file or log: printable, at most NAME_BYTES long in UTF-8, never empty."""
+    """Return the name for one line of a file or log: printable, at most NAME_BYTES long in UTF-8, never empty."""
     words = " ".join("".join(letter if letter.isprintable() else " " for letter in name).split())
     return words.encode("utf-8")[:NAME_BYTES].decode("utf-8", "ignore").strip() or "unnamed"
 
 
 class LaptopSide:
-    """The laptop's part of one try, to be called in this order: hello, proof, welcomed."""
+    """The laptop's side of one try; call its methods in this order: hello, proof, welcomed."""
 
     def __init__(self, code: str, public_key: bytes, name: str):
         self._secret = _spake2(SPAKE2_A, code)
@@ -94,18 +94,18 @@ class LaptopSide:
         self._key, self._said, self._robot_key = b"", b"", ""
 
     def hello(self) -> bytes:
-        """The first message."""
+        """Return the first message."""
         return self._hello
 
     def proof(self, answer: bytes) -> bytes:
-        """The third message; raises PairingError when the answer is none."""
+        """Return the third message; raises PairingError if the answer is invalid."""
         point, key = _split(answer, (_POINT, _KEY))
         self._robot_key = _key_text(key)
         self._key, self._said = _common(self._secret, point), self._hello + answer
         return _proof(self._key, b"laptop", self._said)
 
     def welcomed(self, welcome: bytes) -> Paired:
-        """The robot's key and this laptop's role; raises WrongCode when the robot has proved nothing."""
+        """Return the robot's key and this laptop's role; raises WrongCode without a valid proof of the robot."""
         number, proof = _split(welcome, (1, _PROOF))
         if number[0] >= len(ROLES) or not hmac.compare_digest(proof, _proof(self._key, b"robot" + number, self._said)):
             raise WrongCode("The robot's answer does not fit the code; begin anew with a new code.")
@@ -113,7 +113,7 @@ class LaptopSide:
 
 
 class RobotSide:
-    """The robot's part of one try: answer counts as the try, welcome ends it well."""
+    """The robot's side of one try: answer counts as the try, welcome completes it."""
 
     def __init__(self, code: str, public_key: bytes):
         self._secret = _spake2(SPAKE2_B, code)
@@ -121,7 +121,7 @@ class RobotSide:
         self._key, self._said = b"", b""
 
     def answer(self, hello: bytes) -> Tuple[Hello, bytes]:
-        """What the laptop says of itself, and the second message; raises PairingError when it is no hello."""
+        """Return the laptop's data and the second message; raises PairingError for an invalid hello."""
         magic, point, key, name = _split(hello, (len(_MAGIC), _POINT, _KEY, NAME_BYTES))
         if magic != _MAGIC:
             raise PairingError("Something else than a laptop that wants to be paired has spoken.")
@@ -131,7 +131,7 @@ class RobotSide:
         return said, answer
 
     def welcome(self, proof: bytes, role: str) -> bytes:
-        """The fourth message; raises WrongCode when the laptop has another code."""
+        """Return the fourth message; raises WrongCode if the laptop has another code."""
         if not hmac.compare_digest(proof, _proof(self._key, b"laptop", self._said)):
             raise WrongCode("The code was wrong.")
         number = bytes([ROLES.index(role)])
@@ -149,7 +149,7 @@ def _common(secret: Any, point: bytes) -> bytes:
     try:
         key: bytes = secret.finish(point)
         return key
-    # Whatever the package says of bytes that are no point: they come from the network.
+    # The bytes come from the network, and the package raises various errors for an invalid point.
     except Exception:
         raise PairingError("What has come is no message of a pairing.") from None
 
