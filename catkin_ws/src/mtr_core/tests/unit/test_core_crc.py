@@ -6,7 +6,7 @@ from mtr_core.crc import crc16, is_sound, seal
 
 
 class Message:
-    """A message like those of genpy, with one value."""
+    """A message with one value, serializable like genpy's messages."""
 
     def __init__(self, value, crc=0):
         self.value, self.crc = value, crc

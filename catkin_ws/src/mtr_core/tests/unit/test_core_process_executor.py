@@ -80,7 +80,7 @@ def test_after_its_death_the_work_is_done_all_the_same(executor, told):
 
 def test_killed_while_it_works_it_is_replaced(executor, told):
     assert executor.submit(os.kill, executor.process_id, 0).result() is None
-    # The work is repeated in this process, where it tries to kill the dead process again.
+    # This process repeats the work, and so tries to kill the dead process again.
     with pytest.raises(ProcessLookupError):
         executor.submit(os.kill, executor.process_id, signal.SIGKILL).result()
     assert len(told) == 1 and executor.submit(math.sqrt, 9.0).result() == 3.0

@@ -1,7 +1,7 @@
 """Controller that keeps a differential drive on its reference.
 
-Feed-forward of the reference's velocity at the instant at which the command acts, and feedback of the pose: Kanayama's
-law (Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990) with gains that grow with
+Feed-forward is the reference's velocity at the instant at which the command acts. Feedback of the pose is Kanayama's
+law (Kanayama et al., "A stable tracking control method for an autonomous mobile robot", 1990). Its gains grow with
 the speed, so that an offset decays over the same length at every speed.
 """
 # SPDX-License-Identifier: Apache-2.0

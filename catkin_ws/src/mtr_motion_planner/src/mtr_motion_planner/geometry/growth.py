@@ -11,7 +11,7 @@ from ..inputs import EstimatedCar, RobotState, SideSigmas
 from ..parameters import Margins
 
 # Number of sigmas by which each side of the Car is moved outwards. Without a data sheet the end of the Car is reported
-# in the LiDARs' plane, and its sigma covers a true end that is at most twice as far out.
+# in the LiDARs' plane, with a sigma for which the true end is at most 2 sigma farther out.
 MARGIN_SIGMAS = 2.0
 # An end known this well may be approached more closely than invisible protrusions require.
 KNOWN_SIGMA_M = 0.02
