@@ -24,7 +24,7 @@ ROS_OF_CORE = {"mtr_core.lockstep", "mtr_core.conversions"}
 
 # Files of a robot package that may import ROS: the shell around the core.
 SHELL = {"node.py", "conversions.py", "robot_description.py", "connections.py", "sensors.py", "calibrate_lift.py",
-         "inject.py", "replay.py"}
+         "inject.py", "replay.py", "service_call.py"}
 # Packages whose job is the border itself, or whose shells have names of their own (SHELLS).
 BORDER_PACKAGES = {"mtr_benchmarks", "mtr_commissioning", "mtr_graph_watch", "mtr_motion_check", "mtr_recording"}
 

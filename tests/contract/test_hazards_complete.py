@@ -13,7 +13,9 @@ from mtr_fault_injection.parts import catalogue
 FILE = model.read()
 # Packages that own a motion lock, a hold, or the stop of lift and servos: each of their sentences counts.
 LOCKING = {"mtr_controller_input", "mtr_drive_control", "mtr_graph_watch", "mtr_peripherals", "mtr_state_machine"}
-SESSION = PACKAGES / "mtr_dispatcher/src/mtr_dispatcher/session.py"
+DISPATCHER = PACKAGES / "mtr_dispatcher/src/mtr_dispatcher"
+# Modules of the dispatcher on control of the robot and on service mode.
+OWNERS = (DISPATCHER / "session.py", DISPATCHER / "service/mode.py")
 
 
 def spread(table: Mapping[str, object], whole: Mapping[str, Iterable[str]]) -> Iterator[Tuple[str, str]]:
@@ -33,9 +35,9 @@ def named_faults() -> Tuple[Set[Tuple[str, str]], Set[Tuple[str, str]]]:
 
 def locking_codes() -> Set[str]:
     """Codes of sentences with which a node locks or holds the robot."""
-    names = set(re.findall(r"problems\.([A-Z_]+)\(", SESSION.read_text(encoding="utf-8")))
-    of_session = {row.code for row in ROWS if row.package == "mtr_dispatcher" and row.name in names}
-    return {row.code for row in ROWS if row.package in LOCKING} | of_session
+    names = {name for path in OWNERS for name in re.findall(r"problems\.([A-Z_]+)\(", path.read_text(encoding="utf-8"))}
+    of_dispatcher = {row.code for row in ROWS if row.package == "mtr_dispatcher" and row.name in names}
+    return {row.code for row in ROWS if row.package in LOCKING} | of_dispatcher
 
 
 def named_codes() -> Tuple[Set[str], Set[str]]:

@@ -24,6 +24,7 @@ COMMAND = {
     "session_id": 1, "id": 2, "sent_time_s": 3, "seen_status_id": 4, "seen_robot_time_s": 5, "stop": 6, "waypoint": 7,
     "max_speed_mps": 8, "device_height_m": 9, "press": 10, "map_car_id": 11, "end_session": 12,
     "check_car_id": 13, "resume_hold_id": 14, "watches": 15, "test_area": 16,
+    "enter_service": 17, "leave_service_id": 18,
 }
 STATUS = {
     "id": 1, "robot_session_id": 2, "sent_time_s": 3, "state": 4, "car": 5, "mode": 6, "session_id": 7,
@@ -31,7 +32,7 @@ STATUS = {
     "log": 14, "notifications": 15, "rejected_messages": 16, "software_version": 17,
     "car_check": 18, "waypoint_problems": 19, "steady_time_s": 20, "interventions": 21, "emergency_stop": 22,
     "motion_source": 23, "hold_id": 24, "controller_name": 25, "surroundings": 26,
-    "preflight": 27, "waits_for_answer": 28, "simulated": 29, "test_area": 30,
+    "preflight": 27, "waits_for_answer": 28, "simulated": 29, "test_area": 30, "service_mode": 31,
 }
 TEST_AREA = {"id": 1, "origin_id": 2, "x": 3, "y": 4}
 TEST_AREA_STATE = {

@@ -6,5 +6,5 @@ from catkin_pkg.python_setup import generate_distutils_setup
 
 setup(**generate_distutils_setup(
     packages=["mtr_dispatcher", "mtr_dispatcher.access", "mtr_dispatcher.area", "mtr_dispatcher.disks",
-              "mtr_dispatcher.status"],
+              "mtr_dispatcher.service", "mtr_dispatcher.status"],
     package_dir={"": "src"}))

@@ -43,8 +43,10 @@ def test_start_has_the_parameters_of_its_own_arguments_only(master, tmp_path):
     anew.start()
     assert set(master.parameters) == set(anew.parameters)
     # Lift and servos would wait for the emergency stop's word for ever.
-    assert "/peripherals/emergency_owners" in master.parameters
+    assert master.parameters["/peripherals/emergency_owners"] == ["controller_input", "service_mode"]
     master.start("controller:=false")
+    assert master.parameters["/peripherals/emergency_owners"] == ["service_mode"]
+    master.start("controller:=false", "simulated:=true")
     assert "/peripherals/emergency_owners" not in master.parameters
 
 

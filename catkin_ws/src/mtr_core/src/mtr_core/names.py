@@ -35,6 +35,12 @@ PREFLIGHT_MOTION = "/preflight_motion"
 # Test area in force in this robot run, for a restarted dispatcher
 TEST_AREA_IN_FORCE = "/test_area_in_force"
 
+# Service mode in force of a simulated robot; a real one stores it in a file
+SERVICE_MODE_IN_FORCE = "/service_mode_in_force"
+# Owner of the motion lock of service mode, and the dispatcher's service that orders it
+SERVICE_MODE = "service_mode"
+ORDER_SERVICE_MODE = "/dispatcher/service_mode"
+
 # Sensors and wheels, with the names of a Jackal
 FRONT_SCAN = "/front/scan"
 REAR_SCAN = "/rear/scan"

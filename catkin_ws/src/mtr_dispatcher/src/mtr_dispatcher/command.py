@@ -45,6 +45,8 @@ class Command:
     resume_hold_id: int = 0
     watches: bool = False
     area: Optional[AreaOrder] = None
+    enter_service: bool = False
+    leave_service_id: int = 0
 
 
 def problem_of(command: Command, platform_speed_mps: float) -> Problem:

@@ -42,7 +42,7 @@ def decode(data: bytes) -> Command:
         key_height_m=_choice(message, "device_height_m"), press=_press(message), map_car_id=message.map_car_id,
         end_session=message.end_session, check_car_id=message.check_car_id,
         resume_hold_id=message.resume_hold_id, watches=message.watches,
-        area=_area(message))
+        area=_area(message), enter_service=message.enter_service, leave_service_id=message.leave_service_id)
 
 
 def _float(message: Any, name: str, absent: float) -> float:

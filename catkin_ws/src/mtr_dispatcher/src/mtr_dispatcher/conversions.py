@@ -1,5 +1,7 @@
 """Converts plain data of the dispatcher to ROS messages."""
 # SPDX-License-Identifier: Apache-2.0
+from typing import List, Optional
+
 from genpy import Time
 
 from mtr_core import names
@@ -28,6 +30,23 @@ def lock_message(desired: SessionState, stamp: Time) -> MotionLock:
                          problems=messages_of(desired.stop_reason, ProblemMessage))
     message.header.stamp = stamp
     return message
+
+
+def service_lock_message(desired: SessionState, stamp: Time) -> MotionLock:
+    """Service mode as an emergency stop: it also stops lift, servos and presses, and outlives the dispatcher."""
+    message = MotionLock(owner=names.SERVICE_MODE, engaged=bool(desired.service), reason=desired.service.text,
+                         problems=messages_of(desired.service, ProblemMessage), emergency=True)
+    message.header.stamp = stamp
+    return message
+
+
+def service_lock_messages(before: Optional[SessionState], desired: SessionState, stamp: Time) -> List[MotionLock]:
+    """Lock of service mode. A release follows an engagement at once: receivers latch a stop that
+    was silent before its release, and storing the end of service mode takes time.
+    """
+    ends = before is not None and bool(before.service) and not desired.service
+    states = (before, desired) if before is not None and ends else (desired,)
+    return [service_lock_message(each, stamp) for each in states]
 
 
 def area_message(areas: AreaKeeper, stamp: Time) -> TestArea:

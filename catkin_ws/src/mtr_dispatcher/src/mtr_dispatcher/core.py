@@ -1,6 +1,7 @@
 """The dispatcher without ROS and sockets: bytes and messages in, desired state and Status out."""
 # SPDX-License-Identifier: Apache-2.0
 import itertools
+from dataclasses import replace
 from typing import List, Optional, Tuple
 
 from mtr_core.problems import Problem
@@ -13,10 +14,12 @@ from .command import Command
 from .command_codec import UndecodableError, decode
 from .parameters import Parameters
 from .sent_statuses import SentStatuses
+from .service.mode import ServiceMode
 from .session import REJECTIONS, CommandResult, ControlSession, SessionState
 from .status.area import AreaReport
 from .status.builder import Confirmations, Identity, Report, status_bytes
 from .status.car_map import CarMap
+from .status.emergency import EmergencyStop
 from .status.inputs import Inputs, PoseFields
 from .status.interventions import Interventions
 from .status.log_buffer import LogBuffer
@@ -24,6 +27,8 @@ from .status.notices import ERROR, WARNING, ForeignApplications, Notice, RecentN
 
 # Value of DriveStatus.source.
 PLANNER = "planner"
+# Commands of an application that is gone do not enter service mode.
+ENDED = (CommandResult.OUTDATED, CommandResult.ENDED)
 
 
 class Dispatcher:
@@ -35,11 +40,16 @@ class Dispatcher:
         status_id: newest Status that was written, 0 before the first.
         rejected_messages: undecodable, oversized, expired, refused, foreign or forbidden messages since the start.
         areas: the test area in force.
+        service: service mode.
         controller: owner of the key whose Commands count, for texts; empty on a link without keys.
     """
 
-    def __init__(self, parameters: Parameters, identity: Identity, areas: Optional[AreaKeeper] = None):
-        """areas: the node passes one that remembers; the default starts without a remembered area."""
+    def __init__(self, parameters: Parameters, identity: Identity, areas: Optional[AreaKeeper] = None,
+                 service: Optional[ServiceMode] = None):
+        """areas, service: the node passes those that remember; by default the robot starts without an area and outside
+        service mode.
+        """
+        self.service = service or ServiceMode(parameters.service_release_s)
         self.areas = areas or AreaKeeper(not parameters.simulated, corners_from(parameters.test_area_xy))
         self._parameters, self._identity = parameters, identity
         self.session = ControlSession(parameters)
@@ -74,6 +84,7 @@ class Dispatcher:
             self.controller = sender.name if self.session.session_id else ""
         if result in (CommandResult.TAKEN, CommandResult.REPEATED):
             self.areas.take(command.session_id, command.area)
+        self._order_service(command, result, now_s)
         if result is CommandResult.FOREIGN:
             self.rejected_messages += 1
             return result, self._foreign.received(self.session.session_id, command.session_id, now_s).text
@@ -95,7 +106,7 @@ class Dispatcher:
 
     def desired(self, now_s: float) -> SessionState:
         """Return the desired state at now_s of the steady clock."""
-        return self.session.desired(now_s)
+        return replace(self.session.desired(now_s), service=self.service.problem)
 
     def area_problem(self, pose: Optional[PoseFields]) -> Problem:
         """Return why the robot neither maps nor tests because of its test area, for the newest pose."""
@@ -108,7 +119,8 @@ class Dispatcher:
         is_one_map = self._car_map.is_map_of(inputs.pose, inputs.car)
         self._sent.add(self.status_id, inputs.now_s, inputs.steady_s)
         self.session.note_speed(_planned_mps(inputs), inputs.steady_s)
-        desired = self.session.desired(inputs.steady_s)
+        self._update_service(inputs)
+        desired = self.desired(inputs.steady_s)
         standing = standing_notices(desired, inputs, self._parameters)
         return status_bytes(self._identity, Report(
             self.status_id, inputs, self._interventions.update(inputs), self._confirmations(desired, inputs),
@@ -116,16 +128,29 @@ class Dispatcher:
             itertools.chain(standing, self._foreign.notices(desired.session_id, inputs.steady_s),
                             self._recent.at(inputs.steady_s)),
             self._parameters.lockstep_operator, is_one_map, self._parameters.simulated,
-            AreaReport(self.areas, self.area_problem(inputs.pose), desired.session_id, is_one_map)))
+            AreaReport(self.areas, self.area_problem(inputs.pose), desired.session_id, is_one_map),
+            self.service.state_at(inputs.steady_s)))
 
     def confirmed(self, inputs: Inputs) -> List[object]:
         """Return the values that a Status would confirm now; a change makes a Status due at once."""
         mode, peripherals, check = inputs.mode, inputs.peripherals, inputs.check
         return [self.session.session_id, self.session.command.id,
                 mode and (mode.mode, mode.waypoint_id, mode.waypoint_result, mode.map_car_id, mode.hold_id),
-                inputs.emergency_stop, self.areas.area,
+                inputs.emergency_stop, self.areas.area, self.service.agreements,
                 check and (check.id, check.state),
                 peripherals and [(press.session_id, press.id) for press in peripherals.presses]]
+
+    def _order_service(self, command: Command, result: CommandResult, now_s: float) -> None:
+        """Anybody who may send Commands can enter service mode; only the application in control agrees to leave it."""
+        if command.enter_service and result not in ENDED:
+            self.service.enter(problems.SERVICE_BY_OPERATOR())
+        elif command.leave_service_id and result in (CommandResult.TAKEN, CommandResult.REPEATED):
+            self.service.agree_by_operator(command.session_id, command.leave_service_id, now_s)
+
+    def _update_service(self, inputs: Inputs) -> None:
+        is_alive = self.session.link_alive(inputs.steady_s)
+        self.service.update(inputs.steady_s, self.session.session_id if is_alive else 0,
+                            inputs.emergency_stop is EmergencyStop.ENGAGED)
 
     def _confirmations(self, desired: SessionState, fresh: Inputs) -> Confirmations:
         mapped = fresh.mode.map_car_id if fresh.mode is not None else 0

@@ -35,7 +35,7 @@ from .access.gate import ANYBODY, Gate
 from .access.rates import Rates
 from .area.keeper import AreaKeeper
 from .area.order import corners_from
-from .conversions import area_message, desired_message, lock_message
+from .conversions import area_message, desired_message, lock_message, service_lock_messages
 from .core import Dispatcher
 from .disks.watch import DiskWatch
 from .link_server import LinkError, LinkServer, Ports, Received
@@ -44,6 +44,7 @@ from .memory import end_beyond, give_back, resident_mib
 from .operator_wait import OperatorWait, Unread
 from .parameters import Parameters
 from .sensors import Eyes, mounted_lidars
+from .service.service_call import ServiceCalls, service_mode
 from .session import CommandResult, SessionState, is_same
 from .status.builder import Identity
 from .status.emergency import EmergencyWatch
@@ -81,6 +82,7 @@ class DispatcherNode:
         self._emergency = EmergencyWatch(parameters.emergency_stop)
         self._master = MasterWatch(lambda parameter: rospy.get_param(parameter, None))
         self._master.start()
+        self._service = ServiceCalls(core.service, parameters.service_release_s)
         self._disks = DiskWatch(_written_folders(parameters), parameters.full_disk_mb, parameters.disk_period_s)
         self._disks.start()
         self._topics = (
@@ -241,14 +243,19 @@ class DispatcherNode:
         if self._published is None or desired.stop_reason != self._published.stop_reason:
             rospy.loginfo("Motion %s", f"locked: {desired.stop_reason}" if desired.stop_reason else "allowed.")
         stamp = clock.stamp_of(now_ns)
+        # First: who has received the dispatcher's lock knows of service mode, too.
+        for message in service_lock_messages(self._published, desired, stamp):
+            self._lock.publish(message)
         self._lock.publish(lock_message(desired, stamp))
         area_problem = self._core.area_problem(self._topics[0].fresh_at(now_ns, STALE_AFTER_S))
         self._area.publish(area_message(self._core.areas, stamp))
         self._desired.publish(desired_message(desired, stamp, self._parameters.default_speed_mps, area_problem))
         self._published = desired
+        # After the lock, which does not wait for the disk, and before a Status says that the mode is active.
+        self._core.service.store()
 
     def _take_lock(self, message: MotionLock) -> None:
-        if message.emergency:
+        if message.emergency and message.owner != names.SERVICE_MODE:
             self._emergency.received(message.owner, message.engaged, clock.steady_ns() * NS)
 
     def _take_log(self, message: Log) -> None:
@@ -294,7 +301,8 @@ def make(parameters: Parameters) -> DispatcherNode:
         rospy.set_param(names.WRITTEN_FOLDERS, [str(folder) for folder in _written_folders(parameters)])
         identity = Identity(secrets.randbits(63) | 1, rospkg.RosPack().get_manifest("mtr_dispatcher").version,
                             key.x_m, key.y_m)
-        return DispatcherNode(parameters, Dispatcher(parameters, identity, _areas(parameters)), server,
+        return DispatcherNode(parameters, Dispatcher(parameters, identity, _areas(parameters),
+                                                     service_mode(parameters)), server,
                               Eyes(mounted_lidars(robot)), gate)
     except BaseException:
         # The server's thread would keep the process alive.

@@ -46,6 +46,9 @@ class Parameters(ParameterSet):
         simulated: the robot is simulated; a real one neither maps nor tests without a test area.
         test_area_xy: corners x, y, x, y, ... of the test area in m, in the frame of the robot at its start (x
             ahead, y to the left); empty: the Operator draws it.
+        service_folder: folder of the file that stores service mode; empty: mtr_service in $ROS_HOME, and for a
+            simulated robot the ROS master until the robot ends.
+        service_release_s: time for which each of the two agreements to leave service mode counts.
     """
 
     bind_address: str = "127.0.0.1"
@@ -75,6 +78,8 @@ class Parameters(ParameterSet):
     disk_period_s: float = number(10.0, 0.05, 600.0, "s")
     simulated: bool = False
     test_area_xy: Tuple[float, ...] = ()
+    service_folder: str = ""
+    service_release_s: float = number(60.0, 10.0, 300.0, "s")
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -9,6 +9,23 @@ APPLICATION_SILENT = Sentence("dispatcher.application_silent",
 STOPPED_BY_OPERATOR = Sentence("dispatcher.stopped_by_operator", "The Operator stopped the robot.")
 COMMAND_REFUSED = Sentence("dispatcher.command_refused", "Command refused: {cause}")
 
+# Service mode
+SERVICE_MODE = Sentence("dispatcher.service_mode",
+                        "The robot is in service mode: wheels, lift and servos are disabled until the robot and the "
+                        "Operator both release it. {cause}")
+SERVICE_BY_OPERATOR = Sentence("dispatcher.service_by_operator", "The Operator has entered it.")
+SERVICE_AT_ROBOT = Sentence("dispatcher.service_at_robot", "A person at the robot has entered it.")
+SERVICE_RESTORED = Sentence("dispatcher.service_restored", "It was active before the robot's software restarted.")
+SERVICE_UNREADABLE = Sentence("dispatcher.service_unreadable",
+                              "Whether it was active before the restart cannot be read: {why}.")
+SERVICE_NOT_STORED = Sentence("dispatcher.service_not_stored",
+                              "It cannot be stored and would end with a restart of the robot's software: {why}.")
+SERVICE_END_NOT_STORED = Sentence("dispatcher.service_end_not_stored",
+                                  "Its end cannot be stored, so it remains active: {why}.")
+SERVICE_NOT_ACTIVE = Sentence("dispatcher.service_not_active", "The robot is not in service mode.")
+SERVICE_STOP_ENGAGED = Sentence("dispatcher.service_stop_engaged",
+                                "An emergency stop is engaged or silent: release it first, then release service mode.")
+
 # Messages without effect
 OVERSIZED = Sentence("dispatcher.oversized", "A message of {size} bytes was ignored; allowed are {maximum}.")
 UNDECODABLE = Sentence("dispatcher.undecodable", "A message of {size} bytes that is no Command was ignored.")

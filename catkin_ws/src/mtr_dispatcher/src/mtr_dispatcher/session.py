@@ -47,6 +47,7 @@ class SessionState:
     """Desired state. stop_reason is empty if the robot may move; without a session, only by manual control.
 
     speed_limit_mps: limit while the link is silent for a while, otherwise infinite.
+    service: cause for which wheels, lift and servos are disabled; no problem outside service mode.
     """
 
     session_id: int
@@ -56,6 +57,7 @@ class SessionState:
     link_alive: bool
     stop_reason: Problem
     speed_limit_mps: float = math.inf
+    service: Problem = NO_PROBLEM
 
 
 class ControlSession:
@@ -229,7 +231,8 @@ def desired_state(desired: SessionState, default_speed_mps: float, area_problem:
     speed_mps = default_speed_mps if command.max_speed_mps is None else command.max_speed_mps
     return DesiredState(
         session_id=desired.session_id, command_id=command.id, link_alive=desired.link_alive,
-        stop=bool(desired.stop_reason) or not desired.link_alive, waypoint=command.waypoint or NO_WAYPOINT,
+        stop=bool(desired.stop_reason or desired.service) or not desired.link_alive,
+        waypoint=command.waypoint or NO_WAYPOINT,
         max_speed_mps=min(speed_mps, desired.speed_limit_mps),
         key_height_m=math.nan if command.key_height_m is None else command.key_height_m,
         press=command.press or NO_PRESS, map_car_id=desired.map_order, check_car_id=desired.check_order,
@@ -241,5 +244,6 @@ def is_same(one: Optional[SessionState], other: SessionState) -> bool:
     return one is not None and _order(one) == _order(other)
 
 
-def _order(state: SessionState) -> Tuple[int, bool, Problem, int, float]:
-    return state.session_id, state.link_alive, state.stop_reason, state.command.id, state.speed_limit_mps
+def _order(state: SessionState) -> Tuple[int, bool, Problem, int, float, Problem]:
+    return (state.session_id, state.link_alive, state.stop_reason, state.command.id, state.speed_limit_mps,
+            state.service)

@@ -64,7 +64,8 @@ class DispatcherEncrypted(unittest.TestCase):
 
     @classmethod
     def take_lock(cls, message):
-        cls.lock = message
+        if message.owner == "dispatcher":
+            cls.lock = message
 
     def setUp(self):
         self.folder.change(lambda known: AuthorisedKeys())

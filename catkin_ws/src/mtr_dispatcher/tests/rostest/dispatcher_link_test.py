@@ -86,7 +86,8 @@ class DispatcherLink(unittest.TestCase):
 
     @classmethod
     def take_lock(cls, message):
-        cls.lock = message
+        if message.owner == "dispatcher":
+            cls.lock = message
 
     def setUp(self):
         self.application = Application(rospy.get_param("~status_port"), rospy.get_param("~command_port"))

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from typing import Set
 
+from mtr_core.names import SERVICE_MODE
+
 from .observation import Emergency
 
 
@@ -25,4 +27,4 @@ class EmergencyWatch:
 
     def now(self) -> Emergency:
         """Return the newest state, and the number of engagements since the start."""
-        return Emergency(bool(self._engaged), self._stops)
+        return Emergency(bool(self._engaged), self._stops, SERVICE_MODE in self._engaged)

@@ -56,9 +56,11 @@ class Hold:
         self._seen_resets, self._seen_stops = seen.firmware_resets, seen.emergency.stops
         has_given_up = 0 <= self._seen_jams < seen.lift_jams
         self._seen_jams = seen.lift_jams
-        # A person who releases an emergency stop is next to the robot.
-        if was_stopped or (seen.emergency.is_engaged and self.reason != problems.HELD_EMERGENCY()):
-            self.begin(problems.HELD_EMERGENCY(), seen)
+        # A person who releases an emergency stop is next to the robot. After service a key height alone moves the lift.
+        is_service = seen.emergency.is_service
+        stop = problems.HELD_SERVICE() if is_service else problems.HELD_EMERGENCY()
+        if was_stopped or (seen.emergency.is_engaged and self.reason != stop):
+            self.begin(stop, seen, was_ordered=is_service and bool(seen.desired.session_id))
         elif was_driven or (drive.is_manual and self.reason != problems.HELD_MANUAL()):
             self.begin(problems.HELD_MANUAL(), seen)
         elif seen.motion.is_about(goal) and seen.motion.result is Result.BLOCKED:

@@ -55,10 +55,14 @@ class Drive:
 
 @dataclass(frozen=True)
 class Emergency:
-    """The robot's emergency stops: True if one is engaged, and the number of engagements since the node's start."""
+    """The robot's emergency stops: True if one is engaged, and the number of engagements since the node's start.
+
+    is_service: service mode is one of the engaged stops.
+    """
 
     is_engaged: bool = False
     stops: int = 0
+    is_service: bool = False
 
 
 NO_EMERGENCY = Emergency()

@@ -31,6 +31,8 @@ HELD_MANUAL = Sentence("state_machine.held_manual",
                        "The robot was driven by hand; it stands until the Operator has it go on.")
 HELD_EMERGENCY = Sentence("state_machine.held_emergency",
                           "The robot stands after an emergency stop until the Operator has it go on.")
+HELD_SERVICE = Sentence("state_machine.held_service",
+                        "The robot was in service mode; it is on hold until the Operator resumes.")
 HELD_STOP = Sentence("state_machine.held_stop",
                      "The Operator has stopped the robot; it is on hold until the Operator resumes.")
 HELD_LINK = Sentence("state_machine.held_link",

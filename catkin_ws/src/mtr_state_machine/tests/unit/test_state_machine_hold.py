@@ -107,6 +107,14 @@ def emergency_stop(robot):
     robot.step(emergency=Emergency(is_engaged=False, stops=stops))
 
 
+def service_mode(robot):
+    stops = robot.seen.emergency.stops + 1
+    for _ in range(3):
+        robot.step(desired=replace(robot.seen.desired, stop=True),
+                   emergency=Emergency(is_engaged=True, stops=stops, is_service=True))
+    robot.step(desired=replace(robot.seen.desired, stop=False), emergency=Emergency(stops=stops))
+
+
 def emergency_stop_for_a_moment(robot):
     robot.step(emergency=Emergency(is_engaged=False, stops=robot.seen.emergency.stops + 1))
 
@@ -135,6 +143,7 @@ CAUSES = {"fault": (fault, "state_machine.held_fault"), "manual": (manual, "stat
           "blocked-between-ticks": (blocked_for_a_moment, "state_machine.held_blocked"),
           "emergency": (emergency_stop, "state_machine.held_emergency"),
           "emergency-between-ticks": (emergency_stop_for_a_moment, "state_machine.held_emergency"),
+          "service": (service_mode, "state_machine.held_service"),
           "board": (board_restarted, "state_machine.held_board"),
           "stop": (stopped_by_operator, "state_machine.held_stop"),
           "stop-for-a-tick": (stopped_for_a_tick, "state_machine.held_stop"),
@@ -281,6 +290,29 @@ def test_hold_does_not_end_while_the_emergency_stop_is_engaged(robot):
     assert hold_id and robot.step().hold_id == hold_id
     assert robot.step(desired=replace(WANTS, resume_hold_id=hold_id)).hold_id > hold_id
     assert robot.decision.goal == NO_GOAL
+
+
+def test_service_mode_holds_every_application_that_controls_the_robot_by_then():
+    robot = Robot()
+    robot.step()
+    service_mode(robot)
+    held = robot.step(desired=WANTS)
+    assert held.message.code == "state_machine.held_service" and held.goal == NO_GOAL
+    assert not robot.step(desired=replace(WANTS, resume_hold_id=held.hold_id)).hold_id
+
+
+def test_hold_does_not_end_in_service_mode_and_a_stop_after_it_has_its_own_reason(robot):
+    hold_id = robot.step(emergency=Emergency(True, 1, is_service=True)).hold_id
+    again = robot.step(desired=replace(WANTS, resume_hold_id=hold_id))
+    assert again.hold_id not in (0, hold_id) and again.message.code == "state_machine.held_service"
+    assert robot.step(emergency=Emergency(True, 2)).message.code == "state_machine.held_emergency"
+
+
+def test_service_mode_without_an_application_holds_nobody():
+    robot = Robot()
+    robot.step(desired=DesiredState())
+    service_mode(robot)
+    assert not robot.step(desired=IDLE).hold_id
 
 
 def test_emergency_stop_that_is_released_before_an_order_holds_nobody():

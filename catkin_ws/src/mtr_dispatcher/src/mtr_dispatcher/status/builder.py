@@ -9,12 +9,14 @@ from mtr_core.states import CarState, Result
 from mtr_proto import robot_link_pb2 as link
 
 from ..command_codec import MAX_MESSAGE_BYTES
+from ..service.mode import ServiceState
 from .area import AreaReport, add_area
 from .car_pose import CarPose, UncertainPose, base_in_car
 from .inputs import CarFields, CheckFields, Inputs, ModeFields, PeripheralsFields, PoseFields
 from .log_buffer import Entry
 from .notices import Notice
 from .preflight import PREFLIGHT_EVERY, add_preflight
+from .service import add_service
 from .surroundings import fill
 from .texts import cut, problem_messages
 
@@ -64,6 +66,7 @@ class Report(NamedTuple):
     is_one_map: bool
     simulated: bool
     area: AreaReport
+    service: ServiceState
 
 
 def status_bytes(identity: Identity, report: Report) -> bytes:
@@ -76,6 +79,7 @@ def status_bytes(identity: Identity, report: Report) -> bytes:
         interventions=link.Interventions(**report.interventions), emergency_stop=report.fresh.emergency_stop,
         waits_for_answer=report.waits_for_answer, simulated=report.simulated)
     add_area(status.test_area, report.fresh, report.area)
+    add_service(status.service_mode, report.service)
     status.state.key_x, status.state.key_y = identity.key_x_m, identity.key_y_m
     if report.controller:
         status.controller_name = report.controller

@@ -86,6 +86,8 @@ def _foreign_problem(controlling_id: int, session_id: int) -> Problem:
 
 def standing_notices(desired: SessionState, fresh: Inputs, parameters: Parameters) -> Iterator[Notice]:
     """Yield the notices that are shown as long as their cause persists."""
+    if desired.service:
+        yield Notice("service_mode", ERROR, desired.service)
     if fresh.mode is not None and fresh.mode.hold_id:
         yield Notice("held", ERROR, problem_of(fresh.mode.problems, fresh.mode.message))
     if desired.session_id and not desired.link_alive:
