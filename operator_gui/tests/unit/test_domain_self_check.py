@@ -178,7 +178,7 @@ def test_checks_are_told_in_the_results(progress):
 @pytest.fixture
 def command(robot_link, monkeypatch):
     """Runs the command line's check on the world's robot; its exit code."""
-    monkeypatch.setattr("mtr_operator.cli.checking.robot_link", lambda options: robot_link)
+    monkeypatch.setattr("mtr_operator.cli.orders.checking.robot_link", lambda options: robot_link)
     return lambda: main(["check"])
 
 

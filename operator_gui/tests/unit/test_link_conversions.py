@@ -23,6 +23,8 @@ DESIRED = [
                        waypoint=requests.Waypoint(4, Pose(1.5, -2.25, math.pi), requests.Direction.BACKWARD)),
     requests.DesiredState(area=requests.AreaOrder(3, 2 ** 62, ((1.5, -2.5), (4.0, 0.0), (0.0, 3.0)))),
     requests.DesiredState(area=requests.AreaOrder(4, 7, ())),
+    requests.DesiredState(stop=True, enters_service=True),
+    requests.DesiredState(stop=True, leave_service_id=2 ** 63 - 1),
     requests.DesiredState(press=requests.Press(9, (1, 2), 0.75, 0.5)),
 ]
 
@@ -53,7 +55,8 @@ STATUS = robot_status.RobotStatus(
                                                               PreflightItem("/imu/data", False, "50 Hz.")), 12, 1),
     waits_for_answer=True, simulated=True,
     area=robot_status.AreaState(True, True, 3, 2 ** 62, ((1.5, -2.5), (4.0, 0.0), (0.0, 3.0)), 2 ** 61,
-                                Pose(1.0, 2.0, 0.5), Pose(-1.0, 4.0, -0.25), (LOST, LATE)))
+                                Pose(1.0, 2.0, 0.5), Pose(-1.0, 4.0, -0.25), (LOST, LATE)),
+    service=robot_status.ServiceState(True, 2 ** 63 - 1, 59.5, 0.5, (LOST, LATE)))
 
 
 @pytest.mark.parametrize("desired", DESIRED)
@@ -176,9 +179,10 @@ def test_other_bytes_are_undecodable(payload):
 
 
 @pytest.mark.parametrize("message", ["Command", "Status", "RobotState", "CarDimensions", "CarCheck", "Interventions",
-                                     "PreflightReport", "PreflightItem", "TestArea", "TestAreaState"])
+                                     "PreflightReport", "PreflightItem", "TestArea", "TestAreaState",
+                                     "ServiceMode"])
 def test_every_status_field_of_the_proto_is_read(message):
     """A field added to the proto must be thought of here."""
-    known = {"Command": 18, "Status": 31, "TestArea": 4, "TestAreaState": 11, "RobotState": 19, "CarDimensions": 15,
-             "CarCheck": 8, "Interventions": 7, "PreflightReport": 5, "PreflightItem": 3}
+    known = {"Command": 18, "Status": 31, "ServiceMode": 5, "TestArea": 4, "TestAreaState": 11, "RobotState": 19,
+             "CarDimensions": 15, "CarCheck": 8, "Interventions": 7, "PreflightReport": 5, "PreflightItem": 3}
     assert len(pb.DESCRIPTOR.message_types_by_name[message].fields) == known[message]

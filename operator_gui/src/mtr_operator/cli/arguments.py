@@ -35,6 +35,7 @@ def argument_parser() -> argparse.ArgumentParser:
     _add_plan(commands.add_parser("plan", help="say what a test would take and tell, without robot and Car"))
     _add_run(commands.add_parser("run", help="run a test"))
     _add_check(commands.add_parser("check", help="look whether the Car still stands where it was measured"))
+    _add_service(commands.add_parser("service", help="disable wheels, lift and servos for work on the robot"))
     _add_demo(commands.add_parser("demo", help="run a test on a robot and a Car inside the application; needs no file"))
     _add_history(commands.add_parser("history", help="list the tests that were measured before"))
     _add_compare(commands.add_parser("compare", help="compare two tests, distance by distance, with intervals"))
@@ -240,6 +241,14 @@ def _add_can_mode(parser: argparse._ActionsContainer) -> None:
 
 
 def _add_check(parser: argparse.ArgumentParser) -> None:
+    _add_robot(parser)
+
+
+def _add_service(parser: argparse.ArgumentParser) -> None:
+    parser.description = ("Service mode: enter disables wheels, lift and servos at once and over restarts. It ends "
+                          "when both sides release it within a minute: this command with leave, and on the robot "
+                          "rosrun mtr_dispatcher service_mode release.")
+    parser.add_argument("order", choices=["enter", "leave", "show"], help="one of %(choices)s")
     _add_robot(parser)
 
 

@@ -19,9 +19,10 @@ from mtr_operator.storage.parameter_template import write_template
 from mtr_operator.terminal import show_error
 
 from .arguments import argument_parser
-from .checking import check
 from .exit_codes import EXIT_ERROR, EXIT_FAIL, EXIT_INCONCLUSIVE, EXIT_INTERRUPTED, EXIT_NOT_READY, EXIT_PASS
 from .history import compare_tests, list_history
+from .orders.checking import check
+from .orders.service import order_service
 from .planning import plan
 from .records.evidence import bundle_test, verify_bundles
 from .records.replay import replay_test
@@ -122,7 +123,8 @@ def _accept_any_character() -> None:
 
 # What each command calls; an exit code, or None when it has done what was asked for.
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
-    "params": list_parameters, "check": check, "history": list_history, "compare": compare_tests, "plan": plan,
+    "params": list_parameters, "check": check, "service": order_service,
+    "history": list_history, "compare": compare_tests, "plan": plan,
     "demo": run_demo, "run": run_test, "pair": pair, "keys": keys, "learn": learn_car, "replay": replay_test,
     "bundle": bundle_test, "verify": verify_bundles,
     "try": try_car,

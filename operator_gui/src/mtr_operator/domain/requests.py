@@ -55,7 +55,8 @@ class DesiredState:
     """The whole desired final state of the robot. Immutable: a change is a new object with a new id.
 
     resume_hold_id: the RobotStatus.hold_id that the Operator has released, 0 for none.
-    area: None leaves the test area as it is.
+    area: None leaves the test area as it is. enters_service: disable wheels, lift and servos. leave_service_id: the
+    ServiceState.agreement_id that the Operator has released, 0 for none.
     """
 
     stop: bool = False
@@ -67,3 +68,5 @@ class DesiredState:
     check_car_id: int = 0
     resume_hold_id: int = 0
     area: AreaOrder | None = None
+    enters_service: bool = False
+    leave_service_id: int = 0

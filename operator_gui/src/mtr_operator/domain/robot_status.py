@@ -171,6 +171,8 @@ DISK_FULL_CODE = "disk_full"
 SHEET_CONTRADICTED_CODE = "sheet_contradicted"
 # Code of the notification of a real robot that has no emergency stop by hand; a simulated one does not send it.
 NO_STOP_CODE = "no_emergency_stop"
+# The robot is in service mode.
+SERVICE_CODE = "service_mode"
 # The application in control has fallen silent.
 LINK_LOST_CODE = "link_lost"
 
@@ -294,6 +296,26 @@ class AreaState:
 
 
 @dataclass(frozen=True)
+class ServiceState:
+    """Service mode: people work on the robot, and its wheels, lift and servos are disabled.
+
+    agreement_id: what the Operator can release now, 0 outside service mode. robot_agrees_s, operator_agrees_s: s for
+    which each release still counts, NaN without one. problems: why it is active, outermost first.
+    """
+
+    is_active: bool = False
+    agreement_id: int = 0
+    robot_agrees_s: float = math.nan
+    operator_agrees_s: float = math.nan
+    problems: tuple[Problem, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """The robot's sentence; empty outside service mode."""
+        return self.problems[0].text if self.problems else ""
+
+
+@dataclass(frozen=True)
 class RobotStatus:
     """One Status message. NaN or None where the robot did not say.
 
@@ -302,7 +324,7 @@ class RobotStatus:
     controlled_by_other: another application has the robot; the confirmations are absent then.
     car_check: None for a robot that cannot check the Car's frame.
     controller_name: owner of the key whose Commands the robot obeys; empty on a link that is not encrypted.
-    simulated: a robot of before does not say it, and counts as a real one. area: None of a robot of before.
+    simulated: a robot of before does not say it, and counts as a real one. area, service: None of a robot of before.
     surroundings, preflight: None in most Statuses, and of a robot of before.
     waits_for_answer: of a simulated robot: its time stands still until this Status is answered.
     hold_id: not 0: the robot stands until the Operator has it go on, see requests.DesiredState.resume_hold_id.
@@ -358,6 +380,12 @@ class RobotStatus:
     waits_for_answer: bool = False
     simulated: bool = False
     area: AreaState | None = None
+    service: ServiceState | None = None
+
+    @property
+    def is_in_service(self) -> bool:
+        """Wheels, lift and servos are disabled, and no test begins or continues."""
+        return self.service is not None and self.service.is_active
 
     @property
     def is_abandoned(self) -> bool:
@@ -376,5 +404,7 @@ class RobotStatus:
         yield from (press.problems for press in self.presses)
         if self.area is not None:
             yield self.area.problems
+        if self.service is not None:
+            yield self.service.problems
         if self.car_check is not None:
             yield self.car_check.problems

@@ -183,6 +183,19 @@ class Flow(QObject):
             self.stopped.emit()
             self.bridge.changed.emit()
 
+    def enter_service(self) -> None:
+        """Stop the robot, whatever it does, and disable its wheels, lift and servos."""
+        if self.connecting.worker is not None:
+            self.connecting.worker.enter_service()
+            self.model.order_stop()
+            self.stopped.emit()
+            self.bridge.changed.emit()
+
+    def leave_service(self, agreement_id: int) -> None:
+        """Release service mode for the Operator."""
+        if self.connecting.worker is not None:
+            self.connecting.worker.leave_service(agreement_id)
+
     def skip_line(self) -> None:
         """Leave the line that is being measured, and go on with the next one; it can be measured again later."""
         if self.model.line:

@@ -50,7 +50,8 @@ def command_from_desired(desired: requests.DesiredState, header: CommandHeader) 
     """Command with this header; None is an absent field."""
     command = pb.Command(session_id=header.session_id, id=header.id, sent_time_s=header.sent_time_s,
                          stop=desired.stop, map_car_id=desired.map_car_id, check_car_id=desired.check_car_id,
-                         resume_hold_id=desired.resume_hold_id)
+                         resume_hold_id=desired.resume_hold_id, enter_service=desired.enters_service,
+                         leave_service_id=desired.leave_service_id)
     for name, value in (("seen_status_id", header.seen_status_id), ("seen_robot_time_s", header.seen_robot_time_s),
                         ("max_speed_mps", desired.max_speed_mps), ("device_height_m", desired.key_height_m)):
         if value is not None:
@@ -86,7 +87,8 @@ def desired_from_command(command: pb.Command) -> requests.DesiredState:
                               check_car_id=command.check_car_id, resume_hold_id=command.resume_hold_id,
                               max_speed_mps=_value(command, "max_speed_mps", None),
                               key_height_m=_value(command, "device_height_m", None),
-                              area=area_order_from(command.test_area) if command.HasField("test_area") else None)
+                              area=area_order_from(command.test_area) if command.HasField("test_area") else None,
+                              enters_service=command.enter_service, leave_service_id=command.leave_service_id)
 
 
 def decode_command(payload: bytes) -> pb.Command:
@@ -156,7 +158,13 @@ def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
         preflight=preflight_from(message.preflight) if message.HasField("preflight") else None,
         waits_for_answer=message.waits_for_answer, simulated=message.simulated,
         area=area_state_from(message.test_area, _problems_from(message.test_area.problems))
-        if message.HasField("test_area") else None)
+        if message.HasField("test_area") else None,
+        service=_service_from(message.service_mode) if message.HasField("service_mode") else None)
+
+
+def _service_from(message: pb.ServiceMode) -> robot_status.ServiceState:
+    return robot_status.ServiceState(message.active, message.id, _value(message, "robot_agrees_s", math.nan),
+                                     _value(message, "operator_agrees_s", math.nan), _problems_from(message.problems))
 
 
 def _press_from(message: pb.PressConfirmation) -> robot_status.PressReport:
@@ -197,6 +205,8 @@ def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
     if status.area is not None:
         fill_area_state(message.test_area, status.area)
         message.test_area.problems.extend(_problem_messages(status.area.problems))
+    if status.service is not None:
+        _fill_service(message.service_mode, status.service)
     if status.preflight is not None:
         message.preflight.CopyFrom(preflight_message(status.preflight))
     return message
@@ -234,6 +244,14 @@ def _fill_check(message: pb.CarCheck, check: robot_status.CarCheck) -> None:
         value = getattr(check, name)
         if not math.isnan(value):
             setattr(message, name, value)
+
+
+def _fill_service(message: pb.ServiceMode, service: robot_status.ServiceState) -> None:
+    message.active, message.id = service.is_active, service.agreement_id
+    message.problems.extend(_problem_messages(service.problems))
+    for name in ("robot_agrees_s", "operator_agrees_s"):
+        if not math.isnan(getattr(service, name)):
+            setattr(message, name, getattr(service, name))
 
 
 def _car_from(car: pb.CarDimensions) -> robot_status.CarDimensions | None:

@@ -180,6 +180,8 @@ class ControlLoop:
         if hold_id != self.desired.resume_hold_id:
             self.change(resume_hold_id=hold_id)
         status = self._exchange()
+        if status.service is not None and status.is_in_service:
+            raise RobotFailed(status.service.text)
         self.check_car_guard()
         self.supervision.look(status)
         self.journal.check()

@@ -876,77 +876,77 @@
         <translation>Ukončete druhou aplikaci; řízení sem přejde samo.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="283"/>
+        <location filename="../../station/checks/check_texts.py" line="285"/>
         <source>Release it when the area is clear.</source>
         <translation>Uvolněte je, až bude prostor volný.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="284"/>
+        <location filename="../../station/checks/check_texts.py" line="286"/>
         <source>Stay where you reach the button on the robot.</source>
         <translation>Zůstaňte tam, kde dosáhnete na tlačítko na robotu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="297"/>
+        <location filename="../../station/checks/check_texts.py" line="299"/>
         <source>Drive or turn it by hand where it sees the Car; if it stays lost, map the Car again under Calibrate.</source>
         <translation>Popojeďte s ním nebo ho otočte ručně tam, kde vidí auto; pokud polohu nenajde, zmapujte auto znovu v Kalibraci.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="309"/>
+        <location filename="../../station/checks/check_texts.py" line="311"/>
         <source>Charge it, or measure fewer lines; an interrupted test can be gone on with.</source>
         <translation>Nabijte ji, nebo změřte méně přímek; v přerušeném testu lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="311"/>
+        <location filename="../../station/checks/check_texts.py" line="313"/>
         <source>Charge it soon.</source>
         <translation>Brzy ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="312"/>
+        <location filename="../../station/checks/check_texts.py" line="314"/>
         <source>Charge it before the test.</source>
         <translation>Před testem ji nabijte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="315"/>
+        <location filename="../../station/checks/check_texts.py" line="317"/>
         <source>Check bit rate and other testers on the bus.</source>
         <translation>Zkontrolujte rychlost a další testery na sběrnici.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="316"/>
+        <location filename="../../station/checks/check_texts.py" line="318"/>
         <source>Check whether the profile is that of this Car.</source>
         <translation>Zkontrolujte, zda profil patří tomuto autu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="317"/>
+        <location filename="../../station/checks/check_texts.py" line="319"/>
         <source>Choose one under Settings, CAN adapter.</source>
         <translation>Zvolte jej v Nastavení, Adaptér CAN.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="318"/>
+        <location filename="../../station/checks/check_texts.py" line="320"/>
         <source>If the adapter is the wrong one, choose another under Settings.</source>
         <translation>Pokud je to jiný adaptér, zvolte správný v Nastavení.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="319"/>
+        <location filename="../../station/checks/check_texts.py" line="321"/>
         <source>Wake the Car, e.g. open a door; check the car profile.</source>
         <translation>Probuďte auto, např. otevřete dveře; zkontrolujte profil auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="320"/>
+        <location filename="../../station/checks/check_texts.py" line="322"/>
         <source>Press one of its buttons under Calibrate; a test notices a key that sleeps.</source>
         <translation>Stiskněte v Kalibraci některé jeho tlačítko; test pozná, že klíč spí.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="323"/>
+        <location filename="../../station/checks/check_texts.py" line="325"/>
         <source>Make room, or choose another folder under Settings.</source>
         <translation>Uvolněte místo, nebo zvolte v Nastavení jinou složku.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="324"/>
+        <location filename="../../station/checks/check_texts.py" line="326"/>
         <source>Choose a limits file below the parameters if there are limits.</source>
         <translation>Jsou-li předepsané meze, zvolte pod parametry jejich soubor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="325"/>
+        <location filename="../../station/checks/check_texts.py" line="327"/>
         <source>Choose another file below the parameters, or none.</source>
         <translation>Zvolte pod parametry jiný soubor, nebo žádný.</translation>
     </message>
@@ -996,12 +996,12 @@
         <translation>Neznámé, dokud není auto zmapováno.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="299"/>
+        <location filename="../../station/checks/check_texts.py" line="301"/>
         <source>Start the robot with length and width of the data sheet (car_file), and map the Car again.</source>
         <translation>Spusťte robot s délkou a šířkou z technického listu (car_file) a zmapujte auto znovu.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="307"/>
+        <location filename="../../station/checks/check_texts.py" line="309"/>
         <source>Have length and width of the Car&apos;s data sheet ready: the robot is started with them (car_file).</source>
         <translation>Mějte po ruce délku a šířku z technického listu auta: robot se s nimi spouští (car_file).</translation>
     </message>
@@ -1046,12 +1046,12 @@
         <translation>Robot neříká, zda byla provedena.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="273"/>
+        <location filename="../../station/checks/check_texts.py" line="275"/>
         <source>Make it again on the robot: rosrun mtr_commissioning preflight</source>
         <translation>Proveďte ji na robotu znovu: rosrun mtr_commissioning preflight</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="274"/>
+        <location filename="../../station/checks/check_texts.py" line="276"/>
         <source>Then make it again on the robot: rosrun mtr_commissioning preflight</source>
         <translation>Potom ji na robotu proveďte znovu: rosrun mtr_commissioning preflight</translation>
     </message>
@@ -1076,7 +1076,7 @@
         <translation>Robot neviděl celou cestu přímek {lines}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="288"/>
+        <location filename="../../station/checks/check_texts.py" line="290"/>
         <source>Move it, or measure from nearer; the robot does not drive into it.</source>
         <translation>Odstraňte to, nebo měřte z menší vzdálenosti; robot do toho nevjede.</translation>
     </message>
@@ -1111,7 +1111,7 @@
         <translation>Znám jen na {first} cm (95 %): blíže než {second} m se robot může auta dotknout.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="301"/>
+        <location filename="../../station/checks/check_texts.py" line="303"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again.</source>
         <translation>Doplňte {keys} do souboru car_file robotu (z technických údajů nebo změřte pásmem), spusťte s ním robot znovu a auto znovu zmapujte; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1151,27 +1151,27 @@
         <translation>Otevřené dveře, víko ani čelo korby nad LiDARy robot nevidí. Víko kufru se může samo otevřít, je-li klíč za autem.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="289"/>
+        <location filename="../../station/checks/check_texts.py" line="291"/>
         <source>Walk around the Car: nobody within 2 m, no chock beyond its outline.</source>
         <translation>Obejděte auto: do 2 m nikdo, žádný klín mimo jeho obrys.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="291"/>
+        <location filename="../../station/checks/check_texts.py" line="293"/>
         <source>Put the laptop into the Car, or tape the CAN cable flat to the ground. Unplug the charging cable.</source>
         <translation>Dejte notebook do auta, nebo kabel CAN přilepte naplocho k zemi. Nabíjecí kabel odpojte.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="293"/>
+        <location filename="../../station/checks/check_texts.py" line="295"/>
         <source>Close doors, bonnet, boot and tailgate. Switch off a hatch that opens by itself, in the Car&apos;s menu.</source>
         <translation>Zavřete dveře, kapotu, kufr i čelo korby. Samočinné otevírání kufru vypněte v nabídce auta.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="295"/>
+        <location filename="../../station/checks/check_texts.py" line="297"/>
         <source>Remove carriers and larger fittings, or start the robot with front_fitting_m or rear_fitting_m.</source>
         <translation>Odstraňte nosiče a větší nástavby, nebo robot spusťte s front_fitting_m nebo rear_fitting_m.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="304"/>
+        <location filename="../../station/checks/check_texts.py" line="306"/>
         <source>Fill in {keys} in the robot&apos;s car_file (data sheet or tape measure), restart the robot with it, and map the Car again; or measure from farther away.</source>
         <translation>Doplňte {keys} do souboru car_file robota (technický list nebo svinovací metr), restartujte s ním robota a zmapujte vozidlo znovu; nebo měřte z větší vzdálenosti.</translation>
     </message>
@@ -1186,7 +1186,7 @@
         <translation>Robot nehlásí stav nabití.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="313"/>
+        <location filename="../../station/checks/check_texts.py" line="315"/>
         <source>Check that the base publishes it on the robot&apos;s topic of the battery (docs/other-bases.md).</source>
         <translation>Ověřte, že jej podvozek publikuje na tématu baterie robotu (docs/other-bases.md).</translation>
     </message>
@@ -1221,12 +1221,12 @@
         <translation>Robot nesděluje, zda nějaký dodržuje.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="276"/>
+        <location filename="../../station/checks/check_texts.py" line="278"/>
         <source>Draw it on the start page under Test area.</source>
         <translation>Nakreslete ho na úvodní stránce pod Zkušební prostor.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="277"/>
+        <location filename="../../station/checks/check_texts.py" line="279"/>
         <source>Stay where you can stop the robot before an edge.</source>
         <translation>Zůstaňte tam, kde robot zastavíte dřív než u hrany.</translation>
     </message>
@@ -1326,22 +1326,22 @@
         <translation>Profil auta neuvádí signál pro: {signals}.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="278"/>
+        <location filename="../../station/checks/check_texts.py" line="280"/>
         <source>Make it on the robot: rosrun mtr_commissioning preflight --drive</source>
         <translation>Proveďte ji na robotu: rosrun mtr_commissioning preflight --drive</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="280"/>
+        <location filename="../../station/checks/check_texts.py" line="282"/>
         <source>Close it.</source>
         <translation>Zavřete je.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="281"/>
+        <location filename="../../station/checks/check_texts.py" line="283"/>
         <source>Wake the Car; watch ignition, gear and doors yourself meanwhile.</source>
         <translation>Probuďte auto; zatím sami sledujte zapalování, řazení a dveře.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="282"/>
+        <location filename="../../station/checks/check_texts.py" line="284"/>
         <source>Watch them yourself: the robot does not stop for them.</source>
         <translation>Sledujte je sami: robot kvůli nim nezastaví.</translation>
     </message>
@@ -1361,14 +1361,19 @@
         <translation>Ztrátu ovladače robot nemusí poznat, dokud zůstává zapojený jeho přijímač.</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="285"/>
+        <location filename="../../station/checks/check_texts.py" line="287"/>
         <source>Start the robot with its controller (controller:=true).</source>
         <translation>Spusťte robot s ručním ovladačem (controller:=true).</translation>
     </message>
     <message>
-        <location filename="../../station/checks/check_texts.py" line="286"/>
+        <location filename="../../station/checks/check_texts.py" line="288"/>
         <source>Press the stop button in your hand: the robot reports it here. Then release it.</source>
         <translation>Stiskněte tlačítko zastavení v ruce: robot to zde ohlásí. Pak jej uvolněte.</translation>
+    </message>
+    <message>
+        <location filename="../../station/checks/check_texts.py" line="273"/>
+        <source>When the work is finished, release it here under Settings and on the robot: rosrun mtr_dispatcher service_mode release</source>
+        <translation>Po skončení práce ho uvolněte zde v Nastavení a na robotu: rosrun mtr_dispatcher service_mode release</translation>
     </message>
 </context>
 <context>
@@ -2591,42 +2596,42 @@
 <context>
     <name>MainWindow</name>
     <message>
-        <location filename="../windows/main_window.py" line="66"/>
+        <location filename="../windows/main_window.py" line="67"/>
         <source>Mobile testing robot</source>
         <translation>Mobilní testovací robot</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="248"/>
+        <location filename="../windows/main_window.py" line="260"/>
         <source>Saved to {path}</source>
         <translation>Uloženo do {path}</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="251"/>
+        <location filename="../windows/main_window.py" line="263"/>
         <source>Choose another folder; nothing is lost.</source>
         <translation>Vyberte jinou složku; nic se neztratilo.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="253"/>
+        <location filename="../windows/main_window.py" line="265"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="268"/>
+        <location filename="../windows/main_window.py" line="280"/>
         <source>The robot is stopped, and the test paused. Close the application? What is measured is kept; the next start offers to go on.</source>
         <translation>Robot je zastaven a test pozastaven. Zavřít aplikaci? Co je změřeno, zůstane uloženo; při příštím spuštění lze pokračovat.</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="272"/>
+        <location filename="../windows/main_window.py" line="284"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="272"/>
+        <location filename="../windows/main_window.py" line="284"/>
         <source>Stay</source>
         <translation>Zůstat</translation>
     </message>
     <message>
-        <location filename="../windows/main_window.py" line="233"/>
+        <location filename="../windows/main_window.py" line="245"/>
         <source>Open a test</source>
         <translation>Otevřít test</translation>
     </message>
@@ -8132,6 +8137,94 @@
         <source>A side of the comparison has no test.</source>
         <translation>Jedna strana porovnání nemá žádný test.</translation>
     </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>The robot&apos;s software is too old for service mode; update it, or switch the robot off for work on it.</source>
+        <translation>Software robotu je na servisní režim příliš starý; aktualizujte ho, nebo robot při práci na něm vypněte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>The robot did not enter service mode; switch it off before you work on it.</source>
+        <translation>Robot nepřešel do servisního režimu; před prací na něm ho vypněte.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>Another application controls the robot: release service mode there.</source>
+        <translation>Robot řídí jiná aplikace: uvolněte servisní režim v ní.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>The robot was not released on its own side in time; service mode remains active.</source>
+        <translation>Robot nebyl včas uvolněn na své straně; servisní režim trvá.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>The robot has not answered for {} s.</source>
+        <translation>Robot neodpovídá už {} s.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>Enter service mode.</source>
+        <translation>Zapnout servisní režim.</translation>
+    </message>
+    <message>
+        <location filename="../texts/safety/service.py" line="5"/>
+        <source>Release service mode.</source>
+        <translation>Uvolnit servisní režim.</translation>
+    </message>
+</context>
+<context>
+    <name>ServiceCard</name>
+    <message>
+        <location filename="../windows/service_card.py" line="24"/>
+        <source>Service mode</source>
+        <translation>Servisní režim</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="80"/>
+        <source>Enter service mode</source>
+        <translation>Zapnout servisní režim</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="31"/>
+        <source>Hold to release service mode</source>
+        <translation>Podržením uvolnit servisní režim</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="33"/>
+        <source>For work on mast, lift, servos or wheels. It remains active after restarts. It ends when it is released here and on the robot (rosrun mtr_dispatcher service_mode release) within a minute. It does not isolate energy: switch the robot off where you can.</source>
+        <translation>Pro práci na stožáru, zdvihu, servech nebo kolech. Trvá i po novém startu. Skončí, když se do minuty uvolní zde i na robotu (rosrun mtr_dispatcher service_mode release). Neodpojuje energii: kde to jde, robot vypněte.</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="63"/>
+        <source>The robot is silent, or its software is too old for service mode.</source>
+        <translation>Robot mlčí, nebo je jeho software na servisní režim příliš starý.</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="65"/>
+        <source>Not active.</source>
+        <translation>Není zapnutý.</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="68"/>
+        <source>Released on the robot: hold the button within {time} s.</source>
+        <translation>Uvolněno na robotu: do {time} s podržte tlačítko.</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="70"/>
+        <source>Released here: release it on the robot within {time} s.</source>
+        <translation>Uvolněno zde: do {time} s ho uvolněte na robotu.</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="76"/>
+        <source>The robot stops, and its wheels, lift and servos are disabled, also after a restart, until both sides release them. A test is paused. Enter service mode?</source>
+        <translation>Robot se zastaví a jeho kola, zdvih a serva budou vypnuté, i po novém startu, dokud je obě strany neuvolní. Test se přeruší. Zapnout servisní režim?</translation>
+    </message>
+    <message>
+        <location filename="../windows/service_card.py" line="80"/>
+        <source>Cancel</source>
+        <translation>Zrušit</translation>
+    </message>
 </context>
 <context>
     <name>SettingsScreen</name>
@@ -8194,102 +8287,102 @@
 <context>
     <name>SettingsWindow</name>
     <message>
-        <location filename="../windows/settings_window.py" line="38"/>
+        <location filename="../windows/settings_window.py" line="40"/>
         <source>Settings</source>
         <translation>Nastavení</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="41"/>
+        <location filename="../windows/settings_window.py" line="43"/>
         <source>Results</source>
         <translation>Výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="42"/>
+        <location filename="../windows/settings_window.py" line="44"/>
         <source>Progress of tests</source>
         <translation>Průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="43"/>
+        <location filename="../windows/settings_window.py" line="45"/>
         <source>IP address</source>
         <translation>IP adresa</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="44"/>
+        <location filename="../windows/settings_window.py" line="46"/>
         <source>Subscriber port</source>
         <translation>Port odběratele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="45"/>
+        <location filename="../windows/settings_window.py" line="47"/>
         <source>Publisher port</source>
         <translation>Port vydavatele</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="51"/>
+        <location filename="../windows/settings_window.py" line="54"/>
         <source>Use this adapter</source>
         <translation>Použít tento adaptér</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="159"/>
+        <location filename="../windows/settings_window.py" line="167"/>
         <source>The CAN adapter is in use.</source>
         <translation>Adaptér CAN se používá.</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="93"/>
+        <location filename="../windows/settings_window.py" line="101"/>
         <source>Folders</source>
         <translation>Složky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="101"/>
+        <location filename="../windows/settings_window.py" line="109"/>
         <source>Robot</source>
         <translation>Robot</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="96"/>
+        <location filename="../windows/settings_window.py" line="104"/>
         <source>Appearance</source>
         <translation>Vzhled</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="108"/>
+        <location filename="../windows/settings_window.py" line="116"/>
         <source>Car</source>
         <translation>Auto</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="76"/>
+        <location filename="../windows/settings_window.py" line="79"/>
         <source>Close</source>
         <translation>Zavřít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="115"/>
+        <location filename="../windows/settings_window.py" line="123"/>
         <source>Change</source>
         <translation>Změnit</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="116"/>
+        <location filename="../windows/settings_window.py" line="124"/>
         <source>Change the folder: {what}</source>
         <translation>Změnit složku: {what}</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="129"/>
+        <location filename="../windows/settings_window.py" line="137"/>
         <source>Folder for results</source>
         <translation>Složka pro výsledky</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="136"/>
+        <location filename="../windows/settings_window.py" line="144"/>
         <source>Folder for the progress of tests</source>
         <translation>Složka pro průběh testů</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="176"/>
+        <location filename="../windows/settings_window.py" line="184"/>
         <source>The CAN adapter that you have chosen is not in use yet. Use it?</source>
         <translation>Zvolený adaptér CAN se zatím nepoužívá. Použít jej?</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="179"/>
+        <location filename="../windows/settings_window.py" line="187"/>
         <source>Use it</source>
         <translation>Použít</translation>
     </message>
     <message>
-        <location filename="../windows/settings_window.py" line="179"/>
+        <location filename="../windows/settings_window.py" line="187"/>
         <source>Leave it as it was</source>
         <translation>Ponechat původní</translation>
     </message>

@@ -6,7 +6,7 @@ import dataclasses
 import pathlib
 from typing import Any, Callable
 
-from PyQt5.QtCore import QSize, Qt
+from PyQt5.QtCore import QSize
 from PyQt5.QtWidgets import QDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from mtr_operator.station.readiness import RUNNING
@@ -23,6 +23,7 @@ from ..theme.appearance import Appearance
 from ..theme.scale import L, M, S
 from .appearance_form import AppearanceForm
 from .card import Card
+from .service_card import ServiceCard
 
 _WIDTH = 900
 
@@ -30,7 +31,8 @@ _WIDTH = 900
 class SettingsWindow(QDialog):
     """Attributes: results, progress: folders. host, subscriber_port, publisher_port: read-only.
 
-    looks: theme, language, sounds, speech. can, use_can: the adapter. message: what became of it.
+    looks: theme, language, sounds, speech. service: service mode of the robot. can, use_can: the adapter. message: what
+    became of it.
     """
 
     def __init__(self, flow: Flow, appearance: Appearance, parent: QWidget | None = None):
@@ -44,6 +46,7 @@ class SettingsWindow(QDialog):
         self.subscriber_port = self._read_only(self.tr("Subscriber port"), str(robot.subscriber_port))
         self.publisher_port = self._read_only(self.tr("Publisher port"), str(robot.publisher_port))
         self.looks = AppearanceForm(flow, appearance)
+        self.service = ServiceCard(flow)
         self.can = CanForm()
         self.can.show_choice(flow.connecting.connection.can)
         self._can_in_use = self.can.choice
@@ -81,7 +84,12 @@ class SettingsWindow(QDialog):
         row.addWidget(close)
         cards = QHBoxLayout()
         cards.setSpacing(M)
-        cards.addWidget(self._own_card(), 1, Qt.AlignmentFlag.AlignTop)
+        left = QVBoxLayout()
+        left.setSpacing(M)
+        left.addWidget(self._own_card())
+        left.addWidget(self.service)
+        left.addStretch(1)
+        cards.addLayout(left, 1)
         cards.addWidget(self._connection_card(), 1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(L, L, L, L)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import random
 import secrets
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mtr_operator import __version__
 from mtr_operator.domain.geometry.pose import Pose
@@ -24,6 +24,7 @@ from .area import VirtualArea
 from .check import VirtualCheck
 from .keyholder import VirtualKeyholder
 from .route import Box, Point, advance, route
+from .service import VirtualService
 
 STATUS_PERIOD_S = 0.1
 _START_TIME_S = 1.0
@@ -82,6 +83,7 @@ class VirtualRobot:
         self._key = VirtualKeyholder()
         self._check = VirtualCheck(world.check_difference_m)
         self._area = VirtualArea(self._robot_session_id, self.pose)
+        self._service = VirtualService()
         self._desired = DesiredState(stop=True)
         self._waypoint: Waypoint | None = None
         self._way: list[Point] = []
@@ -120,6 +122,8 @@ class VirtualRobot:
         """Follow this desired state from now on. A new session forgets the ids of the old one."""
         if session_id != self._session_id:
             self._begin_session(session_id)
+        self._service.take(desired)
+        desired = replace(desired, stop=desired.stop or self._service.is_active)
         self._command_id, self._desired = command_id, desired
         self._area.take(session_id, desired.area)
         if self._mode() in (Mode.FOLLOWING_WAYPOINT, Mode.CHECKING_CAR):
@@ -195,6 +199,7 @@ class VirtualRobot:
             waypoint_id=self._waypoint.id if self._waypoint else 0, waypoint_result=self._result,
             waypoint_message=self._result_text, presses=self._key.confirmations, map_car_id=self._map_car_id,
             software_version=f"{__version__} (substitute)", simulated=True,
+            service=self._service.state, notifications=self._service.notifications,
             area=self._area.state(self._session_id, self.pose, is_mapped=mapped))
 
     def _mode(self) -> Mode:

@@ -95,7 +95,7 @@ def _of_robot(translate: Translate, said: str) -> dict[Finding, str]:
         Finding.ROBOT_STARTING: translate("Check", "The robot is still starting."),
         Finding.ROBOT_FAULT: said or translate("Check", "The robot reports a fault."),
         Finding.OTHER_OPERATOR: translate("Check", "Another application controls the robot."),
-        Finding.ROBOT_SAYS: said, Finding.PART_TROUBLED: said,
+        Finding.ROBOT_SAYS: said, Finding.IN_SERVICE: said, Finding.PART_TROUBLED: said,
         Finding.STOP_RELEASED: translate("Check", "The one by hand is heard, and released."),
         Finding.STOP_ENGAGED: translate("Check", "The one by hand is engaged: the robot stands."),
         Finding.STOP_ABSENT: translate("Check", "The robot has none by hand."),
@@ -270,6 +270,8 @@ def check_advice(item: Item, speech: Speech = ENGLISH) -> str:
         Finding.ROBOT_FAULT: translate("Check", "Make sure that nothing blocks the robot; if the fault stays, switch "
                                                 "it off and on."),
         Finding.OTHER_OPERATOR: translate("Check", "End the other application; control comes here by itself."),
+        Finding.IN_SERVICE: translate("Check", "When the work is finished, release it here under Settings and on the "
+                                               "robot: rosrun mtr_dispatcher service_mode release"),
         Finding.PREFLIGHT_OLD: translate("Check", "Make it again on the robot: rosrun mtr_commissioning preflight"),
         Finding.PREFLIGHT_BAD: translate("Check",
                                          "Then make it again on the robot: rosrun mtr_commissioning preflight"),

@@ -66,6 +66,7 @@ class Finding(enum.Enum):
     ROBOT_FAULT = "robot fault"
     OTHER_OPERATOR = "other operator"
     ROBOT_SAYS = "robot says"
+    IN_SERVICE = "in service mode"
     PREFLIGHT_FINE = "preflight fine"
     PREFLIGHT_OLD = "preflight old"
     PREFLIGHT_AT_REST = "preflight at rest"

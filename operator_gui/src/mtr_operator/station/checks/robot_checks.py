@@ -10,6 +10,7 @@ from mtr_operator.domain.battery.levels import is_critical, is_low
 from mtr_operator.domain.clocks.clock_offset import MAX_OFFSET_S, offset_sentence
 from mtr_operator.domain.robot_status import (
     NO_STOP_CODE,
+    SERVICE_CODE,
     CarDimensions,
     EmergencyStop,
     Mode,
@@ -36,7 +37,8 @@ def condition(status: RobotStatus) -> Iterator[Item]:
         troubles.append(Item(Check.ROBOT, State.BAD, Finding.ROBOT_STARTING))
     if status.mode is Mode.FAULT:
         troubles.append(Item(Check.ROBOT, State.BAD, Finding.ROBOT_FAULT, said.get("fault", "")))
-    troubles += [Item(Check.ROBOT, _severity(each), Finding.ROBOT_SAYS, each.text) for each in _warnings(status)
+    troubles += [Item(Check.ROBOT, _severity(each), Finding.IN_SERVICE if each.code == SERVICE_CODE else
+                      Finding.ROBOT_SAYS, each.text) for each in _warnings(status)
                  if not _is_of_lidar(each) and each.code not in (*_BOARD_CODES, NO_STOP_CODE)]
     yield from troubles or [Item(Check.ROBOT, State.GOOD, Finding.ROBOT_READY)]
 

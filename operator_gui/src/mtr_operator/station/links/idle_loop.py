@@ -95,6 +95,11 @@ class IdleLoop:
         self._area_id += 1
         self._desired = replace(self._desired, area=AreaOrder(self._area_id, origin_id, corners))
 
+    def leave_service(self, agreement_id: int) -> None:
+        """Release service mode for the Operator; nothing moves for that."""
+        self._claim()
+        self._desired = replace(self._desired, stop=True, leave_service_id=agreement_id)
+
     @property
     def has_order(self) -> bool:
         """True while something is wanted for which the robot may move."""
@@ -118,6 +123,7 @@ class IdleLoop:
         self._event_log.learn(status, self._car.observe(status), self._car.problem)
         self._forget_done_press(status)
         self._release_hold(status)
+        self._forget_service(status)
         self._give_way(status)
         self._answer()
         if self._clock() - self._attended_s >= ABANDONED_S:
@@ -152,6 +158,12 @@ class IdleLoop:
         if self.claims and now_s - self._free_s >= FOREIGN_S:
             self.claims, self._desired = False, DesiredState()
             self._robot.give_way()
+
+    def _forget_service(self, status: RobotStatus) -> None:
+        """A release that has expired or has ended service mode is of no further use."""
+        released = self._desired.leave_service_id
+        if released and (status.service is None or status.service.agreement_id != released):
+            self._desired = replace(self._desired, leave_service_id=0)
 
     def _forget_done_press(self, status: RobotStatus) -> None:
         press = self._desired.press

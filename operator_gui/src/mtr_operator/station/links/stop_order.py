@@ -21,7 +21,7 @@ class StopOrder:
     def __init__(self) -> None:
         self._lock = threading.RLock()
         self._count = 0
-        self._is_in_force = False
+        self._is_in_force = self._enters_service = False
         self._send: Callable[[DesiredState], None] | None = None
         self._newest = DesiredState()
 
@@ -35,25 +35,32 @@ class StopOrder:
         """What an order that is given now shows to lift()."""
         return self._count
 
-    def give(self) -> None:
+    def give(self, *, enters_service: bool = False) -> None:
         """Send a stop now, from any thread, whatever the link's own thread waits for. Without a session there is nobody
-        to send it to, and the robot stands."""
+        to send it to, and the robot stands. enters_service: it also orders service mode until that is active."""
         with self._lock, contextlib.suppress(OperatorError):
             self._count += 1
             self._is_in_force = True
+            self._enters_service = self._enters_service or enters_service
             if self._send is not None:
-                self._send(_stopped(self._newest))
+                self._send(self._stopped(self._newest))
+
+    def entered_service(self) -> None:
+        """The robot is in service mode: a stop that remains in force does not order it again."""
+        with self._lock:
+            self._enters_service = False
 
     def lift(self, ticket: int) -> bool:
         """The order with this ticket is carried out now; False when a stop came after it, and it is not to be."""
         with self._lock:
             self._is_in_force = ticket != self._count
+            self._enters_service = self._enters_service and self._is_in_force
             return not self._is_in_force
 
     def withdraw(self) -> None:
         """The stop has nobody left to reach; it stays in force for each order that was given before it, see lift()."""
         with self._lock:
-            self._is_in_force = False
+            self._is_in_force = self._enters_service = False
 
     def attach(self, send: Callable[[DesiredState], None]) -> None:
         """A session begins: this sends its desired states."""
@@ -69,8 +76,7 @@ class StopOrder:
         """Send a desired state, as a stop while one is in force."""
         with self._lock:
             self._newest = desired
-            send(_stopped(desired) if self._is_in_force else desired)
+            send(self._stopped(desired) if self._is_in_force else desired)
 
-
-def _stopped(desired: DesiredState) -> DesiredState:
-    return replace(desired, stop=True, press=None)
+    def _stopped(self, desired: DesiredState) -> DesiredState:
+        return replace(desired, stop=True, press=None, enters_service=self._enters_service)

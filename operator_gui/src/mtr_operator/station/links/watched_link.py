@@ -39,7 +39,10 @@ class WatchedRobotLink(RobotLink):
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink."""
-        return self._link.next_status(timeout_s)
+        status = self._link.next_status(timeout_s)
+        if status is not None and status.is_in_service:
+            self._stop.entered_service()
+        return status
 
     def send(self, desired: DesiredState) -> None:
         """See RobotLink."""

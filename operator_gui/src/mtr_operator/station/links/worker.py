@@ -99,9 +99,23 @@ class Worker:
     def stop(self) -> None:
         """Stop the robot, whatever it does: the stop has left when this returns. A running test ends, and what is
         measured is kept; what was ordered before and not begun yet is not begun."""
-        self._stop.give()
-        self._requests.put(lambda: self._links.idle.request_car(CarRequest.STOP) if self._links.idle else None)
+        self._give_stop()
         self.note("Stop.")
+
+    def enter_service(self) -> None:
+        """Stop the robot as stop() does, and disable its wheels, lift and servos until both sides release them."""
+        self._give_stop(enters_service=True)
+        self.note("Enter service mode.")
+
+    def leave_service(self, agreement_id: int) -> None:
+        """Release service mode for the Operator; the robot has to be released on its own side, too. A stop stays in
+        force."""
+        self._requests.put(lambda: self._links.idle.leave_service(agreement_id) if self._links.idle else None)
+        self.note("Release service mode.")
+
+    def _give_stop(self, *, enters_service: bool = False) -> None:
+        self._stop.give(enters_service=enters_service)
+        self._requests.put(lambda: self._links.idle.request_car(CarRequest.STOP) if self._links.idle else None)
 
     def release_hold(self, hold_id: int) -> None:
         """Have the robot go on that is held under this id."""

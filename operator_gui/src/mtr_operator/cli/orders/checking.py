@@ -13,11 +13,11 @@ from mtr_operator.domain.errors import RobotFailed
 from mtr_operator.domain.robot_status import CheckState
 from mtr_operator.terminal import show
 
-from .display import Display
-from .enter import Enter
-from .interrupt import Interrupt
-from .links import robot_link
-from .release import Release
+from ..display import Display
+from ..enter import Enter
+from ..interrupt import Interrupt
+from ..links import robot_link
+from ..release import Release
 
 _SPEED_MPS = 0.5
 

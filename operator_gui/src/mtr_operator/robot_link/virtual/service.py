@@ -1,0 +1,43 @@
+"""Service mode of a virtual robot, next to which nobody works: its own side is released at once."""
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import math
+
+from mtr_operator.domain.requests import DesiredState
+from mtr_operator.domain.robot_status import SERVICE_CODE, Notification, Problem, ServiceState
+
+_ERROR = 3
+_RELEASE_S = 60.0
+_CAUSE = Problem("dispatcher.service_by_operator", (), "The Operator has entered it.")
+_TEXT = ("The robot is in service mode: wheels, lift and servos are disabled until the robot and the Operator both "
+         f"release it. {_CAUSE.text}")
+_PROBLEMS = (Problem("dispatcher.service_mode", (), _TEXT), _CAUSE)
+
+
+class VirtualService:
+    """Attributes: is_active: the robot follows no order to move."""
+
+    def __init__(self) -> None:
+        self.is_active = False
+        self._id = 0
+
+    def take(self, desired: DesiredState) -> None:
+        """Enter it, or leave it when the Operator releases this entry."""
+        if desired.enters_service:
+            self._id += not self.is_active
+            self.is_active = True
+        elif self.is_active and desired.leave_service_id == self._id:
+            self.is_active = False
+
+    @property
+    def state(self) -> ServiceState:
+        """What the robot reports."""
+        if not self.is_active:
+            return ServiceState()
+        return ServiceState(True, self._id, _RELEASE_S, math.nan, _PROBLEMS)
+
+    @property
+    def notifications(self) -> tuple[Notification, ...]:
+        """The same for its list of notifications."""
+        return (Notification(SERVICE_CODE, _ERROR, _TEXT, _PROBLEMS),) if self.is_active else ()
