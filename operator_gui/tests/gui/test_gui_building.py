@@ -3,7 +3,7 @@
 import pytest
 from PyQt5.QtCore import Qt
 from PyQt5.QtTest import QTest
-from PyQt5.QtWidgets import QApplication, QDialog, QVBoxLayout, QWidget
+from PyQt5.QtWidgets import QApplication
 
 from mtr_operator.domain.robot_status import MotionSource
 from mtr_operator.gui.header.stop_button import StopButton
@@ -70,13 +70,11 @@ def test_filter_that_was_removed_is_not_installed_by_building(operator, opener):
     assert not stops_by_key(operator, opener)
 
 
-def test_dialog_that_opens_after_building_has_its_stop(operator):
-    with operator.application.stopping.building():
-        dialog = QDialog(operator.window)
-        QVBoxLayout(dialog).addWidget(QWidget())
-    dialog.show()
+@pytest.mark.parametrize("opened", ["show_settings", "_show_calibration", "_show_bus", "_show_events", "_show_area"])
+def test_window_beside_has_its_stop_at_once(operator, opened):
+    getattr(operator.window, opened)()
+    dialog = next(iter(operator.window._opened.values()))
     assert dialog.findChild(StopButton).isVisible()
-    dialog.close()
 
 
 def test_main_window_is_built_outside_the_filter(operator, monkeypatch):

@@ -62,7 +62,8 @@ class Stopping(QObject):
     def building(self) -> Iterator[None]:
         """Build widgets without looking at each of their events, of which a window causes 10,000.
 
-        No key is lost: Qt delivers keys from an event loop only. So nothing within may run one or show a dialog.
+        No key is lost: Qt delivers keys from an event loop only. So nothing within may run one, or make a dialog, which
+        gets its Stop when it is polished.
         """
         was_installed = self._is_installed
         self.remove()
