@@ -45,6 +45,13 @@ class Pose {
   /// Pose of a base that moves with this velocity for this time (negative: before), on a circle or straight.
   Pose after(const Velocity& velocity, double time_s) const {
     const double turn = velocity.angular_radps * time_s;
+    if (turn == 0.0) {
+      Pose straight = *this;
+      const Point end = apply({velocity.linear_mps * time_s, 0.0});
+      straight.x_m_ = end.x_m;
+      straight.y_m_ = end.y_m;
+      return straight;
+    }
     const double chord =
         velocity.linear_mps * time_s * (std::abs(turn) < 1e-6 ? 1.0 : std::sin(turn / 2.0) * 2.0 / turn);
     const Point end = apply({chord * std::cos(turn / 2.0), chord * std::sin(turn / 2.0)});
@@ -67,6 +74,11 @@ struct Footprint {
   double front_m;
   double rear_m;
   double half_width_m;
+
+  /// True at a distance of 0.
+  bool contains(const Point& point) const {
+    return point.x_m >= -rear_m && point.x_m <= front_m && std::abs(point.y_m) <= half_width_m;
+  }
 
   /// Distance of a point from the rectangle, 0 inside.
   double distance_to(const Point& point) const {

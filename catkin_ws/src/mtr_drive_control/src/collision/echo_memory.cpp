@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_drive_control/arithmetic.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -42,7 +44,11 @@ std::size_t beams_of_step(const View& view, const Bearing& bearing) {
 
 /// True for a place from which one step leads out of view.
 bool is_at_edge(const View& view, const Bearing& bearing) {
-  return std::min(bearing.beam, view.beams() - 1 - bearing.beam) < beams_of_step(view, bearing);
+  const std::size_t beams = std::min(bearing.beam, view.beams() - 1 - bearing.beam);
+  // No arc sine is above 1.6 times its argument: most places are farther from the edge than that.
+  const double at_most_rad = std::min(1.6 * kStepM / std::max(bearing.range_m, kStepM), kMaxEdgeRad);
+  return static_cast<double>(beams) * view.step_rad() < at_most_rad + 2.0 * view.step_rad() &&
+         beams < beams_of_step(view, bearing);
 }
 
 /// True for a place from which one step leads behind something nearer, as one leg goes behind the other.
@@ -142,7 +148,7 @@ bool EchoMemory::is_explained(const Remembered& remembered, double range_m, cons
   const double step_m = std::max(kStepM, kStepPerRange * range_m);
   return std::any_of(echoes.begin(), echoes.end(), [&](const Echo& echo) {
     // A wall beside a thing says nothing of the thing.
-    return (remembered.echo.is_wide || !echo.is_wide) && distance_m(echo.point, remembered.echo.point) <= step_m;
+    return (remembered.echo.is_wide || !echo.is_wide) && is_within(echo.point, remembered.echo.point, step_m);
   });
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "mtr_drive_control/arithmetic.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -53,21 +55,30 @@ EchoFinder::EchoFinder(const LidarMount& mount, const Footprint& footprint, doub
     : mount_(mount),
       footprint_(footprint),
       own_view_rad_(own_view_rad),
+      directions_(mount),
       lowest_rad_(-kLeastViewRad),
       highest_rad_(kLeastViewRad) {}
 
-std::vector<Echo> EchoFinder::find(const Sweep& sweep, const Motion& motion, double max_range_m) {
-  const std::vector<Hit> hits = hits_of(sweep, max_range_m);
+void EchoFinder::read(const Sweep& sweep) {
+  directions_.follow(sweep);
+  ranges_m_.resize(sweep.ranges_m.size());
+  for (std::size_t beam = 0; beam < ranges_m_.size(); ++beam) {
+    ranges_m_[beam] = range_of(sweep, beam);
+  }
+}
+
+std::vector<Echo> EchoFinder::find(const Sweep& sweep, const View& view, double max_range_m) {
+  const std::vector<Hit> found = hits(max_range_m);
   std::vector<Cluster> clusters;
-  for (const Hit& hit : hits) {
+  for (const Hit& hit : found) {
     clusters.resize(std::max(clusters.size(), static_cast<std::size_t>(hit.cluster) + 1));
     clusters[static_cast<std::size_t>(hit.cluster)].add(hit.beam, hit.in_base);
   }
   std::vector<Echo> echoes;
+  echoes.reserve(found.size());
   std::vector<Small> small;
-  for (const Hit& hit : hits) {
-    const auto stamp_ns = sweep.stamp_ns + static_cast<std::int64_t>(1e9 * sweep.time_increment_s * hit.beam);
-    const Point point = motion.at(stamp_ns).apply(hit.in_base);
+  for (const Hit& hit : found) {
+    const Point point = view.pose_at(hit.beam).apply(hit.in_base);
     const Cluster& cluster = clusters[static_cast<std::size_t>(hit.cluster)];
     if (cluster.beams < kBeamsThatCountAtOnce) {
       small.push_back({point, sweeps_seen(point) + 1});
@@ -76,6 +87,7 @@ std::vector<Echo> EchoFinder::find(const Sweep& sweep, const Motion& motion, dou
       }
     }
     const double span_rad = static_cast<double>(cluster.last - cluster.first) * std::abs(sweep.angle_increment_rad);
+    const std::int64_t stamp_ns = sweep.time_ns(static_cast<double>(hit.beam));
     echoes.push_back({point, stamp_ns, cluster.is_wide(), hit.range_m, hit.beam, span_rad});
   }
   small_ = std::move(small);
@@ -86,7 +98,7 @@ View EchoFinder::view_of(const Sweep& sweep, const Motion& motion) const {
   std::vector<double> returned_m(sweep.ranges_m.size());
   for (std::size_t beam = 0; beam < returned_m.size(); ++beam) {
     const double without_echo = sweep.is_echo(beam) ? 0.0 : kNothing;
-    returned_m[beam] = range_of(sweep, beam).value_or(without_echo);
+    returned_m[beam] = ranges_m_[beam].value_or(without_echo);
   }
   return {sweep, mount_, motion, std::move(returned_m)};
 }
@@ -106,8 +118,8 @@ std::optional<Sector> EchoFinder::covered_sector(const Sweep& sweep) {
   double unseen_rad = 0.0;
   for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
     const double angle_rad = sweep.angle_of(beam);
-    const bool is_own = std::abs(std::remainder(angle_rad, 2.0 * kPi)) <= own_view_rad_;
-    const bool is_unseen = is_own && !sweep.is_far(beam) && !range_of(sweep, beam);
+    const bool is_own = std::abs(wrapped_rad(angle_rad)) <= own_view_rad_;
+    const bool is_unseen = is_own && !sweep.is_far(beam) && !ranges_m_[beam];
     unseen_rad = is_unseen ? unseen_rad + step_rad : 0.0;
     const double begun_rad = sweep.angle_increment_rad > 0.0 ? angle_rad - unseen_rad : angle_rad;
     keep_wider(begun_rad, begun_rad + unseen_rad);
@@ -127,33 +139,33 @@ Sector EchoFinder::in_base(double low_rad, double high_rad) const {
 }
 
 std::optional<double> EchoFinder::range_of(const Sweep& sweep, std::size_t beam) const {
-  const double angle_rad = sweep.angle_of(beam);
   if (sweep.is_echo(beam)) {
     const double range_m = sweep.ranges_m[beam];
     // The robot's own mast and lift.
-    const bool is_own = footprint_.distance_to(mount_.in_base(range_m, angle_rad)) == 0.0;
+    const bool is_own = footprint_.contains(directions_.in_base(range_m, beam));
     return is_own ? std::nullopt : std::optional<double>(range_m);
   }
   for (double range_m = kNearStepM; sweep.is_near(beam) && range_m < sweep.range_min_m; range_m += kNearStepM) {
-    if (footprint_.distance_to(mount_.in_base(range_m, angle_rad)) > 0.0) {
+    if (!footprint_.contains(directions_.in_base(range_m, beam))) {
       return range_m;
     }
   }
   return std::nullopt;
 }
 
-std::vector<EchoFinder::Hit> EchoFinder::hits_of(const Sweep& sweep, double max_range_m) const {
+std::vector<EchoFinder::Hit> EchoFinder::hits(double max_range_m) const {
   std::vector<Hit> hits;
+  hits.reserve(ranges_m_.size());
   int clusters = 0;
-  for (std::size_t beam = 0; beam < sweep.ranges_m.size(); ++beam) {
-    const double range = range_of(sweep, beam).value_or(max_range_m);
+  for (std::size_t beam = 0; beam < ranges_m_.size(); ++beam) {
+    const double range = ranges_m_[beam].value_or(max_range_m);
     if (range >= max_range_m) {
       continue;
     }
-    const Point point = mount_.in_base(range, sweep.angle_of(beam));
+    const Point point = directions_.in_base(range, beam);
     int cluster = -1;
     for (auto before = hits.rbegin(); before != hits.rend() && beam - before->beam <= kMostBeamsBetween; ++before) {
-      if (distance_m(before->in_base, point) < kGapM + kGapPerRange * range) {
+      if (is_nearer(before->in_base, point, kGapM + kGapPerRange * range)) {
         cluster = before->cluster;
         break;
       }
@@ -166,8 +178,8 @@ std::vector<EchoFinder::Hit> EchoFinder::hits_of(const Sweep& sweep, double max_
 int EchoFinder::sweeps_seen(const Point& point) const {
   int most = 0;
   for (const Small& before : small_) {
-    if (distance_m(before.point, point) < kSamePlaceM) {
-      most = std::max(most, before.sweeps_seen);
+    if (before.sweeps_seen > most && is_nearer(before.point, point, kSamePlaceM)) {
+      most = before.sweeps_seen;
     }
   }
   return most;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "mtr_drive_control/arithmetic.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -33,7 +35,7 @@ constexpr std::size_t kRests = 8;
 constexpr double kRestsMps = 0.02;
 constexpr double kRestsRadps = 0.02;
 
-int cell_of(double coordinate_m) { return static_cast<int>(std::floor(coordinate_m / kCellM)); }
+int cell_of(double coordinate_m) { return floored(coordinate_m / kCellM); }
 double centre_of(int cell) { return (cell + 0.5) * kCellM; }
 Point centre_of(const Point& point) { return {centre_of(cell_of(point.x_m)), centre_of(cell_of(point.y_m))}; }
 std::size_t index_of(int column, int row) {
@@ -87,24 +89,25 @@ std::int64_t GroundMemory::rested_ns(const Point& point) const {
   return newest_ns;
 }
 
-void GroundMemory::observe(const Sweep& sweep, const LidarMount& mount, const Motion& motion) {
+void GroundMemory::observe(const Sweep& sweep, const BeamDirections& directions, const View& view) {
   for (std::size_t beam = 0; beam < sweep.ranges_m.size(); beam += kBeamStep) {
     const double free_m = sweep.is_far(beam)    ? kReachM
                           : sweep.is_echo(beam) ? std::min<double>(sweep.ranges_m[beam] - kBeforeEchoM, kReachM)
                                                 : 0.0;
-    const auto stamp_ns = sweep.stamp_ns + static_cast<std::int64_t>(1e9 * sweep.time_increment_s * beam);
-    const Pose odom_from_base = motion.at(stamp_ns);
-    const Point start = odom_from_base.apply(mount.in_base(0.0, 0.0));
-    const Point way = odom_from_base.apply(mount.in_base(1.0, sweep.angle_of(beam)));
+    const std::int64_t stamp_ns = sweep.time_ns(static_cast<double>(beam));
+    const Pose& odom_from_base = view.pose_at(beam);
+    const Point start = odom_from_base.apply(directions.in_base(0.0, beam));
+    const Point next = odom_from_base.apply(directions.in_base(1.0, beam));
+    const Point way{next.x_m - start.x_m, next.y_m - start.y_m};
     for (double range = 0.0; range < free_m; range += kCellM) {
-      see_free({start.x_m + range * (way.x_m - start.x_m), start.y_m + range * (way.y_m - start.y_m)}, stamp_ns);
+      see_free({start.x_m + range * way.x_m, start.y_m + range * way.y_m}, stamp_ns);
     }
   }
 }
 
 void GroundMemory::remember(const std::vector<Echo>& echoes, const Motion& motion) {
   for (const Echo& echo : echoes) {
-    if (distance_m(echo.point, motion.odom_from_base.position()) > kReachM) {
+    if (!is_within(echo.point, motion.odom_from_base.position(), kReachM)) {
       continue;
     }
     Cell& cell = cell_at(echo.point);

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_drive_control/arithmetic.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 // Farther away the tilt of the robot hides what the map has; a stop takes less than 1 m.
 constexpr double kReachM = 8.0;
 // Error of the position up to which it is valid, and of the heading.
@@ -49,16 +50,16 @@ void MapWitness::observe(const View& view, const Witness& lidar, const std::vect
   const Point robot = here.map_from_odom.apply(view.position());
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const Point& occupied = map_->occupied[i];
-    if (places_[i].is_gone || distance_m(occupied, robot) > kReachM) {
+    if (places_[i].is_gone || !is_within(occupied, robot, kReachM)) {
       continue;
     }
     const Point in_odom = here.map_from_odom.undo(occupied);
     const std::optional<Bearing> bearing = view.bearing_of(in_odom);
     const bool is_own = bearing && bearing->range_m >= view.range_min_m() &&
-                        std::abs(std::remainder(view.angle_rad(bearing->beam), 2.0 * kPi)) <= lidar.own_view_rad;
+                        std::abs(wrapped_rad(view.angle_rad(bearing->beam))) <= lidar.own_view_rad;
     if (is_own && is_contradicted(places_[i], view, *bearing) &&
         std::none_of(echoes.begin(), echoes.end(),
-                     [&](const Echo& echo) { return distance_m(echo.point, in_odom) <= kToleranceM; })) {
+                     [&](const Echo& echo) { return is_within(echo.point, in_odom, kToleranceM); })) {
       empty.add(*bearing);
     }
   }

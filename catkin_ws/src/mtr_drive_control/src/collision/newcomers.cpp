@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_drive_control/arithmetic.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -40,7 +42,7 @@ constexpr double kRestsMps = 0.005;
 constexpr double kRestsRadps = 0.005;
 constexpr double kBiasShare = 0.02;
 
-int cell_of(double coordinate_m) { return static_cast<int>(std::floor(coordinate_m / kCellM)); }
+int cell_of(double coordinate_m) { return floored(coordinate_m / kCellM); }
 
 }  // namespace
 
@@ -71,22 +73,22 @@ bool SteadyFrame::follow(const Motion& motion, const std::optional<double>& gyro
   return continues;
 }
 
-void Newcomers::observe(const Sweep& sweep, const LidarMount& mount, const Motion& motion) {
+void Newcomers::observe(const Sweep& sweep, const BeamDirections& directions, const Motion& motion) {
   const auto free_to_m = [&](std::size_t beam) {
     return sweep.is_far(beam)    ? kNewcomerReachM
            : sweep.is_echo(beam) ? std::min<double>(sweep.ranges_m[beam], kNewcomerReachM) - kBeforeEchoM
                                  : 0.0;
   };
-  const Point origin = mount.in_base(0.0, 0.0);
   for (std::size_t beam = kBeamStep; beam + kBeamStep < sweep.ranges_m.size(); beam += kBeamStep) {
     // Of a surface at a flat angle the neighbouring beam tells the near end.
     const double free_m = std::min({free_to_m(beam - kBeamStep), free_to_m(beam), free_to_m(beam + kBeamStep)});
-    const auto stamp_ns = sweep.stamp_ns + static_cast<std::int64_t>(1e9 * sweep.time_increment_s * beam);
+    const std::int64_t stamp_ns = sweep.time_ns(static_cast<double>(beam));
     const Pose steady_from_base = motion.at(stamp_ns);
-    const Point start = steady_from_base.apply(origin);
-    const Point next = steady_from_base.apply(mount.in_base(1.0, sweep.angle_of(beam)));
+    const Point start = steady_from_base.apply(directions.in_base(0.0, beam));
+    const Point next = steady_from_base.apply(directions.in_base(1.0, beam));
+    const Point way{next.x_m - start.x_m, next.y_m - start.y_m};
     for (double range = 0.0; range < free_m; range += kCellM) {
-      see_free({start.x_m + range * (next.x_m - start.x_m), start.y_m + range * (next.y_m - start.y_m)}, stamp_ns);
+      see_free({start.x_m + range * way.x_m, start.y_m + range * way.y_m}, stamp_ns);
     }
   }
 }
@@ -190,9 +192,9 @@ bool Newcomers::has_come(const Point& place) const {
   return cell != nullptr && cell->state == State::kNewcomer;
 }
 
-bool Newcomers::is_unmapped(const Point& place) const {
+bool Newcomers::may_be_person(const Point& place) const {
   const Cell* cell = find(place);
-  return cell != nullptr && cell->is_unmapped && cell->run >= kSweepsInARow;
+  return cell != nullptr && (cell->state == State::kNewcomer || (cell->is_unmapped && cell->run >= kSweepsInARow));
 }
 
 Newcomers::Cell& Newcomers::cell_at(int column, int row) {

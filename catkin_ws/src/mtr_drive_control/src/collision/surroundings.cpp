@@ -147,27 +147,29 @@ bool Surroundings::observe(std::size_t index, const Sensors& sensors) {
   if (!lidar.watch.take(sweep)) {
     return false;
   }
+  lidar.finder.read(*sweep);
   lidar.covered = lidar.finder.covered_sector(*sweep);
   if (lidar.watch.problem_at(tick_ns_) || !motion_) {
     return false;
   }
-  lidar.echoes = lidar.finder.find(*sweep, *motion_, kMemoryReachM);
+  const View view = lidar.finder.view_of(*sweep, *motion_);
+  lidar.echoes = lidar.finder.find(*sweep, view, kMemoryReachM);
   for (Echo& echo : lidar.echoes) {
     // A piece of the Car that is just about to leave the view is still known as such.
     echo.is_wide = echo.is_wide || ground_.was_wide(echo.point);
   }
-  look_for_gaps(index, *sweep, lidar.echoes, sensors);
+  look_for_gaps(index, view, sensors);
   remember_newcomers(lidar, *sweep, sensors);
   const auto far = std::remove_if(lidar.echoes.begin(), lidar.echoes.end(),
                                   [](const Echo& echo) { return echo.range_m >= kRangeOfInterestM; });
   lidar.echoes.erase(far, lidar.echoes.end());
-  ground_.observe(*sweep, lidar.finder.mount(), *motion_);
+  ground_.observe(*sweep, lidar.finder.directions(), view);
   ground_.remember(lidar.echoes, *motion_);
   return true;
 }
 
 void Surroundings::remember_newcomers(const Lidar& lidar, const Sweep& sweep, const Sensors& sensors) {
-  newcomers_.observe(sweep, lidar.finder.mount(), steady_.motion());
+  newcomers_.observe(sweep, lidar.finder.directions(), steady_.motion());
   const SiteMap* map = sensors.map ? sensors.map->map.get() : nullptr;
   for (const Echo& echo : lidar.echoes) {
     if (echo.range_m > kNewcomerReachM) {
@@ -181,16 +183,15 @@ void Surroundings::remember_newcomers(const Lidar& lidar, const Sweep& sweep, co
 
 bool Surroundings::is_possible_person(const Point& in_odom) const {
   const Point place = steady_.from_odom(in_odom);
-  return newcomers_.has_come(place) || newcomers_.is_unmapped(place);
+  return newcomers_.may_be_person(place);
 }
 
-void Surroundings::look_for_gaps(std::size_t index, const Sweep& sweep, const std::vector<Echo>& echoes,
-                                 const Sensors& sensors) {
+void Surroundings::look_for_gaps(std::size_t index, const View& view, const Sensors& sensors) {
   Lidar& lidar = lidars_[index];
+  const std::vector<Echo>& echoes = lidar.echoes;
   lidar.has_seen = lidar.has_seen || !echoes.empty();
   lidar.sees_surface = std::any_of(echoes.begin(), echoes.end(), [](const Echo& echo) { return echo.is_wide; });
   lidar.has_seen_surface = lidar.has_seen_surface || lidar.sees_surface;
-  const View view = lidar.finder.view_of(sweep, *motion_);
   const Witness witness{index, lidar.finder.own_view_rad()};
   EmptyBeams empty = memory_.observe(view, witness, echoes);
   if (sensors.map) {
@@ -266,6 +267,7 @@ void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind k
 }
 
 void Surroundings::find_obstacles() {
+  obstacles_.reserve(lidars_.front().echoes.size() + lidars_.back().echoes.size());
   for (const Lidar& lidar : lidars_) {
     for (std::size_t i = 0; i < lidar.echoes.size(); ++i) {
       const Echo& echo = lidar.echoes[i];

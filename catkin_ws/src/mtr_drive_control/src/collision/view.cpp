@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mtr_drive_control/arithmetic.hpp"
+
 namespace mtr_drive_control {
 namespace {
 
@@ -19,11 +21,11 @@ View::View(const Sweep& sweep, const LidarMount& mount, const Motion& motion, st
     : stamp_ns_(sweep.stamp_ns),
       angle_min_rad_(sweep.angle_min_rad),
       angle_increment_rad_(sweep.angle_increment_rad),
-      time_increment_s_(sweep.time_increment_s),
       range_min_m_(sweep.range_min_m),
       range_max_m_(sweep.range_max_m),
       mount_(mount),
-      motion_(motion),
+      position_(motion.odom_from_base.position()),
+      poses_(sweep, motion),
       returned_m_(std::move(returned_m)) {}
 
 double View::angle_rad(std::size_t beam) const {
@@ -36,32 +38,31 @@ double View::angle_in_base_rad(std::size_t beam) const {
 
 std::optional<std::size_t> View::beam_at(double angle_rad) const {
   const double middle_rad = View::angle_rad(beams() / 2);
-  const double from_middle = std::remainder(angle_rad - middle_rad, 2.0 * kPi) / angle_increment_rad_;
-  const double beam = std::round(static_cast<double>(beams() / 2) + from_middle);
-  return beam >= 0.0 && beam < static_cast<double>(beams()) ? std::optional<std::size_t>(static_cast<std::size_t>(beam))
-                                                            : std::nullopt;
+  const double from_middle = wrapped_rad(angle_rad - middle_rad) / angle_increment_rad_;
+  return rounded_index(static_cast<double>(beams() / 2) + from_middle, beams());
 }
 
 std::optional<Bearing> View::bearing_of(const Point& point) const {
-  std::optional<Bearing> bearing;
-  double beam = 0.5 * static_cast<double>(beams());
-  for (int i = 0; i < kRefinements; ++i) {
-    const auto beam_ns = stamp_ns_ + static_cast<std::int64_t>(1e9 * time_increment_s_ * beam);
-    const Point in_base = motion_.at(beam_ns).undo(point);
+  const Pose* pose = &poses_.middle();
+  for (int refinements = 1;; ++refinements) {
+    const Point in_base = pose->undo(point);
     const double dx = in_base.x_m - mount_.x_m;
     const double dy = in_base.y_m - mount_.y_m;
     const std::optional<std::size_t> found = beam_at(std::atan2(dy, dx) - mount_.yaw_rad);
     if (!found) {
       return std::nullopt;
     }
-    bearing = Bearing{*found, std::hypot(dx, dy)};
-    beam = static_cast<double>(*found);
+    const Pose* const then = &poses_.at(*found);
+    if (then == pose || refinements == kRefinements) {
+      return Bearing{*found, std::hypot(dx, dy)};
+    }
+    pose = then;
   }
-  return bearing;
 }
 
 Evidence View::evidence_at(const Bearing& bearing, double tolerance_m, double tolerance_rad) const {
-  const auto reach = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(tolerance_rad / step_rad())));
+  const std::size_t reach =
+      std::max<std::size_t>(1, rounded_index(tolerance_rad / step_rad(), beams()).value_or(beams()));
   const std::size_t first = bearing.beam - std::min(bearing.beam, reach);
   const std::size_t last = std::min(bearing.beam + reach, beams() - 1);
   double nearest_m = kInfinity;

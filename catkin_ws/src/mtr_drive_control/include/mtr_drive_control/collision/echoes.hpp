@@ -34,11 +34,14 @@ class EchoFinder {
   /// @param own_view_rad to each side of where the LiDAR points: what nobody else watches
   EchoFinder(const LidarMount& mount, const Footprint& footprint, double own_view_rad);
 
-  /// Echoes of the next sweep nearer than max_range_m.
-  std::vector<Echo> find(const Sweep& sweep, const Motion& motion, double max_range_m);
+  /// Reads the next sweep; the questions below are about it.
+  void read(const Sweep& sweep);
 
-  /// What each beam of a sweep returned.
+  /// What each of its beams returned.
   View view_of(const Sweep& sweep, const Motion& motion) const;
+
+  /// Echoes in the view of the sweep nearer than max_range_m; to be called once for a sweep.
+  std::vector<Echo> find(const Sweep& sweep, const View& view, double max_range_m);
 
   /// Widest piece of its own view that measures nothing, when it is wider than a leg: no measurement (NaN, zero), only
   /// something within the footprint, which is the mast where it is small and a cover where it is not, or directions
@@ -48,7 +51,7 @@ class EchoFinder {
   /// True when a place in base_link is in the view of its sweeps, as far as they are known to be seen.
   bool sees(const Point& point) const;
 
-  const LidarMount& mount() const { return mount_; }
+  const BeamDirections& directions() const { return directions_; }
   double own_view_rad() const { return own_view_rad_; }
 
  private:
@@ -63,7 +66,7 @@ class EchoFinder {
     int sweeps_seen;
   };
 
-  std::vector<Hit> hits_of(const Sweep& sweep, double max_range_m) const;
+  std::vector<Hit> hits(double max_range_m) const;
   /// Range of what a beam has met outside the footprint; nothing where it has met nothing there.
   std::optional<double> range_of(const Sweep& sweep, std::size_t beam) const;
   int sweeps_seen(const Point& point) const;
@@ -72,6 +75,9 @@ class EchoFinder {
   LidarMount mount_;
   Footprint footprint_;
   double own_view_rad_;
+  BeamDirections directions_;
+  /// By beam, as by `range_of`.
+  std::vector<std::optional<double>> ranges_m_;
   std::vector<Small> small_;
   /// Directions in the LiDAR's frame that its sweeps have contained.
   double lowest_rad_;

@@ -31,7 +31,7 @@ class GroundMemory {
   void stand(const Footprint& footprint, const Motion& motion);
 
   /// Beams of a sweep: free up to their echo.
-  void observe(const Sweep& sweep, const LidarMount& mount, const Motion& motion);
+  void observe(const Sweep& sweep, const BeamDirections& directions, const View& view);
 
   /// Echoes that count, of the same sweep.
   void remember(const std::vector<Echo>& echoes, const Motion& motion);

@@ -45,7 +45,7 @@ class Newcomers {
   Newcomers() : cells_(static_cast<std::size_t>(kSide * kSide)) {}
 
   /// Beams of a sweep: free up to shortly before their echo. The motion is that of the steady frame.
-  void observe(const Sweep& sweep, const LidarMount& mount, const Motion& motion);
+  void observe(const Sweep& sweep, const BeamDirections& directions, const Motion& motion);
 
   /// One echo that counts, of the sweep with this stamp.
   /// @param place in the steady frame, @param in_map nothing while the robot is not localized
@@ -54,8 +54,8 @@ class Newcomers {
   /// True when something came to this place while it was observed, and remained.
   bool has_come(const Point& place) const;
 
-  /// True when something remains at this place of which the map shows free ground.
-  bool is_unmapped(const Point& place) const;
+  /// True for what came, and for what remains at a place where the map shows free ground.
+  bool may_be_person(const Point& place) const;
 
  private:
   static constexpr int kSide = 64;

@@ -107,7 +107,7 @@ class Surroundings {
   };
 
   bool observe(std::size_t index, const Sensors& sensors);
-  void look_for_gaps(std::size_t index, const Sweep& sweep, const std::vector<Echo>& echoes, const Sensors& sensors);
+  void look_for_gaps(std::size_t index, const View& view, const Sensors& sensors);
   /// True when what is remembered may be elsewhere by now.
   bool may_have_been_carried(std::int64_t tick_ns, const Sensors& sensors) const;
   void forget_echoes();

@@ -29,6 +29,10 @@ struct Sweep {
   /// Of one turn; 0 when the driver does not state it.
   double scan_time_s = 0.0;
 
+  /// Time of a beam, or of a moment between two of them.
+  std::int64_t time_ns(double beam) const {
+    return stamp_ns + static_cast<std::int64_t>(1e9 * time_increment_s * beam);
+  }
   double angle_of(std::size_t beam) const { return angle_min_rad + angle_increment_rad * static_cast<double>(beam); }
   bool is_echo(std::size_t beam) const { return ranges_m[beam] >= range_min_m && ranges_m[beam] <= range_max_m; }
   /// Nothing in reach: the way of the beam is free.

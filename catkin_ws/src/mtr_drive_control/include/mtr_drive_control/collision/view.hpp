@@ -9,21 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "mtr_drive_control/collision/sweep.hpp"
-#include "mtr_drive_control/robot_shape.hpp"
+#include "mtr_drive_control/collision/beams.hpp"
 
 namespace mtr_drive_control {
-
-/// Motion of the base about a moment, from the wheels' odometry.
-struct Motion {
-  std::int64_t stamp_ns;
-  Pose odom_from_base;
-  Velocity velocity;
-
-  Pose at(std::int64_t time_ns) const {
-    return odom_from_base.after(velocity, static_cast<double>(time_ns - stamp_ns) * 1e-9);
-  }
-};
 
 /// Direction and distance of a point from the LiDAR at the time of its beam.
 struct Bearing {
@@ -67,7 +55,9 @@ class View {
   /// Direction of a beam in base_link.
   double angle_in_base_rad(std::size_t beam) const;
   /// Of the robot in odom.
-  Point position() const { return motion_.odom_from_base.position(); }
+  Point position() const { return position_; }
+  /// Of the robot in odom at the time of a beam.
+  const Pose& pose_at(std::size_t beam) const { return poses_.at(beam); }
   std::int64_t stamp_ns() const { return stamp_ns_; }
   double range_min_m() const { return range_min_m_; }
   double range_max_m() const { return range_max_m_; }
@@ -80,11 +70,11 @@ class View {
   std::int64_t stamp_ns_;
   double angle_min_rad_;
   double angle_increment_rad_;
-  double time_increment_s_;
   double range_min_m_;
   double range_max_m_;
   LidarMount mount_;
-  Motion motion_;
+  Point position_;
+  BeamPoses poses_;
   std::vector<double> returned_m_;
 };
 
