@@ -58,13 +58,14 @@ class Scene {
                                               {},
                                               "",
                                               ""});
+    const std::int64_t stamp_ms = stamp_ns / kTestMs;
     for (std::size_t beam = 0; beam < beams; ++beam) {
       const Point start = world_from_lidar.position();
       const double angle = seen->angle_of(beam);
       const Point ahead = world_from_lidar.apply({std::cos(angle), std::sin(angle)});
       const double range = nearest(start, {ahead.x_m - start.x_m, ahead.y_m - start.y_m});
       // A different sweep each time, as a live LiDAR's.
-      const double noise = noise_m * std::sin(static_cast<double>(beam * 7919 + (stamp_ns / kTestMs) * 104729));
+      const double noise = noise_m * std::sin(static_cast<double>(beam * 7919 + stamp_ms * 104729));
       const bool is_near = range + noise < range_min_m;
       const double measured_m = range > range_max_m ? std::numeric_limits<double>::infinity() : range + noise;
       seen->ranges_m.push_back(is_near ? -std::numeric_limits<float>::infinity() : static_cast<float>(measured_m));
@@ -145,7 +146,7 @@ class TestRobot {
     wheels_before_ = wheels;
     inputs.area = area ? area() : AreaInputs{};
     inputs.speed_limit = speed_limit;
-    const Decision decision = control.step(now_ns, inputs);
+    Decision decision = control.step(now_ns, inputs);
     velocity = decision.velocity;
     wheels = obeys ? velocity : Velocity{};
     return decision;
@@ -196,7 +197,8 @@ class TestRobot {
  private:
   /// What a live IMU says: never the same twice.
   ImuReading imu(double acceleration_mps2) const {
-    const double noise = 1e-3 * std::sin(static_cast<double>(now_ns / kTestMs));
+    const std::int64_t now_ms = now_ns / kTestMs;
+    const double noise = 1e-3 * std::sin(static_cast<double>(now_ms));
     ImuReading reading{now_ns,
                        {noise, -noise, grip * wheels.angular_radps + noise},
                        {acceleration_mps2 - 9.81 * std::sin(pitch_rad) + noise,

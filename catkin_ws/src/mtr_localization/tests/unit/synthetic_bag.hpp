@@ -41,10 +41,7 @@ class BagWriter {
 
   /// Returns true poses in the frame of the Car, from 1 s on, every 20 ms.
   std::vector<PoseVector> write() {
-    std::vector<PoseVector> truth;
-    for (int i = 0; i < kStanding; ++i) {
-      truth.push_back(place(0.0));
-    }
+    std::vector<PoseVector> truth(kStanding, place(0.0));
     for (int i = 1; i <= kDriving; ++i) {
       // Accelerates and brakes smoothly, so that the wheels never jump.
       const double part = static_cast<double>(i) / kDriving;
@@ -59,7 +56,7 @@ class BagWriter {
   }
 
  private:
-  static constexpr int kStanding = 75;
+  static constexpr std::size_t kStanding = 75;
   static constexpr int kDriving = 1800;
   static constexpr double kTurn = 1.1 * 2.0 * M_PI;
   static constexpr double kStepS = 0.02;
