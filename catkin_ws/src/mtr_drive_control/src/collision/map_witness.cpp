@@ -26,12 +26,13 @@ bool SiteMap::is_free_around(const Point& place, double distance_m) const {
     return false;
   }
   const Point in_grid = free.map_from_grid.undo(place);
-  const auto height = static_cast<double>(free.cells.size() / free.width);
+  const std::size_t rows = free.cells.size() / free.width;
   const double low_x = std::floor((in_grid.x_m - distance_m) / free.cell_m);
   const double low_y = std::floor((in_grid.y_m - distance_m) / free.cell_m);
   const double high_x = std::floor((in_grid.x_m + distance_m) / free.cell_m);
   const double high_y = std::floor((in_grid.y_m + distance_m) / free.cell_m);
-  if (!(low_x >= 0.0 && low_y >= 0.0 && high_x < static_cast<double>(free.width) && high_y < height)) {
+  if (!(low_x >= 0.0 && low_y >= 0.0 && high_x < static_cast<double>(free.width) &&
+        high_y < static_cast<double>(rows))) {
     return false;
   }
   for (auto row = static_cast<std::size_t>(low_y); row <= static_cast<std::size_t>(high_y); ++row) {

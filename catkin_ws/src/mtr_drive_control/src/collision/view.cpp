@@ -37,9 +37,9 @@ double View::angle_in_base_rad(std::size_t beam) const {
 }
 
 std::optional<std::size_t> View::beam_at(double angle_rad) const {
-  const double middle_rad = View::angle_rad(beams() / 2);
-  const double from_middle = wrapped_rad(angle_rad - middle_rad) / angle_increment_rad_;
-  return rounded_index(static_cast<double>(beams() / 2) + from_middle, beams());
+  const std::size_t middle = beams() / 2;
+  const double from_middle = wrapped_rad(angle_rad - View::angle_rad(middle)) / angle_increment_rad_;
+  return rounded_index(static_cast<double>(middle) + from_middle, beams());
 }
 
 std::optional<Bearing> View::bearing_of(const Point& point) const {

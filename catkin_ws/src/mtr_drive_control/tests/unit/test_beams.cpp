@@ -83,6 +83,7 @@ TEST(BeamDirections, AreThoseOfTheMount) {
 /// Bearing of a point by the formulas of one beam each time.
 std::optional<Bearing> plain_bearing(const Sweep& sweep, const Motion& motion, const Point& point) {
   const std::size_t beams = sweep.ranges_m.size();
+  const std::size_t middle = beams / 2;
   std::optional<Bearing> bearing;
   double beam = 0.5 * static_cast<double>(beams);
   for (int i = 0; i < 2; ++i) {
@@ -90,8 +91,8 @@ std::optional<Bearing> plain_bearing(const Sweep& sweep, const Motion& motion, c
     const double dx = in_base.x_m - kMount.x_m;
     const double dy = in_base.y_m - kMount.y_m;
     const double angle_rad = std::atan2(dy, dx) - kMount.yaw_rad;
-    beam = std::round(static_cast<double>(beams / 2) +
-                      std::remainder(angle_rad - sweep.angle_of(beams / 2), 2.0 * kTestPi) / sweep.angle_increment_rad);
+    beam = std::round(static_cast<double>(middle) +
+                      std::remainder(angle_rad - sweep.angle_of(middle), 2.0 * kTestPi) / sweep.angle_increment_rad);
     if (beam < 0.0 || beam >= static_cast<double>(beams)) {
       return std::nullopt;
     }
