@@ -1,6 +1,6 @@
 """The calibration record as the budget of distances reads it, from what was measured; plain values in and out.
 
-Format: operator_gui/README.md, Calibration record of the robot. What is not measured yet stays as the design has it.
+Format: docs/operator/limits.md, Calibration record. What is not measured yet stays as the design has it.
 `date` is the day of the oldest measurement that a term rests on; each measurement stands with its own day in `checks`.
 """
 # SPDX-License-Identifier: Apache-2.0
