@@ -8,6 +8,7 @@ from mtr_operator.car_link.lock_watch import LockWatch
 from mtr_operator.car_link.outputs.extender import BusExtender
 from mtr_operator.car_link.outputs.handle import BusHandle
 from mtr_operator.car_link.profile import load_profile
+from mtr_operator.domain.interfaces.car_bus import CarEquipment
 from mtr_operator.domain.ports import CarLink
 from mtr_simulation.car.can_port import MemoryCanPort, SentFrame
 from mtr_simulation.car.choice import chosen_car
@@ -17,7 +18,7 @@ STEP_NS = 20_000_000
 RELEASED, PRESSED = 1000, 2000
 
 
-class HonestCarLink(CarLink):
+class HonestCarLink(CarLink, CarEquipment):
     """The application's bus parts on the simulated Car, which sees the key where the robot's Statuses say it is."""
 
     def __init__(self, seed, folder, name="honest_handle"):

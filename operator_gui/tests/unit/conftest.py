@@ -8,6 +8,7 @@ import pytest
 from kinematic_world import KEY_X_M, FakeExtender, FakeHandle, World
 
 from mtr_operator.domain.assistance import OPERATOR
+from mtr_operator.domain.interfaces.car_bus import BusMonitor, CarEquipment
 from mtr_operator.domain.ports import CarLink, LinkStatistics, LockState, RobotLink
 from mtr_operator.domain.robot_status import PreflightReport, RobotStatus
 
@@ -44,7 +45,7 @@ class FakeRobot(RobotLink):
         self.closed = True
 
 
-class FakeCar(CarLink):
+class FakeCar(CarLink, BusMonitor, CarEquipment):
     """Bus of the world's Car."""
 
     def __init__(self, world):

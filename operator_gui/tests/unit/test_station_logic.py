@@ -6,6 +6,7 @@ import math
 import pytest
 
 from mtr_operator.domain.absent_car import NO_ADAPTER, AbsentCarLink
+from mtr_operator.domain.interfaces.car_bus import BusMonitor
 from mtr_operator.domain.ports import BusTraffic, LockFacts, LockState
 from mtr_operator.domain.robot_status import CarDimensions, Mode, Notification, RobotStatus
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -40,7 +41,7 @@ def test_plan_is_made_with_what_the_connected_cars_profile_tells():
 
 
 def test_car_without_a_bus_tells_nothing_beforehand():
-    class Bus(AbsentCarLink):
+    class Bus(AbsentCarLink, BusMonitor):
         """One whose profile is known."""
         facts = LockFacts(told_every_s=0.8)
         traffic = None

@@ -4,11 +4,17 @@ import math
 
 import pytest
 
-from mtr_operator.domain.absent_car import AbsentCarLink
+from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.actions.event_observer import EventObserver
+from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarEvent, LockState
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 from mtr_operator.station.bus.time_line import SPAN_S, TimeLine
-from mtr_operator.station.bus.watched_car import WatchedCarLink
+from mtr_operator.station.links.idle_loop import IdleLoop
+from mtr_operator.station.links.reporter import Reporter
+from mtr_operator.station.links.stop_order import StopOrder
+from mtr_operator.station.links.watched_link import WatchedRobotLink
+from mtr_operator.station.mailbox import Mailbox
 
 CAR = CarDimensions(4.0, 2.0, 0.01, 0.01)
 LOCKED, UNLOCKED = LockState.LOCKED, LockState.UNLOCKED
@@ -71,12 +77,21 @@ def test_another_clock_begins_anew(after):
     assert line.recent()[1] == ()
 
 
-def test_watched_link_keeps_what_is_observed_and_hands_all_on(car_link):
+def test_session_without_a_test_fills_the_time_line(robot_link, car_link):
     line = TimeLine()
-    watched = WatchedCarLink(car_link, line)
-    watched.connect()
-    assert watched.observe(status(1.0)) == []
-    assert line.recent()[0][0].lock_state is car_link.lock_state
-    assert (watched.problem, watched.facts, watched.traffic, watched.messages, watched.refused, watched.handle) == \
-        (car_link.problem, car_link.facts, car_link.traffic, car_link.messages, car_link.refused, car_link.handle)
-    assert WatchedCarLink(AbsentCarLink("gone"), line).problem == "gone"
+    idle = IdleLoop(WatchedRobotLink(robot_link, StopOrder()), car_link, time_line=line)
+    for _ in range(3):
+        idle.step()
+    assert [moment.lock_state for moment in line.recent()[0]] == 3 * [car_link.lock_state]
+
+
+def test_running_test_fills_the_time_line_with_each_status(robot_link, car_link):
+    line, statuses = TimeLine(), []
+    reporter = Reporter(Mailbox(), WatchedRobotLink(robot_link, StopOrder()), car_link, None, lambda: None,
+                        time_line=line)
+    observer = EventObserver(reporter, EventLog(), "axis")
+    loop = ControlLoop(robot_link, car_link, observer)
+    for _ in range(3):
+        statuses.append(loop.step())
+    assert [moment.stamp_s for moment in line.recent()[0]] == [status.stamp_s for status in statuses]
+    assert {moment.lock_state for moment in line.recent()[0]} == {car_link.lock_state}

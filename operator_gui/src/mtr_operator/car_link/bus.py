@@ -13,6 +13,7 @@ import can
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
 from mtr_operator.domain.distance_feed import DistanceFeed
 from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.interfaces.car_bus import BusMonitor, BusRecorder, CarEquipment
 from mtr_operator.domain.ports import BusMark, BusMessages, BusTraffic, CarEvent, CarLink, LockFacts, LockState
 from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.results.session_record import CAN_ADAPTER, CAN_STAMPS
@@ -55,7 +56,7 @@ def _poller(profile: CarProfile, settings: AdapterSettings,
     return StatePoller(profile.poll, send)
 
 
-class CanCarLink(CarLink, FrameSink):
+class CanCarLink(CarLink, BusMonitor, BusRecorder, CarEquipment, FrameSink):
     """Watches the locks on the CAN bus, and sends nothing on it unless it is opened in normal mode.
 
     profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver.
@@ -93,7 +94,6 @@ class CanCarLink(CarLink, FrameSink):
         self.frames_received = 0
 
     def connect(self) -> None:
-        """See CarLink."""
         if self._reader is not None:
             return
         self.profile = profile = load_profile(self._profile_name, self._databases)
@@ -116,7 +116,6 @@ class CanCarLink(CarLink, FrameSink):
         self._outputs = Outputs(profile, self._settings.is_listening, self._send, self._output_refusal)
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
-        """See CarLink."""
         arrival_s = self._clock()
         watch = self._watch
         if self._reader is None or watch is None:
@@ -133,13 +132,11 @@ class CanCarLink(CarLink, FrameSink):
 
     @property
     def lock_state(self) -> LockState:
-        """See CarLink."""
         with self._changed:
             return LockState.UNKNOWN if self._watch is None or self._trouble.problem else self._watch.lock_state
 
     @property
     def signals(self) -> CarSignals:
-        """See CarLink."""
         with self._changed:
             if self._watch is None:
                 return ()
@@ -150,27 +147,25 @@ class CanCarLink(CarLink, FrameSink):
 
     @property
     def facts(self) -> LockFacts:
-        """See CarLink."""
         return LockFacts() if self.profile is None else self.profile.facts
 
     @property
     def handle(self) -> HandlePort | None:
-        """See CarLink: what the profile declares."""
+        """See CarEquipment: what the profile declares."""
         return None if self._outputs is None else self._outputs.handle
 
     @property
     def extender(self) -> ExtenderPort | None:
-        """See CarLink: what the profile declares."""
+        """See CarEquipment: what the profile declares."""
         return None if self._outputs is None else self._outputs.extender
 
     @property
     def distance_feed(self) -> DistanceFeed | None:
-        """See CarLink: what the profile declares."""
+        """See CarEquipment: what the profile declares."""
         return self._phone
 
     @property
     def traffic(self) -> BusTraffic | None:
-        """See CarLink."""
         with self._changed:
             if self.profile is None or self._watch is None:
                 return None
@@ -180,21 +175,18 @@ class CanCarLink(CarLink, FrameSink):
 
     @property
     def record(self) -> Mapping[str, str]:
-        """See CarLink."""
         stamps = None if self._watch is None else self._watch.stamps
         timed = {} if stamps is None else {CAN_STAMPS: stamps.text}
         return {CAN_ADAPTER: self._settings.text, **self._further.record, **timed}
 
     @property
     def notices(self) -> Sequence[str]:
-        """See CarLink."""
         idle = () if self._outputs is None else self._outputs.notices
         with self._changed:
             watched = () if self._watch is None else self._watch.notices
             return (*idle, *self._cycles.notices, *watched)
 
     def log_to(self, path: pathlib.Path | None) -> None:
-        """See CarLink."""
         log = None if path is None else BusLog(path, is_fd=self._settings.data_bitrate_bps is not None
                                                or self._further.is_fd)
         with self._changed:
@@ -204,36 +196,30 @@ class CanCarLink(CarLink, FrameSink):
 
     @property
     def log_problem(self) -> str:
-        """See CarLink."""
         return self._log.problem
 
     @property
     def mark(self) -> BusMark | None:
-        """See CarLink."""
         return self._log.mark
 
     @property
     def messages(self) -> BusMessages | None:
-        """See CarLink."""
         with self._changed:
             return self._table.messages(self._clock())
 
     @property
     def refused(self) -> Refused:
-        """See CarLink."""
         with self._changed:
             return Refused() if self._watch is None else self._watch.refused
 
     @property
     def problem(self) -> str:
-        """See CarLink."""
         with self._changed:
             if self._watch is None:
                 return _NOT_CONNECTED
             return self._trouble.problem or self._further.problem or self._watch.problem
 
     def close(self) -> None:
-        """See CarLink."""
         if self._outputs is not None:
             self._outputs.close()
         reader, self._reader = self._reader, None

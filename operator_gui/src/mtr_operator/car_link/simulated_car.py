@@ -12,6 +12,7 @@ from mtr_operator.domain.actions.distance import gap_to_outline
 from mtr_operator.domain.assistance import OUTPUT, ExtenderPort, HandlePort
 from mtr_operator.domain.distance_feed import DistanceFeed
 from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.interfaces.car_bus import CarEquipment
 from mtr_operator.domain.limits import Limit
 from mtr_operator.domain.ports import CarEvent, CarLink, LockState
 from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotStatus
@@ -117,7 +118,7 @@ class SleepingKey:
         return self._sleep_s == 0.0 or time_s - self._moved_s < self._sleep_s
 
 
-class SimulatedCarLink(CarLink):
+class SimulatedCarLink(CarLink, CarEquipment):
     """Passive entry by the key's place, presses and requests at the handle by its distance.
 
     key_sleep_s: rest after which the key sleeps, 0 to 3600 s; 0: never. extender_m: by how much its extender has the
@@ -151,12 +152,10 @@ class SimulatedCarLink(CarLink):
         self._robot: tuple[float, tuple[float, float]] | None = None
 
     def connect(self) -> None:
-        """See CarLink."""
         self._is_active = True
         self._phone.connect()
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
-        """See CarLink."""
         if not self._is_active:
             return []
         if status.robot_session_id != self._robot_session_id or status.stamp_s < self._stamp_s:
@@ -252,30 +251,24 @@ class SimulatedCarLink(CarLink):
 
     @property
     def lock_state(self) -> LockState:
-        """See CarLink."""
         return self._state if self._is_active else LockState.UNKNOWN
 
     @property
     def handle(self) -> HandlePort | None:
-        """See CarLink."""
         return self._handle
 
     @property
     def extender(self) -> ExtenderPort | None:
-        """See CarLink."""
         return self._extender
 
     @property
     def distance_feed(self) -> DistanceFeed | None:
-        """See CarLink."""
         return self._phone
 
     @property
     def problem(self) -> str:
-        """See CarLink."""
         return "" if self._is_active else "The Car's substitute is not connected."
 
     def close(self) -> None:
-        """See CarLink."""
         self._is_active = False
         self._phone.close()

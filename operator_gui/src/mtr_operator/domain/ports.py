@@ -11,19 +11,12 @@ from __future__ import annotations
 
 import enum
 import math
-import pathlib
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Mapping, Sequence
 
 from .requests import DesiredState
 from .results.refused import Refused
 from .robot_status import RobotStatus
-
-if TYPE_CHECKING:
-    from .assistance import ExtenderPort, HandlePort
-    from .distance_feed import DistanceFeed
-    from .supervision.car_signals import CarSignals
 
 
 class LockState(enum.Enum):
@@ -210,7 +203,8 @@ class RobotLink(ABC):
 
 
 class CarLink(ABC):
-    """Connection to the Car's CAN bus (or its substitute)."""
+    """Connection to the Car's locks by its CAN bus (or its substitute); interfaces.car_bus has what else a link may
+    offer."""
 
     @abstractmethod
     def connect(self) -> None:
@@ -233,68 +227,6 @@ class CarLink(ABC):
     def facts(self) -> LockFacts:
         """What is known of this car beforehand."""
         return LockFacts()
-
-    @property
-    def signals(self) -> CarSignals:
-        """Signals of ignition, gear, speed and doors that this Car's profile names; empty when it names none."""
-        return ()
-
-    @property
-    def handle(self) -> HandlePort | None:
-        """The output that takes this car's handle; None when it has none, and a person has to do it."""
-        return None
-
-    @property
-    def extender(self) -> ExtenderPort | None:
-        """The output that switches the extender; None when there is none, and a person has to do it."""
-        return None
-
-    @property
-    def distance_feed(self) -> DistanceFeed | None:
-        """What tells the distance of a phone on this Car's bus, or where its profile says; None without one. It is
-        connected, and closed, with this link."""
-        return None
-
-    @property
-    def traffic(self) -> BusTraffic | None:
-        """What comes over the bus; None where there is none to ask."""
-        return None
-
-    @property
-    def record(self) -> Mapping[str, str]:
-        """How the Car is watched, for the record of a test: names and texts."""
-        return {}
-
-    @property
-    def notices(self) -> Sequence[str]:
-        """Sentences that the Operator has to know before a test, from connect() on."""
-        return ()
-
-    def log_to(self, path: pathlib.Path | None) -> None:  # noqa: B027, a substitute has no bus
-        """Log the whole bus into this file from now on, of the kind that its name ends in; None ends the log.
-
-        OutputError when it cannot be begun. Nothing happens where there is no bus.
-        """
-
-    @property
-    def log_problem(self) -> str:
-        """Why the log ended before it was to; empty while it goes on, and without one."""
-        return ""
-
-    @property
-    def mark(self) -> BusMark | None:
-        """How far the log has come with the newest Status; None without a log."""
-        return None
-
-    @property
-    def messages(self) -> BusMessages | None:
-        """Each message of the bus; None where there is no bus to ask. May be asked from any thread."""
-        return None
-
-    @property
-    def refused(self) -> Refused:
-        """Frames of the Car's lock message that are not to be believed, since the start."""
-        return Refused()
 
     @property
     @abstractmethod

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Union
 
 from mtr_operator.domain.eventlog.entry import EventEntry
+from mtr_operator.domain.interfaces.car_bus import BusMonitor
+from mtr_operator.domain.interfaces.part import part
 from mtr_operator.domain.ports import BusTraffic, CarLink, LockFacts, LockState
 from mtr_operator.domain.requests import Waypoint
 from mtr_operator.domain.results.line_result import LineResult
@@ -46,7 +48,7 @@ class RobotSnapshot:
 
 def known_facts(car: CarLink) -> LockFacts | None:
     """What the profile of the Car behind a link tells; None where there is no bus."""
-    return None if car.traffic is None else car.facts
+    return None if part(car, BusMonitor).traffic is None else car.facts
 
 
 @dataclass(frozen=True)

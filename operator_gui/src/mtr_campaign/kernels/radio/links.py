@@ -6,6 +6,7 @@ import math
 from collections import deque
 
 from mtr_operator.domain.assistance import OUTPUT, HandlePort
+from mtr_operator.domain.interfaces.car_bus import CarEquipment
 from mtr_operator.domain.ports import CarEvent, CarLink, LinkStatistics, LockFacts, LockState, RobotLink
 from mtr_operator.domain.requests import DesiredState
 from mtr_operator.domain.robot_status import RobotStatus
@@ -69,7 +70,7 @@ class RadioHandle(HandlePort):
         self._is_taken = False
 
 
-class RadioCarLink(CarLink):
+class RadioCarLink(CarLink, CarEquipment):
     """Car link with events as in the lock message: timed in the middle between the frames around a change.
 
     clock_s: delay added to the event times.
@@ -85,7 +86,7 @@ class RadioCarLink(CarLink):
         self._told: deque[CarEvent] = deque()
 
     def connect(self) -> None:
-        """See CarLink."""
+        pass
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
         """See CarLink; events with a future time are held back until then."""
@@ -110,23 +111,19 @@ class RadioCarLink(CarLink):
 
     @property
     def lock_state(self) -> LockState:
-        """See CarLink."""
         return self._state
 
     @property
     def facts(self) -> LockFacts:
-        """See CarLink."""
         return self._facts
 
     @property
     def handle(self) -> HandlePort | None:
-        """See CarLink."""
         return self._handle
 
     @property
     def problem(self) -> str:
-        """See CarLink."""
         return ""
 
     def close(self) -> None:
-        """See CarLink."""
+        pass

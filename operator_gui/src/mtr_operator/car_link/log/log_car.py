@@ -7,6 +7,7 @@ import pathlib
 from typing import Iterator, Mapping, Sequence
 
 from mtr_operator.domain.errors import ConnectionFailed
+from mtr_operator.domain.interfaces.car_bus import BusMonitor
 from mtr_operator.domain.ports import CarEvent, CarLink, LockFacts, LockState
 from mtr_operator.domain.results.refused import Refused
 from mtr_operator.domain.results.session_record import CAN_ADAPTER
@@ -40,7 +41,7 @@ def played_frame(frame: LoggedFrame, begin_s: float, bus: str) -> CanFrame:
                     is_fd=frame.is_fd, bus=bus)
 
 
-class LogCarLink(CarLink):
+class LogCarLink(CarLink, BusMonitor):
     """path: a log of any kind, see read_log. profile: see CanCarLink.
 
     What the Car does is that of the log, whatever the robot does: the log's first frame is at the first Status.
@@ -69,7 +70,6 @@ class LogCarLink(CarLink):
         self._noted, self._noted_until_s = self._log.newest, -math.inf
 
     def observe(self, status: RobotStatus) -> list[CarEvent]:
-        """See CarLink."""
         watch, buses = self._watch, self._buses
         if watch is None or buses is None:
             raise ConnectionFailed(_NOT_CONNECTED)
@@ -92,39 +92,33 @@ class LogCarLink(CarLink):
 
     @property
     def lock_state(self) -> LockState:
-        """See CarLink."""
         return LockState.UNKNOWN if self._watch is None else self._watch.lock_state
 
     @property
     def facts(self) -> LockFacts:
-        """See CarLink."""
         return LockFacts() if self._profile is None else self._profile.facts
 
     @property
     def signals(self) -> CarSignals:
-        """See CarLink."""
         return () if self._watch is None else self._watch.signals
 
     @property
     def notices(self) -> Sequence[str]:
-        """See CarLink: what is wrong with the log, as far as it has been read."""
+        """See BusMonitor: what is wrong with the log, as far as it has been read."""
         notice = "" if self._log is None else self._log.notice
         watched = () if self._watch is None else self._watch.notices
         return (*((notice,) if notice else ()), *watched)
 
     @property
     def refused(self) -> Refused:
-        """See CarLink."""
         return Refused() if self._watch is None else self._watch.refused
 
     @property
     def record(self) -> Mapping[str, str]:
-        """See CarLink."""
         return {CAN_ADAPTER: _PLAYED.format(self._path.name)}
 
     @property
     def problem(self) -> str:
-        """See CarLink."""
         if self._watch is None or self._log is None:
             return _NOT_CONNECTED
         if self._next is None and self._watch.problem:
@@ -134,5 +128,4 @@ class LogCarLink(CarLink):
         return self._watch.problem
 
     def close(self) -> None:
-        """See CarLink."""
         self._frames, self._next, self._watch = iter(()), None, None

@@ -8,6 +8,8 @@ from typing import Iterator, Mapping, Sequence
 
 from ..distance_feed import Reported
 from ..errors import ConnectionFailed, LinkLost, RobotFailed
+from ..interfaces.car_bus import BusMonitor
+from ..interfaces.part import part
 from ..ports import CarEvent, LockFacts, LockState
 from ..results.session_record import PHONE_FEED
 from ..robot_status import CarDimensions
@@ -139,13 +141,13 @@ class Car:
     @property
     def notices(self) -> Sequence[str]:
         """What the Operator has to know of its bus before a test."""
-        return self._loop.car_link.notices
+        return part(self._loop.car_link, BusMonitor).notices
 
     @property
     def record(self) -> Mapping[str, str]:
         """How it is watched, for the record of the test."""
         feed = self._loop.distance_feed
-        return {**self._loop.car_link.record, **({} if feed is None else {PHONE_FEED: feed.name})}
+        return {**part(self._loop.car_link, BusMonitor).record, **({} if feed is None else {PHONE_FEED: feed.name})}
 
     def dimensions(self) -> CarDimensions:
         """Length and width as the robot measured them; Robot.prepare has waited for them."""

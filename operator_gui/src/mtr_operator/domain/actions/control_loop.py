@@ -19,6 +19,8 @@ from ..clocks.waiting_time import WaitingTime
 from ..distance_feed import DistanceFeed, Reported
 from ..errors import CarActive, LinkLost, RobotFailed, StoodStill
 from ..eventlog.event_log import EventLog
+from ..interfaces.car_bus import BusMonitor, BusRecorder, CarEquipment
+from ..interfaces.part import part
 from ..kept_orders import KeptOrders, is_kept
 from ..ports import CarEvent, CarLink, RobotLink
 from ..requests import DesiredState
@@ -105,7 +107,8 @@ class ControlLoop:
         self.supervision = Supervision()
         self.observer = observer or RunObserver()
         self._robot_link = robot_link
-        self._car_link = car_link
+        self._car_link, self._bus, self._equipment = car_link, part(car_link, BusMonitor), part(car_link, CarEquipment)
+        self._log = part(car_link, BusRecorder)
         self._is_cancelled = is_cancelled
         self._resumed_hold = resumed_hold
         self._status: RobotStatus | None = None
@@ -144,17 +147,17 @@ class ControlLoop:
     @property
     def handle(self) -> HandlePort | None:
         """What takes the Car's handle: an output before a person; None when neither is there."""
-        return self._car_link.handle or self.person
+        return self._equipment.handle or self.person
 
     @property
     def extender(self) -> ExtenderPort | None:
         """What switches the extender: an output before a person; None when neither is there."""
-        return self._car_link.extender or self.switcher
+        return self._equipment.extender or self.switcher
 
     @property
     def distance_feed(self) -> DistanceFeed | None:
         """What tells the distance of a phone; None when nothing does."""
-        return self.phone or self._car_link.distance_feed
+        return self.phone or self._equipment.distance_feed
 
     def change(self, **changes: Any) -> None:
         """Change the desired state; it leaves with the next answer."""
@@ -253,14 +256,15 @@ class ControlLoop:
         self._status = status
         self.car_dimensions = status.car or self.car_dimensions
         events = self._car_link.observe(status)
+        self.observer.on_car(status, events, self._car_link.lock_state)
         feed = self.distance_feed
         if feed is not None:
             self.reported = (self.reported + feed.observe(status))[-_KEPT_REPORTS:]
         self._look_at_signals(status)
-        self.course.status(status, self._car_link.mark)
+        self.course.status(status, self._log.mark)
         self.event_log.learn(status, events, self._car_link.problem)
         self._learn_events(events)
-        self.refusals.look(status, self._robot_link.statistics, self._car_link.refused,
+        self.refusals.look(status, self._robot_link.statistics, self._bus.refused,
                            NOTHING if feed is None else feed.refused)
         self.observer.on_status(status)
         if restarted:
@@ -272,7 +276,7 @@ class ControlLoop:
 
     def _look_at_signals(self, status: RobotStatus) -> None:
         """A stop by a signal of the Car leaves at once, before anything is written."""
-        if self.car_guard.learn(self._car_link.signals, status.stamp_s):
+        if self.car_guard.learn(self._bus.signals, status.stamp_s):
             self._robot_link.send(self._answer())
 
     def _answer(self) -> DesiredState:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-from typing import Iterator
+from typing import Iterator, Sequence
 
 from ..errors import OperatorError
 from ..eventlog.entry import ERROR, INFO, WARNING, EventKind
 from ..eventlog.event_log import EventLog
+from ..ports import CarEvent, LockState
 from ..results.line_result import LineResult
 from ..robot_status import RobotStatus
 from .observer import RunObserver
@@ -29,6 +30,10 @@ class EventObserver(RunObserver):
     def on_status(self, status: RobotStatus) -> None:
         """See RunObserver."""
         self._observer.on_status(status)
+
+    def on_car(self, status: RobotStatus, events: Sequence[CarEvent], lock_state: LockState) -> None:
+        """See RunObserver."""
+        self._observer.on_car(status, events, lock_state)
 
     def on_plan(self, done: int, total: int) -> None:
         """See RunObserver."""

@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from typing import Sequence
+
+from ..ports import CarEvent, LockState
 from ..results.line_result import LineResult
 from ..robot_status import RobotStatus
 
@@ -11,6 +14,9 @@ class RunObserver:
 
     def on_status(self, status: RobotStatus) -> None:
         """A Status arrived."""
+
+    def on_car(self, status: RobotStatus, events: Sequence[CarEvent], lock_state: LockState) -> None:
+        """The Car was observed up to this Status: changes of its locks, and their state."""
 
     def on_plan(self, done: int, total: int) -> None:
         """The lines are known: so many of them are measured already."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from ..actions.control_loop import ControlLoop
 from ..battery.levels import is_critical
 from ..errors import CarActive, RobotFailed
+from ..interfaces.car_bus import BusMonitor
+from ..interfaces.part import part
 from ..robot_status import DISK_FULL_CODE, NO_STOP_CODE, SHEET_CONTRADICTED_CODE, RobotStatus
 from .preflight_rule import preflight_hindrance
 
@@ -38,7 +40,7 @@ def _require_preflight(loop: ControlLoop) -> None:
 
 
 def _refuse_active_car(loop: ControlLoop) -> None:
-    active = loop.car_guard.begin(loop.car_link.signals)
+    active = loop.car_guard.begin(part(loop.car_link, BusMonitor).signals)
     if active:
         raise CarActive(f"The test does not begin. {active}")
 

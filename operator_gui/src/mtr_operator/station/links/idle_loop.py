@@ -9,10 +9,13 @@ from typing import Callable
 
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.interfaces.car_bus import BusMonitor
+from mtr_operator.domain.interfaces.part import part
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.requests import AreaOrder, DesiredState, Press
 from mtr_operator.domain.robot_status import RobotStatus
 
+from ..bus.time_line import TimeLine
 from ..events import RobotSnapshot, known_facts
 from .watched_link import WatchedRobotLink
 
@@ -51,10 +54,10 @@ class IdleLoop:
     """
 
     def __init__(self, robot: WatchedRobotLink, car: CarLink, resumed_hold: Callable[[int], int] = lambda _: 0,
-                 event_log: EventLog | None = None, *, claims: bool = False,
+                 event_log: EventLog | None = None, time_line: TimeLine | None = None, *, claims: bool = False,
                  clock: Callable[[], float] = time.monotonic):
         self._robot = robot
-        self._event_log = event_log or EventLog()
+        self._event_log, self._time_line = event_log or EventLog(), time_line or TimeLine()
         self._resumed_hold = resumed_hold
         self._car = car
         self._desired = DesiredState()
@@ -120,7 +123,9 @@ class IdleLoop:
                 self._answer()
             return None
         self._has_status, self.silent_s = True, 0.0
-        self._event_log.learn(status, self._car.observe(status), self._car.problem)
+        events, bus = self._car.observe(status), part(self._car, BusMonitor)
+        self._time_line.learn(status, events, self._car.lock_state)
+        self._event_log.learn(status, events, self._car.problem)
         self._forget_done_press(status)
         self._release_hold(status)
         self._forget_service(status)
@@ -129,8 +134,8 @@ class IdleLoop:
         if self._clock() - self._attended_s >= ABANDONED_S:
             status = replace(status, controlled_by_other=False)
         return RobotSnapshot(status, self._car.lock_state, self._car.problem, None, self._robot.is_secret,
-                             self._car.traffic, known_facts(self._car), self._robot.is_exposed,
-                             signals=tuple(self._car.signals))
+                             bus.traffic, known_facts(self._car), self._robot.is_exposed,
+                             signals=tuple(bus.signals))
 
     def _claim(self) -> None:
         self.claims, self._free_s = True, self._clock()

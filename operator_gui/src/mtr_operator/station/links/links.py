@@ -11,7 +11,6 @@ from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.ports import CarLink
 
 from ..bus.time_line import TimeLine
-from ..bus.watched_car import WatchedCarLink
 from ..connection import CanChoice, Connection, LinkOpener
 from ..events import LinkRefused
 from .idle_loop import IdleLoop
@@ -38,7 +37,7 @@ class Links:
         """Open both; what refuses."""
         part = "car"
         try:
-            self.car = self._watched(self._connection.can)
+            self.car = self._opener.car(self._connection.can)
             part = "robot"
             self._robot = self.new_robot()
             self._robot.connect()
@@ -52,7 +51,7 @@ class Links:
         except Exception as error:
             logging.exception("The links were not opened because of a defect.")
             return LinkRefused(part, f"The application has a defect: {type(error).__name__}: {error}")
-        self.idle = IdleLoop(self._robot, self.car, self._released, self._event_log)
+        self.idle = IdleLoop(self._robot, self.car, self._released, self._event_log, self.time_line)
         return None
 
     def new_robot(self) -> WatchedRobotLink:
@@ -64,7 +63,7 @@ class Links:
         robot = self.new_robot()
         robot.connect()
         self._robot = robot
-        self.idle = IdleLoop(robot, self.car, self._released, self._event_log, claims=self.has_paused)
+        self.idle = IdleLoop(robot, self.car, self._released, self._event_log, self.time_line, claims=self.has_paused)
 
     def change_car(self, choice: CanChoice | None) -> LinkRefused | None:
         """Use another adapter for the Car; what refuses, and there is no Car then."""
@@ -73,7 +72,7 @@ class Links:
         self.car = self._opener.car(None)
         refused = None
         try:
-            car = self._watched(choice)
+            car = self._opener.car(choice)
             car.connect()
             self.car = car
         except OperatorError as error:
@@ -92,9 +91,6 @@ class Links:
         """Close both."""
         self.close_robot()
         self.car.close()
-
-    def _watched(self, choice: CanChoice | None) -> CarLink:
-        return WatchedCarLink(self._opener.car(choice), self.time_line)
 
 
 def _bus_of(error: OperatorError) -> str:

@@ -23,6 +23,7 @@ from mtr_operator.storage.journal.beside import JournalBeside
 from mtr_operator.storage.recorded.recording import Recording
 from mtr_operator.storage.store import Store
 
+from ..bus.time_line import TimeLine
 from ..events import Outcome, RunEnded
 from ..mailbox import Mailbox
 from ..test import Test
@@ -53,8 +54,8 @@ class MeasurementRun:
 
     def __init__(self, test: Test, new_robot: Callable[[], WatchedRobotLink], car: CarLink, mailbox: Mailbox,
                  answers: Answers = NO_ANSWERS, *, event_log: EventLog | None = None,
-                 standstill: Standstill | None = None):
-        """standstill: notices that the laptop slept; None for the loop's own."""
+                 standstill: Standstill | None = None, time_line: TimeLine | None = None):
+        """standstill: notices that the laptop slept; None for the loop's own. time_line: what the Car's locks did."""
         self._test = test
         self._new_robot = new_robot
         self._car = car
@@ -62,6 +63,7 @@ class MeasurementRun:
         self._answers = answers
         self._event_log = event_log or EventLog()
         self._standstill = standstill
+        self._time_line = time_line or TimeLine()
 
     def run(self, is_cancelled: Callable[[], bool], after_status: Callable[[], None]) -> RunEnded:
         """Measure; never raises, for what is measured has to be reported in any case."""
@@ -101,7 +103,8 @@ class MeasurementRun:
         recording = Recording(test.path)
         with contextlib.closing(self._new_robot()) as robot:
             robot.connect()
-            reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status)
+            reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status,
+                                time_line=self._time_line)
             observer = EventObserver(reporter, self._event_log, test.scenario.line_word)
             loop = ControlLoop(robot, self._car, observer, is_cancelled, self._answers.resumed_hold)
             loop.person, loop.switcher = self._answers.person, self._answers.switcher

@@ -16,6 +16,8 @@ from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
 from mtr_operator.domain.eventlog.event_log import EventLog
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.interfaces.car_bus import BusMonitor
+from mtr_operator.domain.interfaces.part import part
 from mtr_operator.domain.results.session_record import now
 from mtr_operator.domain.supervision.presence import Presence, PresenceParameters
 from mtr_operator.domain.supervision.supervision import Supervision
@@ -169,7 +171,8 @@ class Worker:
     def bus_view(self) -> BusView:
         """What comes over the Car's bus now, and what its locks did."""
         car = self._links.car
-        return BusView(car.messages, car.traffic, car.problem, *self._links.time_line.recent())
+        bus = part(car, BusMonitor)
+        return BusView(bus.messages, bus.traffic, car.problem, *self._links.time_line.recent())
 
     def use_can(self, choice: CanChoice | None) -> None:
         """Change the CAN adapter; CarLinkOpened or Refused comes into the mailbox."""
@@ -279,7 +282,8 @@ class Worker:
         answers = Answers(self._released, self._person, self._person, self._skipping,
                           Supervision(self._presence, confirmed=confirmed))
         run = MeasurementRun(test, self._links.new_robot, self._links.car, self._mailbox, answers,
-                             event_log=self._event_log, standstill=self._new_standstill())
+                             event_log=self._event_log, standstill=self._new_standstill(),
+                             time_line=self._links.time_line)
         ended = run.run(lambda: self._is_stopped(unattended), self._run_short_requests)
         self._presence.end()
         self._links.has_paused = ended.outcome is not Outcome.COMPLETE

@@ -9,6 +9,8 @@ from typing import Iterator, NamedTuple
 
 from mtr_operator.domain.errors import OutputError
 from mtr_operator.domain.eventlog.entry import EventEntry
+from mtr_operator.domain.interfaces.car_bus import BusRecorder
+from mtr_operator.domain.interfaces.part import part
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.course import Course
 
@@ -53,7 +55,7 @@ class Recording:
     def __init__(self, path: pathlib.Path, log_format: str = DEFAULT_FORMAT):
         self._path, self._folder = path, recording_folder(path)
         self._format = log_format
-        self._car: CarLink | None = None
+        self._bus: BusRecorder | None = None
         self._course: CourseFile | None = None
         self._scans: ScanFile | None = None
         self._events: EventFile | None = None
@@ -73,9 +75,9 @@ class Recording:
         self._events = EventFile(self._folder / f"{_EVENTS}_{number:03d}.csv")
         if self._format != NO_LOG:
             log = self._folder / f"{_BUS}_{number:03d}.{self._format}"
-            car.log_to(log)
+            part(car, BusRecorder).log_to(log)
             self._made.append(log)
-        self._car = car
+        self._bus = part(car, BusRecorder)
         self._made += [self._course.path, self._scans.path, self._events.path]
         return self._scans
 
@@ -91,14 +93,14 @@ class Recording:
 
     def end(self) -> Iterator[str]:
         """End it; sentences on what is missing."""
-        if self._car is not None:
-            yield self._car.log_problem
-            self._car.log_to(None)
+        if self._bus is not None:
+            yield self._bus.log_problem
+            self._bus.log_to(None)
         for file in (self._course, self._scans, self._events):
             if file is not None:
                 file.close()
                 yield file.problem
-        self._car = self._course = self._scans = self._events = None
+        self._bus = self._course = self._scans = self._events = None
 
     def discard(self) -> None:
         """Of a run of a test that has measured nothing."""

@@ -167,10 +167,9 @@ class WorldCar(CarLink):
         self._facts = profile.facts
 
     def connect(self) -> None:
-        """See CarLink."""
+        pass
 
     def observe(self, status: RobotStatus) -> List[CarEvent]:
-        """See CarLink."""
         watch, now_s = self._watch, self._robot_link.arrival_s
         self._feed(now_s)
         watch.status(status, now_s)
@@ -182,21 +181,18 @@ class WorldCar(CarLink):
 
     @property
     def facts(self) -> LockFacts:
-        """See CarLink."""
         return self._facts
 
     @property
     def lock_state(self) -> LockState:
-        """See CarLink."""
         return self._watch.lock_state
 
     @property
     def problem(self) -> str:
-        """See CarLink."""
         return self._watch.problem
 
     def close(self) -> None:
-        """See CarLink."""
+        pass
 
     def _feed(self, until_s: float) -> None:
         for frame in self._world.frames_until(until_s):
