@@ -6,9 +6,21 @@ import inspect
 from project import TOP, tracked
 
 from mtr_operator.domain.interfaces.car_bus import BusMonitor, BusRecorder, CarEquipment
+from mtr_operator.domain.interfaces.scenario_parts import (
+    Concluding,
+    Forecasting,
+    FurtherAttempts,
+    Judging,
+    Resuming,
+    StartChecks,
+)
 from mtr_operator.domain.ports import CarLink
+from mtr_operator.domain.scenario import Scenario
+from mtr_operator.domain.scenarios import SCENARIOS
 
 CAR_LINK_PARTS = {part.__name__: part for part in (BusMonitor, BusRecorder, CarEquipment)}
+
+SCENARIO_PARTS = (Concluding, Forecasting, FurtherAttempts, Judging, Resuming, StartChecks)
 
 
 def members(interface):
@@ -24,6 +36,21 @@ def test_parts_of_a_car_link_are_narrow_and_distinct():
     sets = [members(part) for part in (CarLink, *CAR_LINK_PARTS.values())]
     assert max(map(len, sets)) <= 6
     assert len(set.union(*sets)) == sum(map(len, sets))
+
+
+def test_scenario_requires_lines_and_measure_alone():
+    assert Scenario.__abstractmethods__ == {"lines", "measure"}
+    assert {name for name in members(Scenario) if callable(vars(Scenario)[name])} == {"lines", "measure", "picture"}
+
+
+def test_parts_of_a_scenario_are_narrow_distinct_and_declared():
+    sets = [members(part) for part in (Scenario, *SCENARIO_PARTS)]
+    assert max(map(len, sets[1:])) <= 4
+    assert len(set.union(*sets)) == sum(map(len, sets))
+    for scenario in SCENARIOS.values():
+        offered = members(type(scenario)) - members(Scenario)
+        assert [part for part in SCENARIO_PARTS if offered & members(part) and not isinstance(scenario, part)] == []
+        assert [part for part in SCENARIO_PARTS if isinstance(scenario, part) and not offered & members(part)] == []
 
 
 def classes():

@@ -9,6 +9,8 @@ from typing import get_args
 
 import pytest
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Judging
 from mtr_operator.domain.results.document import kinds_of
 from mtr_operator.domain.results.line_result import LineStatus, MeasuredDistance
 from mtr_operator.domain.results.progress import Progress
@@ -106,7 +108,7 @@ def test_table_window_pdf_and_file_agree_on_each_line(name, known):
     prefixes = ("",) if "result_m" in row else tuple(f"{word}_" for word in words)
     assert len(prefixes) == len(words)
     shown = [tuple(number(row[f"{prefix}{end}_m"]) for end in ("result", "low", "high")) for prefix in prefixes]
-    assert shown == [bounded(scenario.unreached(parameters, result, word), known) for word in words]
+    assert shown == [bounded(part(scenario, Judging).unreached(parameters, result, word), known) for word in words]
     # Nothing that a reader takes for the result is left of it.
     names = list(row)
     first = names.index(f"{prefixes[0]}result_m")

@@ -23,11 +23,9 @@ class Seen(RunObserver):
         self.plan, self.done = None, []
 
     def on_plan(self, done, total):
-        """See RunObserver."""
         self.plan = (done, total)
 
     def on_result(self, result, done, total):
-        """See RunObserver."""
         self.done.append((result.number, done))
 
 

@@ -31,18 +31,15 @@ class Skips(RunObserver):
         self._lines, self._after, self._action, self._count = list(lines), after, said, 0
 
     def on_line(self, number):
-        """See RunObserver."""
         self.begun.append(number)
         self._count = 0
 
     def on_status(self, status):
-        """See RunObserver."""
         self._count += 1
         if self._count == self._after and not self._action:
             self._skip()
 
     def on_action(self, text):
-        """See RunObserver."""
         self.said.append(text)
         if self._action and text.startswith(self._action):
             self._skip()

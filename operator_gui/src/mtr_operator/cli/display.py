@@ -47,7 +47,6 @@ class Display(RunObserver):
             self._bar = None
 
     def on_plan(self, done: int, total: int) -> None:
-        """See RunObserver."""
         self.say(f"{total - done} of {total} lines to measure")
         if self.forecast is not None:
             self.forecast.on_plan(done)
@@ -56,14 +55,12 @@ class Display(RunObserver):
                                   dynamic_ncols=True, bar_format=_BAR)
 
     def on_action(self, text: str) -> None:
-        """See RunObserver."""
         if self._bar is not None:
             self._bar.set_postfix_str(text)
         else:
             self.say(text)
 
     def on_result(self, result: LineResult, done: int, total: int) -> None:
-        """See RunObserver."""
         if self._scenario is not None:
             self.say(f"[{done}/{total}] {line_text(self._scenario, result, self._parameters)}")
         expected = "" if self.forecast is None else self.forecast.after_line(done)
@@ -73,7 +70,6 @@ class Display(RunObserver):
             self._bar.update(done - self._bar.n)
 
     def on_status(self, status: RobotStatus) -> None:
-        """See RunObserver."""
         if self.forecast is not None:
             self.forecast.on_status(status)
         if status.robot_session_id != self._robot_session_id:
@@ -89,7 +85,6 @@ class Display(RunObserver):
             self._notify(status)
 
     def on_link_silent(self, silent_s: float) -> None:
-        """See RunObserver."""
         if not self._silence_shown_s or silent_s - self._silence_shown_s >= _SILENCE_REPEATED_S:
             self._silence_shown_s = silent_s
             self.say(f"no answer from the robot for {silent_s:.0f} s, still trying")

@@ -7,6 +7,8 @@ import math
 from typing import Iterator
 
 from mtr_operator.domain.errors import InvalidParameter
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Forecasting
 from mtr_operator.domain.ports import LockFacts
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import RobotStatus
@@ -85,7 +87,7 @@ class RunForecast:
         return f"expected: about {duration_text(left_s)} left; {self._lines_text()}" if left_s else ""
 
     def _lines_text(self) -> str:
-        forecast = self._scenario.forecast(self._parameters, self._facts, self._progress.results)
+        forecast = part(self._scenario, Forecasting).forecast(self._parameters, self._facts, self._progress.results)
         return "nobody knows how many attempts" if forecast is None else forecast.text
 
 

@@ -11,6 +11,8 @@ from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.ports import RobotLink
 from mtr_operator.domain.results.document import shown_text
 from mtr_operator.domain.results.progress import Progress
@@ -190,7 +192,7 @@ class CommandLineRun:
         summaries = side_summaries(self._scenario, self._parameters, self._progress, judgement)
         for line in side_table(summaries, judgement is not None):
             show(line)
-        for name, text in self._scenario.summary(results):
+        for name, text in part(self._scenario, Concluding).summary(results):
             show(f"{name}: {text}")
         for line in verdict_lines(self._scenario, results, assessment.judgement):
             show(line)

@@ -13,6 +13,8 @@ from .actions.robot import Robot
 from .battery.retreat import Retreat
 from .clocks.clock_offset import offset_sentence
 from .errors import BatteryCritical, OperatorError, OutputError, ProgressFileError, RobotFailed
+from .interfaces.part import part
+from .interfaces.scenario_parts import Concluding, FurtherAttempts, Resuming, StartChecks
 from .results.course import CourseJournal
 from .results.frame_record import check_entry
 from .results.journal import (
@@ -100,8 +102,9 @@ class Runner:
             self._notebook.add(SESSION, {RECOVERED: self._progress.notice})
         # Before the robot moves, for mapping too.
         notices = tuple(self._car.notices)
-        self._scenario.check_means(self._car)
-        self._warn(*notices, *self._scenario.cautions(parameters, self._car.facts))
+        checks = part(self._scenario, StartChecks)
+        checks.check_means(self._car)
+        self._warn(*notices, *checks.cautions(parameters, self._car.facts))
         released = admit(self._loop, self._progress.identity)
         prepare(self._loop, self._robot, self._car, parameters.key_height_m, parameters.maximum_speed_mps)
         self._retreat.begin()
@@ -148,7 +151,7 @@ class Runner:
 
     def _conclude(self) -> None:
         """The robot stands: what takes long may."""
-        revised = self._scenario.concluded(self._parameters, self._progress.results)
+        revised = part(self._scenario, Concluding).concluded(self._parameters, self._progress.results)
         widened = widened_text(self._scenario.line_word, self._progress.results, revised)
         if widened:
             self._warn(widened)
@@ -186,7 +189,7 @@ class Runner:
         return lines
 
     def _check_nearness(self, lines: Sequence[Line]) -> None:
-        nearest_m, _ = self._scenario.distance_range(self._parameters)
+        nearest_m, _ = self._parameters.distance_range_m
         nearness = nearness_of([line.ray for line in lines], nearest_m, self._progress.measured_car)
         if nearness is not None:
             raise RobotFailed(f"The test does not begin. {nearness.sentence}")
@@ -208,7 +211,7 @@ class Runner:
             return None
         self._robot.take_up(progress.points)
         try:
-            if not self._scenario.can_go_on(line, self._parameters, self._robot, self._car):
+            if not part(self._scenario, Resuming).can_go_on(line, self._parameters, self._robot, self._car):
                 self._notebook.add(SUPERSEDED, {"line": line.number})
                 return None
             self._notebook.add(LINE_RESUMED, {"line": line.number})
@@ -267,7 +270,8 @@ class Runner:
         self._notebook.add(FURTHER, {"line": line.number})
         so_far = next(result for result in self._progress.results if result.number == line.number)
         with self._at_hand(line):
-            result = self._scenario.measure_further(line, self._parameters, self._robot, self._car, so_far)
+            result = part(self._scenario, FurtherAttempts).measure_further(line, self._parameters, self._robot,
+                                                                           self._car, so_far)
         if result is None or not self._is_in_its_frame(line):
             return False
         self._keep_line(result if result.invalid_count else self._looking.next(so_far, result))

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from typing import Any, Generator, Generic, Protocol, Sequence, TypeVar
+from typing import Any, Generic, Protocol, Sequence, TypeVar
 
 from .actions.car import Car
 from .actions.robot import Robot
 from .actions.tolerances import Tolerances
-from .forecast import Forecast
 from .geometry.ray import Ray
-from .ports import LockFacts
 from .results.line_result import LineResult
-from .results.picture import Picture
-from .results.quantity import Quantity
+from .results.picture import Picture, PointRole, PointSet, Stretch
 from .robot_status import CarDimensions
 
 
@@ -24,6 +21,11 @@ class ScenarioParameters(Tolerances):
     maximum_distance_m: float
     key_height_m: float
     maximum_speed_mps: float
+
+    @property
+    def distance_range_m(self) -> tuple[float, float]:
+        """Nearest and farthest distance of the Remote key on each line."""
+        return self.minimum_distance_m, self.maximum_distance_m
 
 
 class Line(Protocol):
@@ -45,6 +47,8 @@ Result = TypeVar("Result", bound=LineResult)
 
 class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     """One kind of test. Stateless: everything it needs is handed in.
+
+    A scenario runs with `lines` and `measure` alone; interfaces.scenario_parts has what else it may offer.
 
     Attributes:
         name: in files and on the command line.
@@ -74,77 +78,17 @@ class Scenario(ABC, Generic[Parameters, AnyLine, Result]):
     def measure(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> Result:
         """Measure one line. A line that cannot be measured has the status invalid and a reason."""
 
-    def concluded(self, parameters: Parameters, results: Sequence[Result]) -> Sequence[Result]:
-        """Those results that read otherwise now that all lines are measured, for what lines have in common; none by
-        default. The same results give the same answer."""
-        return ()
-
-    def check_means(self, car: Car) -> None:
-        """Raise an OperatorError, before the robot moves, when something is missing that only this scenario needs."""
-
-    def measure_further(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car,
-                        so_far: Result) -> Result | None:
-        """Make the interval of a measured line narrower by more attempts; None when more would not make it so."""
-        return None
-
-    def share_of_most(self, parameters: Parameters, result: Result) -> float | None:
-        """Of the most attempts that measure_further allows a line, those that its result rests on; None where it is
-        not measured further, the default."""
-        return None
-
-    def looked(self, parameters: Parameters, results: Sequence[Result], number: int) -> Generator[None, None, Result]:
-        """The result of a line whose looks have changed, with its intervals at the level of the last one. A part of
-        the work with each step, for the robot waits for no long one."""
-        yield from ()
-        return next(result for result in results if result.number == number)
-
-    def cautions(self, parameters: Parameters, facts: LockFacts) -> Sequence[str]:
-        """Sentences, before the start, on what these parameters cannot give on a Car with these facts; none by
-        default."""
-        return ()
-
-    def can_go_on(self, line: AnyLine, parameters: Parameters, robot: Robot, car: Car) -> bool:
-        """True when measure can finish a line from where the robot stands, with what Robot.kept has of it."""
-        return False
-
-    def summary(self, results: Sequence[Result]) -> Sequence[tuple[str, str]]:
-        """What all lines together say, a name and a text each, for report and window; nothing by default."""
-        return ()
-
-    @abstractmethod
     def picture(self, parameters: Parameters, car: CarDimensions, results: Sequence[Result]) -> Picture:
-        """What the protocol shows."""
-
-    def distance_range(self, parameters: Parameters) -> tuple[float, float]:
-        """Nearest and farthest distance of the Remote key on each line, in m, for a preview before the test."""
-        return parameters.minimum_distance_m, parameters.maximum_distance_m
-
-    def judged_shares(self, parameters: Parameters) -> tuple[int, ...]:
-        """Shares of attempts, in percent, for whose distances the results have 95 % intervals; a limits file may ask
-        for them."""
-        return ()
-
-    def judged_quantities(self, parameters: Parameters) -> tuple[Quantity, ...]:
-        """What else a limits file may ask for, beside distances."""
-        return ()
-
-    def unreached(self, parameters: Parameters, result: Result, word: str) -> tuple[float | None, float | None]:
-        """Between which distances a boundary of a line lies that was not reached; None for an end that nobody knows."""
-        return None, parameters.minimum_distance_m
-
-    def measurand(self, parameters: Parameters, result: Result, word: str) -> str:
-        """What a measured distance of a line is where it is not the boundary itself, the same text for the same; only
-        distances of one measurand are compared. Empty for a boundary, the default."""
-        return ""
-
-    def forecast(self, parameters: Parameters, facts: LockFacts, results: Sequence[Result]) -> Forecast | None:
-        """What each line is likely to take and to tell, with what the lines so far say; None without a model of it."""
-        return None
-
-    def expected_line_s(self, parameters: Parameters) -> float:
-        """How long measuring one line is likely to take, in s of robot time, without the way to its start."""
-        near_m, far_m = self.distance_range(parameters)
-        return (far_m - near_m) / parameters.maximum_speed_mps
+        """What the protocol shows: by default each line, and each measured distance on it."""
+        rays = {line.number: line.ray for line in self.lines(parameters, car)}
+        near_m, far_m = parameters.distance_range_m
+        stretches = tuple(Stretch(rays[result.number].point(near_m), rays[result.number].point(far_m),
+                                  str(result.number)) for result in results)
+        return Picture(stretches, tuple(
+            PointSet(word.capitalize(), role, tuple(
+                rays[result.number].point(distance.distance_m) for result in results for distance in result.distances
+                if distance.word == word and distance.distance_m is not None))
+            for word, role in zip(self.distance_words, (PointRole.FIRST, PointRole.SECOND))))
 
 
 # A scenario whatever it measures: for those that run, show and store any of them.

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Judging
 from mtr_operator.domain.results.figure import Figure, figure_of
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance
 from mtr_operator.domain.verdict.assessment import Assessment, Assessor, LastingSigmas
@@ -24,7 +26,8 @@ class DistanceReader:
 
     def figure(self, result: LineResult, distance: MeasuredDistance) -> Figure:
         """Return the value or the known ends of a distance."""
-        return figure_of(distance, self._side.scenario.unreached(self._side.parameters, result, distance.word))
+        return figure_of(distance, part(self._side.scenario, Judging).unreached(
+            self._side.parameters, result, distance.word))
 
     def ends(self, result: LineResult, distance: MeasuredDistance) -> Ends | None:
         """Return the 95 % interval; None if the method gives none."""

@@ -10,6 +10,8 @@ from typing import Sequence
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.identity.identity import NOBODY
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Judging
 from mtr_operator.domain.results.figure import Figure, Kind
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.verdict.assessment import Assessment, LastingSigmas
@@ -117,11 +119,11 @@ class Tests:
                      shared_m, *self._alike_m(line, lasting))
 
     def _measurand(self, test: int, line: int, word: str) -> str | None:
-        """See Scenario.measurand; None where nothing was measured: an end that was not reached bounds all of them."""
+        """See Judging.measurand; None where nothing was measured: an end that was not reached bounds all of them."""
         result, side = self.results[test].get(line), self.sides[test]
         if result is None or result.distances[self.words.index(word)].status is not LineStatus.OK:
             return None
-        return side.scenario.measurand(side.parameters, result, word)
+        return part(side.scenario, Judging).measurand(side.parameters, result, word)
 
     def _common_measurand(self, line: int, word: str) -> str:
         """What a distance is in the tests that are compared: the boundary where one tells it, else what most tell."""

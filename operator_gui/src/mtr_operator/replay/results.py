@@ -7,6 +7,8 @@ import itertools
 from typing import Any, Iterator, Sequence, TypeVar
 
 from mtr_operator.domain.actions.distance import recorded_values
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.results.carried import UNKNOWN_CAUSE, carried_values
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, result_from_document
 from mtr_operator.domain.results.progress import Progress
@@ -70,7 +72,7 @@ def anew(result: LineResult, attempt: Attempt) -> LineResult:
 
 def _concluded(scenario: AnyScenario, parameters: ScenarioParameters,
                results: Sequence[LineResult]) -> list[LineResult]:
-    revised = {result.number: result for result in scenario.concluded(parameters, results)}
+    revised = {result.number: result for result in part(scenario, Concluding).concluded(parameters, results)}
     return [revised.get(result.number, result) for result in results]
 
 

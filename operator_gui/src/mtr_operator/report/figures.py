@@ -8,6 +8,8 @@ from __future__ import annotations
 import math
 from typing import Callable, Sequence
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Judging
 from mtr_operator.domain.results.figure import Figure, Kind, between, figure_of, interval_of
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance, has_intervals
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
@@ -47,7 +49,7 @@ def plain_number(value: float, digits: int) -> str:
 def figures_of(scenario: AnyScenario, parameters: ScenarioParameters | None, result: LineResult) -> list[Figure]:
     """What may be said of each distance of a line; without parameters less of one that was not reached."""
     return [figure_of(distance, (None, None) if parameters is None
-                      else scenario.unreached(parameters, result, distance.word))
+                      else part(scenario, Judging).unreached(parameters, result, distance.word))
             for distance in result.distances]
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import datetime
 from typing import Any, Tuple
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.parameters import Declaration
 from mtr_operator.domain.results.line_result import LineStatus
 from mtr_operator.domain.results.progress import Progress
@@ -36,7 +38,7 @@ def summary_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
         counts = [(status, states.count(status)) for status in LineStatus]
         text = ", ".join(f"{count} {status.value.replace('_', ' ')}" for status, count in counts if count)
         rows.append((word, text or "nothing measured"))
-    return [*rows, *scenario.summary(progress.results)]
+    return [*rows, *part(scenario, Concluding).summary(progress.results)]
 
 
 def finding_rows(progress: Progress) -> list[Row]:

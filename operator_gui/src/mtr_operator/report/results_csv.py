@@ -11,6 +11,8 @@ import io
 import re
 from typing import Any, Iterator, Sequence
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.results.document import plain
 from mtr_operator.domain.results.line_result import Column
 from mtr_operator.domain.results.progress import Progress
@@ -76,7 +78,7 @@ def _results(scenario: AnyScenario, progress: Progress) -> Iterator[str]:
     for result in progress.results:
         yield f"result: {_one_line(line_text(scenario, result, parameters))}"
     yield from meanings(progress.results)
-    for name, text in scenario.summary(progress.results):
+    for name, text in part(scenario, Concluding).summary(progress.results):
         yield f"summary {name}: {text}"
     for result in progress.results:
         if result.reason:

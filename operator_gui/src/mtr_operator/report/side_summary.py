@@ -6,6 +6,8 @@ import math
 from dataclasses import dataclass
 from typing import Sequence
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Judging
 from mtr_operator.domain.results.figure import Figure, Kind, between, figure_of
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
@@ -59,7 +61,8 @@ def _summary(of: tuple[str, int], results: Sequence[LineResult], test: tuple[Any
              judgement: TestJudgement | None) -> SideSummary:
     (side, index), (scenario, parameters) = of, test
     word = scenario.distance_words[index]
-    figures = {result.number: figure_of(result.distances[index], scenario.unreached(parameters, result, word))
+    judging = part(scenario, Judging)
+    figures = {result.number: figure_of(result.distances[index], judging.unreached(parameters, result, word))
                for result in results}
     known = {number: _ends(figure) for number, figure in figures.items() if figure.kind not in _WITHOUT}
     lows, highs = [low for low, _ in known.values()], [high for _, high in known.values()]

@@ -10,6 +10,8 @@ from mtr_operator.domain.actions.car_size import Nearness, nearness_of, size_cau
 from mtr_operator.domain.forecast import Forecast
 from mtr_operator.domain.geometry.pose import wrap_angle
 from mtr_operator.domain.geometry.ray import Ray
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Forecasting, StartChecks
 from mtr_operator.domain.ports import LockFacts
 from mtr_operator.domain.results.picture import Stretch
 from mtr_operator.domain.robot_status import CarDimensions
@@ -67,15 +69,17 @@ def plan_of(scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimen
             facts: LockFacts = USUAL_FACTS) -> Plan:
     """Plan of a test; InvalidParameter when the parameters do not suit a Car of this size. facts: of this Car."""
     lines = scenario.lines(parameters, car)
-    near_m, far_m = scenario.distance_range(parameters)
+    near_m, far_m = parameters.distance_range_m
     rays = [line.ray for line in lines]
-    own_s = scenario.expected_line_s(parameters)
+    forecasting = part(scenario, Forecasting)
+    own_s = forecasting.expected_line_s(parameters)
     ways = _ways(rays, near_m, far_m)
     return Plan(
         tuple(Stretch(ray.point(near_m), ray.point(far_m), str(line.number)) for line, ray in zip(lines, rays)),
         (0.0 if is_mapped else MAPPING_S) + (SELF_CHECK_S if parameters.self_check else 0.0),
         tuple(own_s + MANOEUVRES_S + way_m / parameters.maximum_speed_mps for way_m in ways),
-        scenario.forecast(parameters, facts, ()), (*scenario.cautions(parameters, facts), *size_cautions(rays, car)),
+        forecasting.forecast(parameters, facts, ()),
+        (*part(scenario, StartChecks).cautions(parameters, facts), *size_cautions(rays, car)),
         nearness_of(rays, near_m, car))
 
 

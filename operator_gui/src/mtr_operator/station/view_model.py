@@ -11,6 +11,8 @@ from mtr_operator.domain.errors import InvalidParameter
 from mtr_operator.domain.eventlog.event_list import EventList
 from mtr_operator.domain.forecast import Forecast
 from mtr_operator.domain.geometry.pose import Point
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Forecasting
 from mtr_operator.domain.ports import LockFacts, LockState
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.robot_status import CarDimensions, Notification
@@ -164,7 +166,8 @@ class ViewModel:
     def forecast(self) -> Forecast | None:
         """What each line is likely to take and to tell, with what the lines so far say."""
         test = self.test
-        return None if test is None else test.scenario.forecast(test.parameters, self.facts, self.results)
+        return None if test is None else part(test.scenario, Forecasting).forecast(test.parameters, self.facts,
+                                                                                   self.results)
 
     @property
     def facts(self) -> LockFacts:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import AbstractSet, Any, Iterator, Sequence
 
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Judging
 from mtr_operator.domain.results.figure import figure_of
 from mtr_operator.domain.results.line_result import LineResult, MeasuredDistance, result_from_document
 from mtr_operator.domain.verdict.assessment import Assessment, Assessor
@@ -67,7 +69,7 @@ def measurement_rows(side: Side, assessment: Assessment | None, entries: Sequenc
 
 
 def _distance(side: Side, assessor: Assessor, result: LineResult, distance: MeasuredDistance) -> Row:
-    figure = figure_of(distance, side.scenario.unreached(side.parameters, result, distance.word))
+    figure = figure_of(distance, part(side.scenario, Judging).unreached(side.parameters, result, distance.word))
     ends = assessor.interval(result, distance)
     low_m, high_m = (None, None) if ends is None else map(_finite, ends)
     return {"word": distance.word, "status": distance.status.value, "kind": figure.kind.value,

@@ -54,7 +54,7 @@ def around_car_so_far(side: Side, points: Sequence[Mapping[str, Any]], robot: Po
     if car is None:
         return ""
     drawing = Drawing(f"{side.scenario.title}: points around the Car so far")
-    near_m, far_m = side.scenario.distance_range(side.parameters)
+    near_m, far_m = side.parameters.distance_range_m
     rays = {line.number: line.ray for line in side.scenario.lines(side.parameters, car)}
     for ray in rays.values():
         drawing.line([_up(ray.point(near_m)), _up(ray.point(far_m))], "stretch planned")

@@ -9,6 +9,8 @@ from mtr_operator.domain.actions.car import Car
 from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.ports import LockFacts
 from mtr_operator.domain.results.line_result import LineResult
 from mtr_operator.domain.results.progress import Progress
@@ -67,6 +69,6 @@ def measure(test: RadioTest) -> Measured:
         progress.record(measured(line, parameters, robot, car))
     for number in progress.to_retry():
         progress.record(measured(lines[number], parameters, robot, car))
-    for result in scenario.concluded(parameters, progress.results):
+    for result in part(scenario, Concluding).concluded(parameters, progress.results):
         progress.revise(result)
     return Measured(progress, loop.now_s)

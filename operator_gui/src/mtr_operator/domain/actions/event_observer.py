@@ -28,37 +28,30 @@ class EventObserver(RunObserver):
         self._action = ""
 
     def on_status(self, status: RobotStatus) -> None:
-        """See RunObserver."""
         self._observer.on_status(status)
 
     def on_car(self, status: RobotStatus, events: Sequence[CarEvent], lock_state: LockState) -> None:
-        """See RunObserver."""
         self._observer.on_car(status, events, lock_state)
 
     def on_plan(self, done: int, total: int) -> None:
-        """See RunObserver."""
         self._observer.on_plan(done, total)
 
     def on_action(self, text: str) -> None:
-        """See RunObserver."""
         if text != self._action:
             self._action = text
             self._events.add(EventKind.TEST, text)
         self._observer.on_action(text)
 
     def on_line(self, number: int) -> None:
-        """See RunObserver."""
         self._observer.on_line(number)
 
     def on_result(self, result: LineResult, done: int, total: int) -> None:
-        """See RunObserver."""
         said = result.reason or "measured"
         self._events.add(EventKind.TEST, f"{self._line_word} {result.number} ({result.place}): {said}",
                          WARNING if result.reason else INFO)
         self._observer.on_result(result, done, total)
 
     def on_link_silent(self, silent_s: float) -> None:
-        """See RunObserver."""
         self._events.silent()
         self._observer.on_link_silent(silent_s)
 

@@ -10,7 +10,8 @@ from typing import Mapping, Sequence
 
 from ..assistance import ExtenderPort, HandlePort
 from ..distance_feed import DistanceFeed
-from ..ports import BusMark, BusMessages, BusTraffic, Refused
+from ..ports import BusMark, BusMessages, BusTraffic
+from ..results.refused import Refused
 from ..supervision.car_signals import CarSignals
 
 

@@ -30,7 +30,7 @@ class Figure:
 
 
 def figure_of(distance: MeasuredDistance, unreached: tuple[float | None, float | None] = (None, None)) -> Figure:
-    """unreached: between which distances a boundary lies that was not reached, see Scenario.unreached."""
+    """unreached: between which distances a boundary lies that was not reached, see Judging.unreached."""
     if distance.status is LineStatus.INVALID:
         return Figure(Kind.INVALID)
     if distance.status is LineStatus.NOT_REACHED:

@@ -14,6 +14,7 @@ from ..estimation.passes.delay import has_two_speeds
 from ..forecast import Forecast
 from ..geometry.axes import Axis, axes_around
 from ..geometry.ray import Ray
+from ..interfaces.scenario_parts import Concluding, Forecasting, FurtherAttempts, Judging, Resuming, StartChecks
 from ..ports import LockFacts
 from ..results.carried import carried_values
 from ..results.line_result import LineStatus, MeasuredDistance
@@ -34,7 +35,8 @@ _LEAST_SPEED_MPS = 1e-6
 _MAX_PASSES = 16
 
 
-class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
+class Autolock(Scenario[AutolockParameters, Axis, AutolockResult],
+               StartChecks, Resuming, FurtherAttempts, Concluding, Judging, Forecasting):
     """Approach until the Car unlocks, retreat backwards until it locks, on every axis."""
 
     name = "autolock"
@@ -70,13 +72,13 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
         return _result(line, done, trouble, car.facts.told_every_s)
 
     def concluded(self, parameters: AutolockParameters, results: Sequence[AutolockResult]) -> list[AutolockResult]:
-        """See Scenario: what all axes say of the Car's reaction time moves the boundary of each."""
+        """What all axes say of the Car's reaction time moves the boundary of each."""
         revised = with_boundaries(results, parameters, results)
         return [new for new, old in zip(revised, results) if new != old]
 
     def measure_further(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car,
                         so_far: AutolockResult) -> AutolockResult | None:
-        """See Scenario: one more pass, at the slowest speed."""
+        """One more pass, at the slowest speed."""
         speeds_mps, count = pass_speeds(parameters, car.facts.told_every_s), len(so_far.passes(UNLOCK))
         if so_far.lock_distance_m is None or count >= _MAX_PASSES or not self.judged_shares(parameters):
             return None
@@ -90,44 +92,40 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
                                 if isinstance(each, AutolockResult)], parameters, [result])[0]
 
     def share_of_most(self, parameters: AutolockParameters, result: AutolockResult) -> float | None:
-        """See Scenario."""
         can_be_more = result.lock_distance_m is not None and bool(self.judged_shares(parameters))
         return len(result.passes(UNLOCK)) / _MAX_PASSES if can_be_more else None
 
     def looked(self, parameters: AutolockParameters, results: Sequence[AutolockResult],
                number: int) -> Generator[None, None, AutolockResult]:
-        """See Scenario."""
         yield
         return with_boundaries(results, parameters, [each for each in results if each.number == number])[0]
 
     def judged_shares(self, parameters: AutolockParameters) -> tuple[int, ...]:
-        """See Scenario: at the static boundary half of the polls notice the key; one speed does not tell it."""
+        """At the static boundary half of the polls notice the key; one speed does not tell it."""
         has_boundary = parameters.last_step_m is not None or has_two_speeds(pass_speeds(parameters, USUAL_CYCLE_S))
         return (50,) if has_boundary else ()
 
     def cautions(self, parameters: AutolockParameters, facts: LockFacts) -> Sequence[str]:
-        """See Scenario."""
         return tuple(speed_cautions(parameters, facts.told_every_s))
 
     def can_go_on(self, line: Axis, parameters: AutolockParameters, robot: Robot, car: Car) -> bool:
-        """See Scenario."""
         return can_go_on(line.ray, parameters, robot, car)
 
     def forecast(self, parameters: AutolockParameters, facts: LockFacts,
                  results: Sequence[AutolockResult]) -> Forecast:
-        """See Scenario: the axes measured so far know the static boundary best."""
+        """The axes measured so far know the static boundary best."""
         return pass_forecast(parameters, facts.told_every_s, self.expected_line_s(parameters), results)
 
     def unreached(self, parameters: AutolockParameters, result: AutolockResult,
                   word: str) -> tuple[float | None, float | None]:
-        """See Scenario: the approach ends near the Car, the retreat far from it; a Car that never unlocked could not
+        """The approach ends near the Car, the retreat far from it; a Car that never unlocked could not
         lock, wherever that is."""
         if word != LOCK:
             return super().unreached(parameters, result, word)
         return (parameters.straightened_distance_m if result.unlock_status is LineStatus.OK else None), None
 
     def measurand(self, parameters: AutolockParameters, result: AutolockResult, word: str) -> str:
-        """See Scenario: without a static boundary it is where the Car reacted to the first pass, at its speed."""
+        """Without a static boundary it is where the Car reacted to the first pass, at its speed."""
         if getattr(result, f"{word}_static_m") is not None:
             return ""
         cycle_s = USUAL_CYCLE_S if result.told_every_s is None else result.told_every_s
@@ -148,7 +146,7 @@ class Autolock(Scenario[AutolockParameters, Axis, AutolockResult]):
             PointSet("Invalid", PointRole.INVALID, invalid)))
 
     def expected_line_s(self, parameters: AutolockParameters) -> float:
-        """See Scenario: the Car is taken to unlock half way between the straightening's end and the minimum."""
+        """The Car is taken to unlock half way between the straightening's end and the minimum."""
         straight_m = parameters.straightened_distance_m - parameters.minimum_distance_m
         first_mps, *others_mps = (each.speed_mps for each in planned_passes(parameters, USUAL_CYCLE_S))
         return (parameters.straightening_distance_m / parameters.maximum_speed_mps + straight_m / first_mps

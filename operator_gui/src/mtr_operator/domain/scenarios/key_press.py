@@ -14,6 +14,7 @@ from ..errors import InvalidParameter
 from ..forecast import Forecast
 from ..geometry.radials import Radial, radials_around
 from ..geometry.ray import Ray
+from ..interfaces.scenario_parts import Concluding, Forecasting, FurtherAttempts, Judging, Resuming, StartChecks
 from ..ports import LockFacts
 from ..requests import Direction
 from ..results.carried import carried_values
@@ -46,7 +47,8 @@ class _Measured:
     evidence: Texts = ()
 
 
-class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
+class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult],
+               StartChecks, Resuming, FurtherAttempts, Concluding, Judging, Forecasting):
     """Press a button on every radial, and find from how far the Car obeys."""
 
     name = "key_press"
@@ -77,53 +79,48 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         return _scan(line, parameters, robot)
 
     def can_go_on(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car) -> bool:
-        """See Scenario: a search goes on with the presses that are kept."""
+        """A search goes on with the presses that are kept."""
         return parameters.method == ADAPTIVE and search.can_go_on(RadialTrial(line, parameters), robot)
 
     def measure_further(self, line: Radial, parameters: KeyPressParameters, robot: Robot, car: Car,
                         so_far: KeyPressResult) -> KeyPressResult | None:
-        """See Scenario: a search goes on after its end."""
+        """A search goes on after its end."""
         if so_far.method != ADAPTIVE:
             return None
         return search.measure_further(RadialTrial(line, parameters), robot, so_far)
 
     def share_of_most(self, parameters: KeyPressParameters, result: KeyPressResult) -> float | None:
-        """See Scenario."""
         return search.share_of_most(parameters, result)
 
     def looked(self, parameters: KeyPressParameters, results: Sequence[KeyPressResult],
                number: int) -> Generator[None, None, KeyPressResult]:
-        """See Scenario."""
         return campaign.looked(parameters.search_plan, results, number)
 
     def cautions(self, parameters: KeyPressParameters, facts: LockFacts) -> Sequence[str]:
-        """See Scenario."""
         if parameters.method != ADAPTIVE:
             return ()
         return tuple(forecast.cautions(parameters.search_plan, WIDTHS, LIMITS))
 
     def forecast(self, parameters: KeyPressParameters, facts: LockFacts,
                  results: Sequence[KeyPressResult]) -> Forecast:
-        """See Scenario."""
         if parameters.method == ADAPTIVE:
             return forecast.search_forecast(parameters.search_plan, WIDTHS, results)
         return scan_forecast(parameters, results)
 
     def unreached(self, parameters: KeyPressParameters, result: KeyPressResult,
                   word: str) -> tuple[float | None, float | None]:
-        """See Scenario: the results of a search say themselves to which side they are not bounded."""
+        """The results of a search say themselves to which side they are not bounded."""
         return (None, None) if result.was_searched else super().unreached(parameters, result, word)
 
     def measurand(self, parameters: KeyPressParameters, result: KeyPressResult, word: str) -> str:
-        """See Scenario: a scan tells the farthest place at which one of so many presses worked."""
+        """A scan tells the farthest place at which one of so many presses worked."""
         return "" if result.was_searched else f"place where one of {parameters.attempts} presses worked"
 
     def judged_shares(self, parameters: KeyPressParameters) -> tuple[int, ...]:
-        """See Scenario."""
         return SHARES if parameters.method == ADAPTIVE else ()
 
     def concluded(self, parameters: KeyPressParameters, results: Sequence[KeyPressResult]) -> Sequence[KeyPressResult]:
-        """See Scenario: what radials measured later say of the transition counts for the earlier ones too."""
+        """What radials measured later say of the transition counts for the earlier ones too."""
         return campaign.concluded(parameters.search_plan, results) if parameters.method == ADAPTIVE else ()
 
     def picture(self, parameters: KeyPressParameters, car: CarDimensions, results: Sequence[KeyPressResult]) -> Picture:
@@ -131,7 +128,7 @@ class KeyPress(Scenario[KeyPressParameters, Radial, KeyPressResult]):
         return picture_of(parameters, results)
 
     def expected_line_s(self, parameters: KeyPressParameters) -> float:
-        """See Scenario: a scan's Car is taken to react at the middle one of the places."""
+        """A scan's Car is taken to react at the middle one of the places."""
         if parameters.method == ADAPTIVE:
             return sum(forecast.search_forecast(parameters.search_plan, WIDTHS, ()).line_s) / 2.0
         return scan_s(parameters, len(parameters.press_distances_m) // 2)

@@ -14,6 +14,8 @@ from ..geometry.outline import side_errors
 from ..geometry.polygon import distance_to_polygon
 from ..geometry.pose import Point
 from ..geometry.ray import Ray
+from ..interfaces.part import part
+from ..interfaces.scenario_parts import Judging
 from ..results.line_result import LineResult, MeasuredDistance
 from ..results.progress import Progress
 from ..robot_status import CarDimensions
@@ -141,7 +143,7 @@ class Assessor:
                              math.hypot(*(term.contribution_m for term in record)))
 
     def _unreached(self, result: LineResult, word: str) -> tuple[float | None, float | None]:
-        return self._scenario.unreached(self._parameters, result, word)
+        return part(self._scenario, Judging).unreached(self._parameters, result, word)
 
     def _placed(self, result: LineResult, distance: MeasuredDistance) -> Measurement:
         """Place and instant of the key, and the outline, which lines of one side have in common."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any, Callable, Generator, Sequence
 
 from ..estimation.looks import is_spent, last_look, with_look
+from ..interfaces.part import part
+from ..interfaces.scenario_parts import FurtherAttempts
 from ..results.line_result import LineResult, at_looks
 from ..results.progress import Progress
 from ..scenario import AnyScenario, ScenarioParameters
@@ -15,7 +17,7 @@ class Looking:
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  keep: Callable[[LineResult], None], pause: Callable[[], Any]):
-        self._scenario = scenario
+        self._further = part(scenario, FurtherAttempts)
         self._parameters = parameters
         self._progress = progress
         self._keep = keep
@@ -25,7 +27,7 @@ class Looking:
         """Judge lines, which a single look decides, by the wider interval that leaves room for further looks."""
         for number in numbers:
             result = self._result(number)
-            share = self._scenario.share_of_most(self._parameters, result)
+            share = self._further.share_of_most(self._parameters, result)
             if not result.looks and share is not None:
                 self._keep(self._at(result, with_look((), share)))
 
@@ -33,7 +35,7 @@ class Looking:
         """The result of a line that got more attempts, at its next look; the first look was at the result before."""
         looks = before.looks
         for result in (before, after):
-            share = self._scenario.share_of_most(self._parameters, result)
+            share = self._further.share_of_most(self._parameters, result)
             if share is not None and (result is after or not looks):
                 looks = with_look(looks, share)
         return self._at(after, looks)
@@ -51,7 +53,7 @@ class Looking:
     def _at(self, result: LineResult, looks: Sequence[Any]) -> LineResult:
         changed = at_looks(result, looks)
         results = [changed if each.number == result.number else each for each in self._progress.results]
-        return self._found(self._scenario.looked(self._parameters, results, result.number))
+        return self._found(self._further.looked(self._parameters, results, result.number))
 
     def _found(self, steps: Generator[None, None, LineResult]) -> LineResult:
         while True:

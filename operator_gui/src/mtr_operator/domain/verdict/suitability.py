@@ -7,6 +7,8 @@ from typing import Sequence
 
 from ..errors import InvalidLimits
 from ..geometry.ray import Ray
+from ..interfaces.part import part
+from ..interfaces.scenario_parts import Judging
 from ..results.quantity import Quantity
 from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
@@ -18,7 +20,7 @@ _POINT = CarDimensions(0.0, 0.0, 0.0, 0.0)
 
 def check_distances(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
     """Raise InvalidLimits unless the scenario measures what is limited, with these parameters."""
-    quantities = {each.word: each for each in scenario.judged_quantities(parameters)}
+    quantities = {each.word: each for each in part(scenario, Judging).judged_quantities(parameters)}
     for requirement in limits.requirements:
         quantity = quantities.get(requirement.what)
         if quantity is not None:
@@ -39,8 +41,8 @@ def _check_quantity(requirement: Requirement, quantity: Quantity) -> None:
 
 
 def _check_distance(requirement: Requirement, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
-    name, shares = requirement.name, scenario.judged_shares(parameters)
-    low_m, high_m = scenario.distance_range(parameters)
+    name, shares = requirement.name, part(scenario, Judging).judged_shares(parameters)
+    low_m, high_m = parameters.distance_range_m
     _check_key(requirement, OF_DISTANCES)
     if not shares:
         raise InvalidLimits(f"Limit {name!r}: with these parameters {scenario.title} does not say how sure a "

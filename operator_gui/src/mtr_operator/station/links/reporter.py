@@ -30,7 +30,6 @@ class Reporter(RunObserver):
         self._after_status, self._time_line = after_status, time_line
 
     def on_status(self, status: RobotStatus) -> None:
-        """See RunObserver."""
         bus = part(self._car, BusMonitor)
         self._mailbox.put_robot(RobotSnapshot(status, self._car.lock_state, self._car.problem, self._robot.waypoint,
                                               self._robot.is_secret, bus.traffic, known_facts(self._car),
@@ -38,25 +37,19 @@ class Reporter(RunObserver):
         self._after_status()
 
     def on_car(self, status: RobotStatus, events: Sequence[CarEvent], lock_state: LockState) -> None:
-        """See RunObserver."""
         self._time_line.learn(status, events, lock_state)
 
     def on_plan(self, done: int, total: int) -> None:
-        """See RunObserver."""
         self._mailbox.put(LinesPlanned(done, total, self._progress.car))
 
     def on_action(self, text: str) -> None:
-        """See RunObserver."""
         self._mailbox.put(ActionBegun(text))
 
     def on_line(self, number: int) -> None:
-        """See RunObserver."""
         self._mailbox.put(LineBegun(number))
 
     def on_result(self, result: LineResult, done: int, total: int) -> None:
-        """See RunObserver."""
         self._mailbox.put(LineMeasured(tuple(self._progress.results), result, done, total))
 
     def on_link_silent(self, silent_s: float) -> None:
-        """See RunObserver."""
         self._mailbox.put(RobotSilent(silent_s))

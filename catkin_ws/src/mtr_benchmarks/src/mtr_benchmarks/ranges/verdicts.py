@@ -17,6 +17,8 @@ from mtr_operator.domain.estimation.press.plan import SearchPlan
 from mtr_operator.domain.estimation.press.radial_estimate import estimate
 from mtr_operator.domain.estimation.press.radial_search import RadialSearch
 from mtr_operator.domain.geometry.radials import radials_around
+from mtr_operator.domain.interfaces.part import part
+from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.results.line_result import LineResult, LineStatus
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.scenario import AnyScenario
@@ -103,7 +105,7 @@ def at_the_limit(draw: LimitDraw) -> List[Judged]:
     measure_further(progress, Looking(search.scenario, search.parameters, progress, progress.revise, lambda: None),
                     lambda: judge(limits, lines, progress.results), draw.rounds,
                     lambda so_far: _further(search, radials[so_far.number - 1], progress.results, so_far))
-    for result in search.scenario.concluded(search.parameters, progress.results):
+    for result in part(search.scenario, Concluding).concluded(search.parameters, progress.results):
         progress.revise(result)
     judgement, results = judge(limits, lines, progress.results), cast(List[SearchedResult], progress.results)
     return [judged(result, radial.d50_m, verdict_of(judgement.of_line(result.number).word, result, radial),

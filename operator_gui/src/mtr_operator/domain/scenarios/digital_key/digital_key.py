@@ -9,6 +9,7 @@ from ...actions.robot import Robot
 from ...actions.trouble import LineInvalid
 from ...distance_feed import REPORTED
 from ...forecast import Forecast
+from ...interfaces.scenario_parts import Concluding, Forecasting, Judging, StartChecks
 from ...ports import LockFacts
 from ...results.document import Texts
 from ...results.line_result import LineStatus
@@ -31,7 +32,8 @@ _MOVE_S = 3.0
 _MOVED = "The robot moved while the phone's distance was read."
 
 
-class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
+class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult],
+                 StartChecks, Concluding, Judging, Forecasting):
     """Carry the phone to places around the Car, read there the distance that phone or Car tells, and map its error."""
 
     name = "digital_key"
@@ -46,7 +48,7 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
         return places_around(parameters, car)
 
     def check_means(self, car: Car) -> None:
-        """See Scenario: something has to tell the phone's distance."""
+        """Something has to tell the phone's distance."""
         car.require_phone()
 
     def measure(self, line: MapPlace, parameters: DigitalKeyParameters, robot: Robot, car: Car) -> DigitalKeyResult:
@@ -68,11 +70,11 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
 
     def concluded(self, parameters: DigitalKeyParameters,
                   results: Sequence[DigitalKeyResult]) -> Sequence[DigitalKeyResult]:
-        """See Scenario: a figure that never changes tells nothing of its first places either."""
+        """A figure that never changes tells nothing of its first places either."""
         return revised(results)
 
     def judged_quantities(self, parameters: DigitalKeyParameters) -> tuple[Quantity, ...]:
-        """See Scenario: an error within a step of the figures is none that they show."""
+        """An error within a step of the figures is none that they show."""
         return (Quantity(PHONE_ERROR, (AT_MOST_ERROR_M,), parameters.resolution_m, REPORTED.high),)
 
     def picture(self, parameters: DigitalKeyParameters, car: CarDimensions,
@@ -86,12 +88,12 @@ class DigitalKey(Scenario[DigitalKeyParameters, MapPlace, DigitalKeyResult]):
 
     def forecast(self, parameters: DigitalKeyParameters, facts: LockFacts,
                  results: Sequence[DigitalKeyResult]) -> Forecast | None:
-        """See Scenario: each place takes the same."""
+        """Each place takes the same."""
         each_s = self.expected_line_s(parameters)
         return Forecast((1, 1), None, (each_s, each_s), None)
 
     def expected_line_s(self, parameters: DigitalKeyParameters) -> float:
-        """See Scenario: with the way from the neighbour."""
+        """With the way from the neighbour."""
         return (parameters.spacing_m / parameters.maximum_speed_mps + _MOVE_S + parameters.stand_time_s
                 + parameters.reading_time_s)
 

@@ -7,6 +7,7 @@ from typing import Generator, Sequence
 from ...actions.car import Car
 from ...actions.robot import Robot
 from ...forecast import Forecast
+from ...interfaces.scenario_parts import Concluding, Forecasting, FurtherAttempts, Judging, Resuming, StartChecks
 from ...ports import LockFacts
 from ...results.picture import Picture
 from ...robot_status import CarDimensions
@@ -26,7 +27,8 @@ _DECLARED = HandleRequestParameters.declarations()
 _LIMITS = SearchLimits("requests on each axis", int(_DECLARED["attempts_limit"].high), _DECLARED["interval_m"].high)
 
 
-class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestResult]):
+class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestResult],
+                    StartChecks, Resuming, FurtherAttempts, Concluding, Judging, Forecasting):
     """Have the handle taken with the key at places on every axis, and find where the Car takes the key for outside."""
 
     name = "handle_request"
@@ -47,44 +49,39 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
         return search.measure_by_search(AxisTrial(line, parameters, car), robot)
 
     def can_go_on(self, line: HandleAxis, parameters: HandleRequestParameters, robot: Robot, car: Car) -> bool:
-        """See Scenario: an axis goes on with the requests that are kept."""
+        """An axis goes on with the requests that are kept."""
         return search.can_go_on(AxisTrial(line, parameters, car), robot)
 
     def measure_further(self, line: HandleAxis, parameters: HandleRequestParameters, robot: Robot, car: Car,
                         so_far: HandleRequestResult) -> HandleRequestResult | None:
-        """See Scenario: the search goes on after its end."""
+        """The search goes on after its end."""
         return search.measure_further(AxisTrial(line, parameters, car), robot, so_far)
 
     def concluded(self, parameters: HandleRequestParameters,
                   results: Sequence[HandleRequestResult]) -> Sequence[HandleRequestResult]:
-        """See Scenario: how softly the zone ends each axis learns from all others."""
+        """How softly the zone ends each axis learns from all others."""
         return campaign.concluded(parameters.search_plan, results)
 
     def share_of_most(self, parameters: HandleRequestParameters, result: HandleRequestResult) -> float | None:
-        """See Scenario."""
         return search.share_of_most(parameters, result)
 
     def looked(self, parameters: HandleRequestParameters, results: Sequence[HandleRequestResult],
                number: int) -> Generator[None, None, HandleRequestResult]:
-        """See Scenario."""
         return campaign.looked(parameters.search_plan, results, number)
 
     def cautions(self, parameters: HandleRequestParameters, facts: LockFacts) -> Sequence[str]:
-        """See Scenario."""
         return tuple(forecast.cautions(parameters.search_plan, _WIDTHS, _LIMITS))
 
     def forecast(self, parameters: HandleRequestParameters, facts: LockFacts,
                  results: Sequence[HandleRequestResult]) -> Forecast | None:
-        """See Scenario."""
         return forecast.search_forecast(parameters.search_plan, _WIDTHS, results)
 
     def judged_shares(self, parameters: HandleRequestParameters) -> tuple[int, ...]:
-        """See Scenario."""
         return SHARES
 
     def unreached(self, parameters: HandleRequestParameters, result: HandleRequestResult,
                   word: str) -> tuple[float | None, float | None]:
-        """See Scenario: the results say themselves to which side they are not bounded."""
+        """The results say themselves to which side they are not bounded."""
         return None, None
 
     def picture(self, parameters: HandleRequestParameters, car: CarDimensions,
@@ -93,7 +90,6 @@ class HandleRequest(Scenario[HandleRequestParameters, HandleAxis, HandleRequestR
         return picture_of(parameters, car, results)
 
     def expected_line_s(self, parameters: HandleRequestParameters) -> float:
-        """See Scenario."""
         return sum(forecast.search_forecast(parameters.search_plan, _WIDTHS, ()).line_s) / 2.0
 
 

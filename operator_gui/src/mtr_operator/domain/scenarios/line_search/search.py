@@ -80,7 +80,7 @@ def further_plan(plan: SearchPlan, so_far: SearchedResult) -> SearchPlan:
 
 
 def share_of_most(parameters: SearchParameters, result: SearchedResult) -> float | None:
-    """See Scenario.share_of_most."""
+    """See FurtherAttempts.share_of_most."""
     if result.invalid_count or not result.was_searched:
         return None
     return len(result.attempts_made) / (_FURTHER_TIMES * parameters.attempts_limit)

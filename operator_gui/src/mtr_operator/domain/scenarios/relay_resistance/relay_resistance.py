@@ -11,6 +11,7 @@ from ...actions.trouble import LineInvalid
 from ...geometry.axes import axes_around
 from ...geometry.pose import Point
 from ...geometry.ray import Ray
+from ...interfaces.scenario_parts import Forecasting, Judging, Resuming, StartChecks
 from ...results.figure import figure_of
 from ...results.line_result import LineStatus
 from ...results.picture import Picture, PointRole, PointSet, Stretch
@@ -35,7 +36,8 @@ class RelayAxis:
     ray: Ray
 
 
-class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResistanceResult]):
+class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResistanceResult],
+                      StartChecks, Resuming, Judging, Forecasting):
     """Have the handle taken with the key beyond the zone, first with an extender switched off, then on, and bound how
     often the Car unlocks."""
 
@@ -54,7 +56,6 @@ class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResist
         return [RelayAxis(number, axis.side, axis.ray) for number, axis in enumerate(axes, start=1)]
 
     def check_means(self, car: Car) -> None:
-        """See Scenario."""
         car.require_extender()
 
     def measure(self, line: RelayAxis, parameters: RelayResistanceParameters, robot: Robot,
@@ -70,16 +71,16 @@ class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResist
         return replace(_result(line, parameters, trial), **valid_columns(trial.tried, trial.farthest))
 
     def can_go_on(self, line: RelayAxis, parameters: RelayResistanceParameters, robot: Robot, car: Car) -> bool:
-        """See Scenario: the axis goes on with the requests that are kept."""
+        """The axis goes on with the requests that are kept."""
         return not robot.trouble() and has_kept(robot)
 
     def unreached(self, parameters: RelayResistanceParameters, result: RelayResistanceResult,
                   word: str) -> tuple[float | None, float | None]:
-        """See Scenario: requests without an unlock bound a probability, and no distance."""
+        """Requests without an unlock bound a probability, and no distance."""
         return None, None
 
     def judged_quantities(self, parameters: RelayResistanceParameters) -> tuple[Quantity, ...]:
-        """See Scenario: so many requests without an unlock bound the probability at best by this."""
+        """So many requests without an unlock bound the probability at best by this."""
         requests = len(parameters.tried_places_m) * parameters.requests_per_place
         return (Quantity(RELAY_PROBABILITY, (AT_MOST_PERCENT,), 100.0 * upper_bound(0, requests), 100.0),)
 
@@ -106,7 +107,7 @@ class RelayResistance(Scenario[RelayResistanceParameters, RelayAxis, RelayResist
             PointSet("Invalid", PointRole.INVALID, invalid)))
 
     def expected_line_s(self, parameters: RelayResistanceParameters) -> float:
-        """See Scenario: of a Car that stays locked."""
+        """Of a Car that stays locked."""
         requests = 2 * len(parameters.tried_places_m) * parameters.requests_per_place
         ways_m = 4.0 * (parameters.maximum_distance_m - parameters.minimum_distance_m)
         return (requests * (parameters.settle_time_s + parameters.response_timeout_s)

@@ -13,6 +13,7 @@ from ...actions.trouble import LineInvalid
 from ...forecast import Forecast
 from ...geometry.axes import axes_around
 from ...geometry.ray import Ray
+from ...interfaces.scenario_parts import Forecasting, Judging, Resuming
 from ...ports import LockFacts
 from ...results.carried import carried_values
 from ...results.figure import figure_of
@@ -48,7 +49,7 @@ class HeldPlace:
     ray: Ray
 
 
-class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult]):
+class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult], Resuming, Judging, Forecasting):
     """Hold the key still near the Car, have the handle taken after ever longer rests, and find after which the key no
     longer answers."""
 
@@ -81,11 +82,11 @@ class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult]):
                        uncertainty_m=uncertainty_m, robot_time_s=robot_time_s, **carried)
 
     def can_go_on(self, line: HeldPlace, parameters: SleepTimeParameters, robot: Robot, car: Car) -> bool:
-        """See Scenario: the search goes on with the trials that are kept."""
+        """The search goes on with the trials that are kept."""
         return not robot.trouble() and has_kept(robot)
 
     def judged_quantities(self, parameters: SleepTimeParameters) -> tuple[Quantity, ...]:
-        """See Scenario: between the shortest and the longest rest that is tried."""
+        """Between the shortest and the longest rest that is tried."""
         return (Quantity(SLEEP_TIME, (AT_LEAST_S, AT_MOST_S), parameters.shortest_wait_s, parameters.longest_wait_s),)
 
     def picture(self, parameters: SleepTimeParameters, car: CarDimensions,
@@ -113,7 +114,6 @@ class SleepTime(Scenario[SleepTimeParameters, HeldPlace, SleepTimeResult]):
         return Forecast((min(counts), max(counts)), None, (min(seconds), max(seconds)))
 
     def expected_line_s(self, parameters: SleepTimeParameters) -> float:
-        """See Scenario."""
         return statistics.fmean(self.forecast(parameters, LockFacts(), ()).line_s)
 
 

@@ -18,6 +18,7 @@ from ...estimation.interval import FloatArray
 from ...estimation.press.radial_search import PRESSES_IN_DOUBT
 from ...forecast import Forecast
 from ...geometry.pose import Point, Pose
+from ...interfaces.scenario_parts import Forecasting, Judging, StartChecks
 from ...ports import LockFacts
 from ...results.document import Texts
 from ...results.line_result import LineStatus
@@ -65,7 +66,7 @@ class _Measured:
         self.sigma_m = worst_sigma((self.sigma_m, made.uncertainty_m))
 
 
-class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
+class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult], StartChecks, Judging, Forecasting):
     """Press a button where it tells most, in every zone around the Car, and draw the map of where it works."""
 
     name = "zone_map"
@@ -102,25 +103,22 @@ class ZoneMap(Scenario[ZoneMapParameters, Zone, ZoneMapResult]):
         return picture_of(parameters, car, results)
 
     def cautions(self, parameters: ZoneMapParameters, facts: LockFacts) -> Sequence[str]:
-        """See Scenario."""
         return tuple(cautions_of(parameters))
 
     def forecast(self, parameters: ZoneMapParameters, facts: LockFacts, results: Sequence[ZoneMapResult]) -> Forecast:
-        """See Scenario."""
         return forecast_of(parameters, results)
 
     def judged_shares(self, parameters: ZoneMapParameters) -> tuple[int, ...]:
-        """See Scenario."""
         return (50,)
 
     def unreached(self, parameters: ZoneMapParameters, result: ZoneMapResult,
                   word: str) -> tuple[float | None, float | None]:
-        """See Scenario: the results say themselves to which side they are not bounded; one of places that nobody knows
+        """The results say themselves to which side they are not bounded; one of places that nobody knows
         well has neither end, also where the presses work as far as they were tried."""
         return None, None
 
     def expected_line_s(self, parameters: ZoneMapParameters) -> float:
-        """See Scenario: no zone takes more presses than allowed, and few take fewer."""
+        """No zone takes more presses than allowed, and few take fewer."""
         return parameters.presses_limit * press_s(parameters)
 
 
