@@ -1,10 +1,14 @@
 """The central interfaces of the Operator's application stay narrow."""
 # SPDX-License-Identifier: Apache-2.0
 import ast
+import dataclasses
 import inspect
 
+import pytest
 from project import TOP, tracked
 
+from mtr_operator.domain.exchange.exchange import Exchange
+from mtr_operator.domain.exchange.run_context import RunContext
 from mtr_operator.domain.interfaces.car_bus import BusMonitor, BusRecorder, CarEquipment
 from mtr_operator.domain.interfaces.scenario_parts import (
     Concluding,
@@ -26,6 +30,16 @@ SCENARIO_PARTS = (Concluding, Forecasting, FurtherAttempts, Judging, Resuming, S
 def members(interface):
     """Names that a class defines itself, without those of the language."""
     return {name for name in vars(interface) if not (name.startswith("__") or name.startswith("_abc_"))}
+
+
+def test_exchange_has_at_most_twelve_members():
+    exchange = Exchange(None, lambda: None, None, lambda: False)
+    assert len(members(Exchange) | {name for name in vars(exchange) if not name.startswith("_")}) <= 12
+
+
+def test_records_of_a_run_are_frozen():
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        RunContext().journal = None
 
 
 def test_car_link_has_at_most_six_members():

@@ -5,6 +5,7 @@ import json
 from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.cli import main
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.exchange.run_context import RunContext
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.results.session_record import now, session_record
 from mtr_operator.domain.runner import Runner
@@ -21,8 +22,7 @@ def recorded(folder, scenario, parameters, profile, log_format="blf"):
     spoken.connect()
     spoken.car.connect()
     try:
-        loop = ControlLoop(spoken, spoken.car)
-        loop.course = recording.begin(spoken.car)
+        loop = ControlLoop(spoken, spoken.car, context=RunContext(course=recording.begin(spoken.car)))
         Runner(scenario, parameters, loop, progress, lambda _: None).run()
     finally:
         problems = [problem for problem in recording.end() if problem]

@@ -144,6 +144,7 @@ def spoil(world):
 def run_scenario(robot_link, car_link):
     """run_scenario(scenario, parameters, ...) runs a whole test; the saved copies of its results are in `saved`."""
     from mtr_operator.domain.actions.control_loop import ControlLoop
+    from mtr_operator.domain.exchange.run_context import Assistance
     from mtr_operator.domain.results.progress import Progress
     from mtr_operator.domain.runner import Runner
 
@@ -151,8 +152,7 @@ def run_scenario(robot_link, car_link):
             skipping=None):
         run.progress = progress or Progress(scenario.name, parameters.to_mapping())
         run.saved = []
-        loop = ControlLoop(robot_link, car_link, observer, is_cancelled)
-        loop.person = person
+        loop = ControlLoop(robot_link, car_link, observer, is_cancelled, assistance=Assistance(person))
         loop.skipping = skipping or loop.skipping
         Runner(scenario, parameters, loop, run.progress,
                lambda state: run.saved.append(list(state.results)), again=again).run()

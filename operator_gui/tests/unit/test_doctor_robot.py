@@ -129,7 +129,6 @@ class Told(FakeRobotLink):
         self.connect()
 
     def next_status(self, timeout_s):
-        """See RobotLink."""
         return dataclasses.replace(super().next_status(timeout_s), **self._changes)
 
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.car import Car
-from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S, ControlLoop
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.standstill import Standstill
+from mtr_operator.domain.exchange.exchange import SILENCE_LIMIT_S
 from mtr_operator.domain.ports import PASSIVE_ENTRY
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.results.progress import Progress
@@ -44,7 +45,7 @@ def further(robot_link, car_link):
     def run(**changes):
         progress, loop = Progress("autolock", TWO.to_mapping()), ControlLoop(robot_link, car_link)
         Runner(SCENARIO, TWO, loop, progress, lambda _: None).run()
-        loop.standstill = since_the_run()
+        loop.exchange.standstill = since_the_run()
         robot, car = Robot(loop, progress.results), Car(loop)
         line = SCENARIO.lines(TWO, car.dimensions())[0]
         robot.go_to(line.ray, TWO.straightened_distance_m)
@@ -69,7 +70,7 @@ def measured(robot_link, car_link):
     progress, loop = Progress("autolock", TWO.to_mapping()), ControlLoop(robot_link, car_link)
     runner = Runner(SCENARIO, TWO, loop, progress, lambda _: None)
     runner.run()
-    loop.standstill = since_the_run()
+    loop.exchange.standstill = since_the_run()
     return runner, progress, SCENARIO.lines(TWO, loop.car_dimensions)[0]
 
 

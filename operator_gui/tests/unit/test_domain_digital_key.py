@@ -11,6 +11,7 @@ from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.distance import distance_to_outline, gap_to_outline
 from mtr_operator.domain.distance_feed import DistanceFeed, Reported
 from mtr_operator.domain.errors import ConnectionFailed, InvalidParameter, LinkLost
+from mtr_operator.domain.exchange.run_context import Assistance
 from mtr_operator.domain.results.line_result import LineStatus, result_from_document
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.robot_status import CarDimensions
@@ -58,8 +59,7 @@ def measured(robot_link, car_link):
     """Progress of a whole test with a feed."""
     def run(feed, parameters=PARAMETERS):
         progress = Progress(SCENARIO.name, parameters.to_mapping())
-        loop = ControlLoop(robot_link, car_link)
-        loop.phone = feed
+        loop = ControlLoop(robot_link, car_link, assistance=Assistance(phone=feed))
         Runner(SCENARIO, parameters, loop, progress, lambda _: None).run()
         return progress
     return run

@@ -5,11 +5,12 @@ from dataclasses import replace
 import pytest
 
 from mtr_operator.domain.actions.car import Car
-from mtr_operator.domain.actions.control_loop import MAX_BLIND_S, POLL_PERIOD_S, RESEND_POLLS, ControlLoop
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.preparation import prepare
 from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.trouble import Cancelled, LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost, RobotFailed
+from mtr_operator.domain.exchange.exchange import MAX_BLIND_S, POLL_PERIOD_S, RESEND_POLLS
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.requests import Direction
 from mtr_operator.domain.robot_status import Interventions, Notification, PreflightItem, PreflightReport

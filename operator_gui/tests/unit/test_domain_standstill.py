@@ -4,9 +4,10 @@ import time
 
 import pytest
 
-from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S, ControlLoop
+from mtr_operator.domain.actions.control_loop import ControlLoop
 from mtr_operator.domain.actions.standstill import MIN_SLEEP_S, Standstill, since_boot_s
 from mtr_operator.domain.errors import StoodStill
+from mtr_operator.domain.exchange.exchange import SILENCE_LIMIT_S
 from mtr_operator.domain.geometry.pose import Pose
 from mtr_operator.domain.requests import Waypoint
 
@@ -79,7 +80,7 @@ def sent_after(robot_link, action):
 
 def test_test_ends_with_a_sentence_and_nothing_that_moves_leaves_after_the_sleep(robot_link, car_link, clocks):
     loop = ControlLoop(robot_link, car_link)
-    loop.standstill = clocks.standstill()
+    loop.exchange.standstill = clocks.standstill()
     loop.step()
     loop.change(stop=False, max_speed_mps=0.5, waypoint=Waypoint(1, Pose(1.0, 0.0, 0.0)))
     loop.step()
@@ -96,7 +97,7 @@ def test_test_ends_with_a_sentence_and_nothing_that_moves_leaves_after_the_sleep
 
 def test_sleep_while_a_status_is_waited_for_is_noticed_before_it_is_answered(robot_link, car_link, clocks):
     loop = ControlLoop(robot_link, car_link)
-    loop.standstill = clocks.standstill()
+    loop.exchange.standstill = clocks.standstill()
     loop.step()
     loop.change(stop=False)
     next_status, slept = robot_link.next_status, []

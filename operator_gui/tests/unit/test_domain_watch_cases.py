@@ -15,6 +15,7 @@ from mtr_operator.domain.actions.robot import Robot
 from mtr_operator.domain.actions.tolerances import Tolerances
 from mtr_operator.domain.actions.trouble import LineInvalid
 from mtr_operator.domain.errors import ConnectionFailed, LinkLost
+from mtr_operator.domain.exchange.run_context import RunContext
 from mtr_operator.domain.geometry.ray import Ray
 from mtr_operator.domain.ports import PASSIVE_ENTRY, CarEvent, LockFacts, LockState
 from mtr_operator.domain.requests import Direction
@@ -79,10 +80,10 @@ def test_hold_that_the_operator_has_released_is_asked_for_with_the_one_in_force(
 
 
 def test_changes_of_the_locks_are_kept_before_anything_follows_from_them(loop, world):
-    loop.journal = Diary()
+    loop.context = RunContext(journal=Diary())
     world.events = [CarEvent(1.05, 0.005, UNLOCKED, PASSIVE_ENTRY)]
     loop.step()
-    (kind, values), = loop.journal.entries
+    (kind, values), = loop.context.journal.entries
     assert (kind, values["time_s"], values["source"]) == (EVENT, 1.05, PASSIVE_ENTRY)
     assert len(loop.events) == 1
 

@@ -239,7 +239,6 @@ class CanCarLink(CarLink, BusMonitor, BusRecorder, CarEquipment, FrameSink):
         return threading.Event() if self._reader is None else self._reader.send(message)
 
     def frame(self, frame: CanFrame) -> None:
-        """See FrameSink."""
         with self._changed:
             if isinstance(self._phone, CarSignalFeed):
                 self._phone.frame(frame)
@@ -269,37 +268,31 @@ class CanCarLink(CarLink, BusMonitor, BusRecorder, CarEquipment, FrameSink):
                 self._log.frame(frame, watch.local_s, self._further.channel(frame.bus))
 
     def tick(self, now_s: float) -> None:
-        """See FrameSink."""
         if self._poller is not None:
             with self._changed:
                 self._poller.tick(now_s)
 
     def error_frame(self) -> None:
-        """See FrameSink."""
         with self._changed:
             self._trouble.error_frame()
             self._log.error_frame()
 
     def frames_lost(self) -> None:
-        """See FrameSink."""
         with self._changed:
             self._trouble.frames_lost()
             if self._watch is not None and self._watch.is_only_on_change:
                 self._watch.forget_state()
 
     def fault(self, text: str) -> None:
-        """See FrameSink."""
         with self._changed:
             self._trouble.fault = text
             self._changed.notify_all()
 
     def answered(self) -> None:
-        """See FrameSink."""
         with self._changed:
             self._changed.notify_all()
 
     def reopened(self) -> None:
-        """See FrameSink."""
         if self._outputs is not None:
             self._outputs.reopened()
         with self._changed:

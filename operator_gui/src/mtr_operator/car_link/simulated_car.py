@@ -52,15 +52,12 @@ class SimulatedHandle(HandlePort):
         self._is_taken = False
 
     def request(self, distance_m: float) -> None:
-        """See HandlePort."""
         self.is_waiting = self._is_taken = True
 
     def is_taken(self) -> bool:
-        """See HandlePort."""
         return self._is_taken
 
     def release(self) -> None:
-        """See HandlePort."""
         self._is_taken = False
 
 
@@ -77,15 +74,12 @@ class SimulatedExtender(ExtenderPort):
         self._is_on = self._is_switched = False
 
     def switch(self, is_on: bool) -> None:
-        """See ExtenderPort."""
         self._is_on, self._is_switched = is_on, True
 
     def is_switched(self) -> bool:
-        """See ExtenderPort."""
         return self._is_switched
 
     def release(self) -> None:
-        """See ExtenderPort."""
         self._is_switched = False
 
     def gap_m(self, gap_m: float) -> float:

@@ -74,13 +74,11 @@ class SpokenCar(RobotLink):
         return self._profile.cycle_time_s
 
     def connect(self) -> None:
-        """See RobotLink."""
         self._robot.connect()
         self._model.connect()
         self._phone.connect()
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
-        """See RobotLink."""
         status = self._robot.next_status(timeout_s)
         if status is None:
             return None
@@ -148,11 +146,9 @@ class SpokenCar(RobotLink):
             time.sleep(0.0)
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink."""
         self._robot.send(desired)
 
     def close(self) -> None:
-        """See RobotLink."""
         self._robot.close()
         for bus in self._buses.values():
             bus.shutdown()

@@ -11,6 +11,7 @@ from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.clocks.simulated_time import is_simulated_robot
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.exchange.run_context import Assistance, RunContext
 from mtr_operator.domain.interfaces.part import part
 from mtr_operator.domain.interfaces.scenario_parts import Concluding
 from mtr_operator.domain.ports import RobotLink
@@ -133,13 +134,13 @@ class CommandLineRun:
                     raise Cancelled("Interrupted; the robot was not moved.")
             events = EventLog()
             observer = EventObserver(display, events, self._scenario.line_word)
-            loop = ControlLoop(robot, car, observer, interrupt.is_requested, Release(display.say, enter))
-            profile = self._progress.session.get(CAR_PROFILE, "")
-            loop.course, loop.event_log = self._recording.begin(car, profile), events
+            course = self._recording.begin(car, self._progress.session.get(CAR_PROFILE, ""))
+            person = HandleQuestion(display.say, enter).person
+            loop = ControlLoop(robot, car, observer, interrupt.is_requested, Release(display.say, enter),
+                               context=RunContext(course=course, event_log=events),
+                               assistance=Assistance(person, person, self._phone))
             if self._options.test_area is not None:
                 set_area(loop, self._options.test_area)
-            person = HandleQuestion(display.say, enter).person
-            loop.person, loop.switcher, loop.phone = person, person, self._phone
             loop.supervision = self._supervision(display, enter, loop.status)
             rejected_before = loop.status.rejected_messages
             self._progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)

@@ -12,7 +12,7 @@ from typing import Callable, Iterator
 
 from mtr_operator import __version__
 from mtr_operator.domain.absent_car import NO_ADAPTER
-from mtr_operator.domain.actions.control_loop import MAX_BLIND_S
+from mtr_operator.domain.exchange.exchange import MAX_BLIND_S
 from mtr_operator.domain.ports import LockState, RobotLink
 from mtr_operator.domain.robot_status import EmergencyStop, RobotStatus
 from mtr_operator.station.checks.check_texts import check_advice, check_text, check_title

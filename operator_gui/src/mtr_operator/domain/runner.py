@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+from dataclasses import replace
 from typing import Any, Callable, Iterator, Sequence
 
 from .actions.car import Car
@@ -70,9 +71,10 @@ class Runner:
         self._loop = loop
         self._progress = progress
         self._save = save
-        kept = CourseJournal(journal or Journal(), loop.course)
-        self._notebook = loop.journal = Notebook(progress, scenario.result_type, kept)
-        loop.refusals = Refusals(progress.session, self._notebook)
+        kept = CourseJournal(journal or Journal(), loop.context.course)
+        self._notebook = Notebook(progress, scenario.result_type, kept)
+        loop.context = replace(loop.context, journal=self._notebook,
+                               refusals=Refusals(progress.session, self._notebook))
         self._robot = Robot(loop, progress.results)
         self._retreat = Retreat(self._robot)
         self._car = Car(loop)
@@ -128,7 +130,7 @@ class Runner:
             self._notebook.add(LINE, {"result": half.to_document(), "frame": self._frame_of_line()})
         self._measure(lines)
         self._measure_further(lines)
-        self._loop.refusals.keep()
+        self._loop.context.refusals.keep()
 
     def _warn(self, *sentences: str) -> None:
         for sentence in sentences:
@@ -140,7 +142,7 @@ class Runner:
         self._notebook.wait()
         self._notebook.check()
         with contextlib.suppress(OutputError):
-            self._loop.refusals.keep()
+            self._loop.context.refusals.keep()
             self._notebook.add(SESSION, {ENDED_BY: str(error)})
 
     def _halt(self) -> None:

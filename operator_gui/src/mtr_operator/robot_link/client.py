@@ -67,12 +67,10 @@ class ZmqRobotLink(RobotLink):
 
     @property
     def is_secret(self) -> bool:
-        """See RobotLink."""
         return self._sockets is not None and self._sockets.credentials is not None
 
     @property
     def is_exposed(self) -> bool:
-        """See RobotLink."""
         return self._sockets is not None and not self.is_secret and not is_loopback(self._ip)
 
     @property
@@ -81,7 +79,6 @@ class ZmqRobotLink(RobotLink):
         return credentials is not None and credentials.role == VIEWER
 
     def connect(self) -> None:
-        """See RobotLink."""
         if self._sockets is None:
             self._ip = probe(self.address, self._timeout_s)
             self._sockets = self._connected()
@@ -100,7 +97,6 @@ class ZmqRobotLink(RobotLink):
         raise refusals[0]
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
-        """See RobotLink."""
         if self._sockets is None:
             raise ConnectionFailed("The robot is not connected.")
         subscriber = self._sockets.subscriber
@@ -125,7 +121,6 @@ class ZmqRobotLink(RobotLink):
         self._answer(desired, watches=False)
 
     def watch(self) -> None:
-        """See RobotLink."""
         if not self._is_viewer:
             self._answer(DesiredState(), watches=True)
 
@@ -140,11 +135,9 @@ class ZmqRobotLink(RobotLink):
             self._answered = self._seen
 
     def is_answered(self, status: RobotStatus) -> bool:
-        """See RobotLink."""
         return status.session_id == self.session_id and status.command_id == self._command_id
 
     def close(self) -> None:
-        """See RobotLink."""
         sockets = self._sockets
         if sockets is None:
             return

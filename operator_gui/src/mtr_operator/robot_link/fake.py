@@ -37,7 +37,6 @@ class FakeRobotLink(RobotLink):
         self._command_id = 0
 
     def connect(self) -> None:
-        """See RobotLink."""
         self._connected = True
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
@@ -57,7 +56,6 @@ class FakeRobotLink(RobotLink):
         self._sleep(min(max(self._due_s - now_s, 0.0), self._pause_s))
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink."""
         if not self._connected:
             raise ConnectionFailed("The robot is not connected.")
         if desired != self._desired:
@@ -66,10 +64,8 @@ class FakeRobotLink(RobotLink):
         self._robot.take(self._session_id, self._command_id, desired)
 
     def is_answered(self, status: RobotStatus) -> bool:
-        """See RobotLink."""
         return status.session_id == self._session_id and status.command_id == self._command_id
 
     def close(self) -> None:
-        """See RobotLink."""
         self._robot.halt()
         self._connected = False

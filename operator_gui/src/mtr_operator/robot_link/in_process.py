@@ -31,7 +31,6 @@ class InProcessRobotLink(ZmqRobotLink):
         self._robot = robot
 
     def connect(self) -> None:
-        """See RobotLink."""
         socket = cast("Socket", _Wire(self._robot))
         self._sockets = LinkSockets(cast("Context", socket), socket, socket)
 

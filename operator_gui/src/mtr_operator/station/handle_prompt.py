@@ -49,11 +49,9 @@ class AskedPerson(HandlePort, ExtenderPort):
         self._is_shown = False
 
     def request(self, distance_m: float) -> None:
-        """See HandlePort."""
         self._ask(HandlePrompt(self._number + 1, distance_m))
 
     def switch(self, is_on: bool) -> None:
-        """See ExtenderPort."""
         self._ask(ExtenderPrompt(self._number + 1, is_on))
 
     def _ask(self, prompt: Prompt) -> None:
@@ -62,11 +60,9 @@ class AskedPerson(HandlePort, ExtenderPort):
         self._show(prompt)
 
     def is_taken(self) -> bool:
-        """See HandlePort."""
         return self._is_shown and self._answered == self._number
 
     def is_switched(self) -> bool:
-        """See ExtenderPort."""
         return self.is_taken()
 
     def release(self) -> None:

@@ -50,7 +50,6 @@ class Store(Journal):
         self._held.close()
 
     def add(self, kind: str, values: Mapping[str, Any]) -> None:
-        """See Journal."""
         self._opened.add(kind, values)
 
     def content(self) -> bytes:

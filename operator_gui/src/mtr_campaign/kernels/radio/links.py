@@ -32,7 +32,7 @@ class RadioRobotLink(RobotLink):
         self._world = world
 
     def connect(self) -> None:
-        """See RobotLink."""
+        pass
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
         """See RobotLink; never times out."""
@@ -40,11 +40,10 @@ class RadioRobotLink(RobotLink):
         return self._world.next_status()
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink."""
         self._world.take(desired)
 
     def close(self) -> None:
-        """See RobotLink."""
+        pass
 
 
 class RadioHandle(HandlePort):
@@ -57,16 +56,13 @@ class RadioHandle(HandlePort):
         self._is_taken = False
 
     def request(self, distance_m: float) -> None:
-        """See HandlePort."""
         self._world.take_handle()
         self._is_taken = True
 
     def is_taken(self) -> bool:
-        """See HandlePort."""
         return self._is_taken
 
     def release(self) -> None:
-        """See HandlePort."""
         self._is_taken = False
 
 

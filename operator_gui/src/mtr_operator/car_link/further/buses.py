@@ -92,7 +92,6 @@ class _Bus(FrameSink):
         self._sink = sink
 
     def frame(self, frame: CanFrame) -> None:
-        """See FrameSink."""
         self._sink.frame(replace(frame, bus=self._name))
 
     def error_frame(self) -> None:
@@ -102,8 +101,7 @@ class _Bus(FrameSink):
         """See FrameSink: a cause that is missing is told with the change."""
 
     def fault(self, text: str) -> None:
-        """See FrameSink."""
         self.problem = f"Further bus {self._name}: {text}" if text else ""
 
     def reopened(self) -> None:
-        """See FrameSink."""
+        pass

@@ -36,7 +36,6 @@ class Listener(FrameSink):
         return self._fault or self._trouble.no_frame
 
     def frame(self, frame: CanFrame) -> None:
-        """See FrameSink."""
         self._trouble.frame(frame)
         self._heard(frame)
 
@@ -48,8 +47,7 @@ class Listener(FrameSink):
         """See FrameSink: what follows the locks is seen in the frames that came."""
 
     def fault(self, text: str) -> None:
-        """See FrameSink."""
         self._fault = text
 
     def reopened(self) -> None:
-        """See FrameSink."""
+        pass

@@ -24,16 +24,13 @@ class BusExtender(ExtenderPort):
         self._is_asked = False
 
     def switch(self, is_on: bool) -> None:
-        """See ExtenderPort."""
         self._is_asked = True
         self._switch.switch(is_on)
 
     def is_switched(self) -> bool:
-        """See ExtenderPort."""
         return self._is_asked and self._switch.is_done()
 
     def release(self) -> None:
-        """See ExtenderPort."""
         self._is_asked = False
 
     def reopened(self) -> None:

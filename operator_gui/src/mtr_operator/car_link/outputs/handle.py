@@ -23,15 +23,12 @@ class BusHandle(HandlePort):
         self._switch = OutputSwitch(output, send, refusal)
 
     def request(self, distance_m: float) -> None:
-        """See HandlePort."""
         self._switch.switch(True)
 
     def is_taken(self) -> bool:
-        """See HandlePort."""
         return self._switch.is_active and self._switch.is_done()
 
     def release(self) -> None:
-        """See HandlePort."""
         if self._switch.is_active:
             self._switch.switch(False)
 

@@ -94,7 +94,6 @@ class CarSignalFeed(DistanceFeed):
 
     @property
     def name(self) -> str:
-        """See DistanceFeed."""
         return _NAME.format(self._signal.place.signal, self._signal.place.message.name)
 
     def connect(self) -> None:
@@ -131,8 +130,7 @@ class CarSignalFeed(DistanceFeed):
 
     @property
     def refused(self) -> Refused:
-        """See DistanceFeed."""
         return self._refused
 
     def close(self) -> None:
-        """See DistanceFeed."""
+        pass

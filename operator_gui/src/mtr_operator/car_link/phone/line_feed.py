@@ -63,11 +63,9 @@ class LineFeed(DistanceFeed):
 
     @property
     def name(self) -> str:
-        """See DistanceFeed."""
         return self._source.name
 
     def connect(self) -> None:
-        """See DistanceFeed."""
         if self._thread is not None:
             return
         try:
@@ -81,7 +79,6 @@ class LineFeed(DistanceFeed):
         self._thread.start()
 
     def observe(self, status: RobotStatus) -> list[Reported]:
-        """See DistanceFeed."""
         with self._lock:
             told = list(self._waiting)
             self._waiting.clear()
@@ -89,7 +86,6 @@ class LineFeed(DistanceFeed):
 
     @property
     def problem(self) -> str:
-        """See DistanceFeed."""
         with self._lock:
             if self._lost:
                 return f"The phone's distance does not come from {self.name} any more: {self._lost}."
@@ -102,12 +98,10 @@ class LineFeed(DistanceFeed):
 
     @property
     def refused(self) -> Refused:
-        """See DistanceFeed."""
         with self._lock:
             return self._reader.refused
 
     def close(self) -> None:
-        """See DistanceFeed."""
         self._stopping.set()
         thread, self._thread = self._thread, None
         if thread is not None:

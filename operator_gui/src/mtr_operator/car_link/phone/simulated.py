@@ -69,16 +69,13 @@ class SimulatedPhone(DistanceFeed):
 
     @property
     def name(self) -> str:
-        """See DistanceFeed."""
         values = ", ".join(f"{name} {value:g}" for name, value in dataclasses.asdict(self._model).items())
         return f"simulated phone: {values}"
 
     def connect(self) -> None:
-        """See DistanceFeed."""
         self._is_active = True
 
     def observe(self, status: RobotStatus) -> list[Reported]:
-        """See DistanceFeed."""
         error_m, is_missing = self._chance.gauss(0.0, 1.0), self._chance.random() < self._model.dropouts
         if not self._is_active or status.car is None or not status.pose_valid or is_missing:
             return []
@@ -92,9 +89,7 @@ class SimulatedPhone(DistanceFeed):
 
     @property
     def problem(self) -> str:
-        """See DistanceFeed."""
         return "" if self._is_active else "The simulated phone is not connected."
 
     def close(self) -> None:
-        """See DistanceFeed."""
         self._is_active = False

@@ -65,7 +65,7 @@ class Car:
 
         A Car that unlocks while a person is asked has been asked by the handle: nobody has to say so.
         """
-        handle, asked_s, until_s = self._loop.handle, self._loop.now_s, self._loop.waited_s + patience_s
+        handle, asked_s, until_s = self._loop.assistance.handle, self._loop.now_s, self._loop.waited_s + patience_s
         if handle is None:
             raise RobotFailed(_NOBODY)
         handle.request(distance_m)
@@ -82,7 +82,7 @@ class Car:
 
     def require_extender(self) -> None:
         """ConnectionFailed when nothing and nobody switches an extender."""
-        if self._loop.extender is None:
+        if self._loop.assistance.extender is None:
             raise ConnectionFailed(_NO_SWITCH)
 
     def switch_extender(self, is_on: bool, patience_s: float) -> str:
@@ -90,7 +90,7 @@ class Car:
 
         RobotFailed when nobody does it within patience_s of robot time.
         """
-        extender, until_s = self._loop.extender, self._loop.waited_s + patience_s
+        extender, until_s = self._loop.assistance.extender, self._loop.waited_s + patience_s
         if extender is None:
             raise RobotFailed(_NO_SWITCH)
         extender.switch(is_on)
@@ -106,7 +106,7 @@ class Car:
 
     def require_phone(self) -> None:
         """ConnectionFailed when nothing tells the distance of a phone."""
-        if self._loop.distance_feed is None:
+        if self._loop.assistance.distance_feed is None:
             raise ConnectionFailed(_NO_PHONE)
 
     @property
@@ -117,7 +117,7 @@ class Car:
     @property
     def phone_problem(self) -> str:
         """Why the phone's distance cannot be told now; empty when it can."""
-        feed = self._loop.distance_feed
+        feed = self._loop.assistance.distance_feed
         return _NO_PHONE if feed is None else feed.problem
 
     def wait_for_phone(self) -> None:
@@ -146,7 +146,7 @@ class Car:
     @property
     def record(self) -> Mapping[str, str]:
         """How it is watched, for the record of the test."""
-        feed = self._loop.distance_feed
+        feed = self._loop.assistance.distance_feed
         return {**part(self._loop.car_link, BusMonitor).record, **({} if feed is None else {PHONE_FEED: feed.name})}
 
     def dimensions(self) -> CarDimensions:

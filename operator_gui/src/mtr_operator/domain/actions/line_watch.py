@@ -47,7 +47,7 @@ class LineWatch:
         self._history = LockHistory(self.lock_state, loop.car_link.facts, _unlocked_s(loop.events))
         self._newest = loop.events[-1] if loop.events else None
         self._before = loop.status.interventions
-        loop.course.note(WATCHED, {"state": self._history.state.value, "unlocked_s": _unlocked_s(loop.events)})
+        loop.context.course.note(WATCHED, {"state": self._history.state.value, "unlocked_s": _unlocked_s(loop.events)})
 
     @property
     def now_s(self) -> float:
@@ -69,12 +69,12 @@ class LineWatch:
 
     def hold(self) -> None:
         """See LockHistory."""
-        self._loop.course.note(HELD, {})
+        self._loop.context.course.note(HELD, {})
         self._history.hold()
 
     def allow_lock(self) -> None:
         """See LockHistory."""
-        self._loop.course.note(ALLOWED, {})
+        self._loop.context.course.note(ALLOWED, {})
         self._history.allow_lock()
 
     @property
@@ -84,12 +84,12 @@ class LineWatch:
 
     def expect(self, expected: Expected) -> None:
         """See LockHistory."""
-        self._loop.course.note(EXPECTED, plain_fields(expected))
+        self._loop.context.course.note(EXPECTED, plain_fields(expected))
         self._history.expect(expected)
 
     def close(self) -> None:
         """See LockHistory."""
-        self._loop.course.note(CLOSED, {})
+        self._loop.context.course.note(CLOSED, {})
         self._history.close(self._loop.now_s)
 
     @property

@@ -137,7 +137,7 @@ class Robot:
             confirmation = self._confirmation_of(order)
         finally:
             self._loop.change(press=None)
-        self._loop.journal.add(PRESS, plain_fields(confirmation))
+        self._loop.context.journal.add(PRESS, plain_fields(confirmation))
         if confirmation.error:
             raise LineInvalid(f"The button could not be pressed: {confirmation.error}")
         return confirmation
@@ -205,7 +205,7 @@ class Robot:
 
         word: what it is called, of the scenario's distance_words, with a number where there are several.
         """
-        self._loop.journal.add(POINT, {
+        self._loop.context.journal.add(POINT, {
             "word": word, "status": status.value, "distance": None if distance is None else plain_fields(distance),
             "frame": None if self.frame is None else plain_fields(self.frame)})
         # Nobody reads of what follows from it before it is safe.
@@ -222,7 +222,7 @@ class Robot:
             with self._loop.watched(line.check):
                 yield line
         finally:
-            self._loop.course.note(UNWATCHED, {})
+            self._loop.context.course.note(UNWATCHED, {})
 
     def trouble(self) -> str:
         """Why nothing can be measured now; empty when it can."""
@@ -231,7 +231,7 @@ class Robot:
     def say(self, action: str) -> None:
         """Tell the Operator what the robot does now."""
         self._loop.observer.on_action(action)
-        self._loop.journal.add(DECISION, {"action": action, "robot_time_s": self.now_s})
+        self._loop.context.journal.add(DECISION, {"action": action, "robot_time_s": self.now_s})
 
     @property
     def status(self) -> RobotStatus:

@@ -33,15 +33,12 @@ class CourseJournal(Journal):
         self._course = course
 
     def add(self, kind: str, values: Mapping[str, Any]) -> None:
-        """See Journal."""
         if kind in _OF_JOURNAL:
             self._course.note(kind, values)
         self._journal.add(kind, values)
 
     def wait(self, patience_s: float = math.inf) -> bool:
-        """See Journal."""
         return self._journal.wait(patience_s)
 
     def check(self) -> None:
-        """See Journal."""
         self._journal.check()

@@ -39,18 +39,15 @@ class Notebook(Journal):
         self._journal = journal
 
     def add(self, kind: str, values: Mapping[str, Any]) -> None:
-        """See Journal."""
         try:
             self._journal.add(kind, values)
         finally:
             apply(self._progress, self._result_type, kind, values)
 
     def wait(self, patience_s: float = math.inf) -> bool:
-        """See Journal."""
         return self._journal.wait(patience_s)
 
     def check(self) -> None:
-        """See Journal."""
         self._journal.check()
 
 

@@ -15,6 +15,7 @@ from mtr_operator.domain.actions.trouble import Cancelled
 from mtr_operator.domain.assistance import ExtenderPort, HandlePort
 from mtr_operator.domain.errors import OperatorError, OutputError
 from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.exchange.run_context import Assistance, RunContext
 from mtr_operator.domain.ports import CarLink
 from mtr_operator.domain.results.session_record import CAR_PROFILE, ROBOT_SOFTWARE
 from mtr_operator.domain.runner import Runner
@@ -106,13 +107,13 @@ class MeasurementRun:
             reporter = Reporter(self._mailbox, robot, self._car, test.progress, after_status,
                                 time_line=self._time_line)
             observer = EventObserver(reporter, self._event_log, test.scenario.line_word)
-            loop = ControlLoop(robot, self._car, observer, is_cancelled, self._answers.resumed_hold)
-            loop.person, loop.switcher = self._answers.person, self._answers.switcher
-            loop.skipping, loop.supervision = self._answers.skipping, self._answers.supervision
-            loop.event_log = self._event_log
-            loop.standstill = self._standstill or loop.standstill
             try:
-                loop.course = recording.begin(self._car, test.progress.session.get(CAR_PROFILE, ""))
+                course = recording.begin(self._car, test.progress.session.get(CAR_PROFILE, ""))
+                loop = ControlLoop(robot, self._car, observer, is_cancelled, self._answers.resumed_hold,
+                                   context=RunContext(course=course, event_log=self._event_log),
+                                   assistance=Assistance(self._answers.person, self._answers.switcher))
+                loop.skipping, loop.supervision = self._answers.skipping, self._answers.supervision
+                loop.exchange.standstill = self._standstill or loop.exchange.standstill
                 with self._event_log.told_to(recording.event), run_told(self._event_log, test.progress.has_findings), \
                         test.written_beside(store) as journal:
                     test.progress.note_used(ROBOT_SOFTWARE, loop.status.software_version)

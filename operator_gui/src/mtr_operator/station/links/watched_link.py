@@ -29,23 +29,19 @@ class WatchedRobotLink(RobotLink):
 
     @property
     def is_exposed(self) -> bool:
-        """See RobotLink."""
         return self._link.is_exposed
 
     def connect(self) -> None:
-        """See RobotLink."""
         self._link.connect()
         self._stop.attach(self._link.send)
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
-        """See RobotLink."""
         status = self._link.next_status(timeout_s)
         if status is not None and status.is_in_service:
             self._stop.entered_service()
         return status
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink."""
         self.waypoint = desired.waypoint
         self._stop.pass_on(self._link.send, desired)
 
@@ -59,11 +55,9 @@ class WatchedRobotLink(RobotLink):
         self._stop.withdraw()
 
     def is_answered(self, status: RobotStatus) -> bool:
-        """See RobotLink."""
         return self._link.is_answered(status)
 
     def close(self) -> None:
-        """See RobotLink."""
         self._stop.detach()
         self._link.close()
 

@@ -9,12 +9,12 @@ import threading
 from dataclasses import replace
 from typing import Callable, Sequence
 
-from mtr_operator.domain.actions.control_loop import SILENCE_LIMIT_S
 from mtr_operator.domain.actions.skipping import Skipping
 from mtr_operator.domain.actions.standstill import Standstill
 from mtr_operator.domain.errors import OperatorError
 from mtr_operator.domain.eventlog.entry import ERROR, INFO, WARNING, EventKind
 from mtr_operator.domain.eventlog.event_log import EventLog
+from mtr_operator.domain.exchange.exchange import SILENCE_LIMIT_S
 from mtr_operator.domain.geometry.pose import Point
 from mtr_operator.domain.interfaces.car_bus import BusMonitor
 from mtr_operator.domain.interfaces.part import part

@@ -21,7 +21,7 @@ class Files(Protocol):
         """True when something was kept since it was opened."""
 
     def add(self, kind: str, values: Mapping[str, Any]) -> None:
-        """See Journal."""
+        pass
 
     def content(self) -> bytes:
         """Of a progress file, as the test stands."""
@@ -69,14 +69,12 @@ class JournalBeside(Journal):
         self._hand_over(lambda: self._files.save(content))
 
     def wait(self, patience_s: float = math.inf) -> bool:
-        """See Journal."""
         if self._newest is None:
             return True
         concurrent.futures.wait([self._newest], None if math.isinf(patience_s) else patience_s)
         return self._newest.done()
 
     def check(self) -> None:
-        """See Journal."""
         if self._failures:
             raise self._failures.popleft()
 

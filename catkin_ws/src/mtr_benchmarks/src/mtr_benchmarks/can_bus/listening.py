@@ -64,7 +64,6 @@ class _TimedLink(CanCarLink):
         self._state = -1
 
     def frame(self, frame: CanFrame) -> None:
-        """See FrameSink."""
         super().frame(frame)
         if frame.can_id == LOCK_ID:
             state = frame.data[0] & _STATE_BITS

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from mtr_operator.car_link.profile import load_profile
 from mtr_operator.car_link.spoken_car import SpokenCar
 from mtr_operator.domain.actions.control_loop import ControlLoop
+from mtr_operator.domain.exchange.run_context import RunContext
 from mtr_operator.domain.results.progress import Progress
 from mtr_operator.domain.runner import Runner
 from mtr_operator.domain.scenarios import SCENARIOS
@@ -41,8 +42,7 @@ def replayed_autolock(folder: pathlib.Path) -> Replayed:
     try:
         spoken.connect()
         spoken.car.connect()
-        loop = ControlLoop(spoken, spoken.car)
-        loop.course = recording.begin(spoken.car)
+        loop = ControlLoop(spoken, spoken.car, context=RunContext(course=recording.begin(spoken.car)))
         Runner(scenario, parameters, loop, progress, lambda _: None).run()
     finally:
         recording.end()

@@ -72,14 +72,12 @@ class WatchedOpener(LinkOpener):
             """Link of the application."""
 
             def next_status(self, timeout_s: float) -> Any:
-                """See RobotLink."""
                 status = super().next_status(timeout_s)
                 if status is not None:
                     watch.came_s[status.id] = time.monotonic()
                 return status
 
             def send(self, desired: Any) -> None:
-                """See RobotLink."""
                 super().send(desired)
                 if desired.stop:
                     watch.stops_s.append(time.monotonic())

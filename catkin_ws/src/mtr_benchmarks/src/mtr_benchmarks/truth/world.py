@@ -138,10 +138,9 @@ class WorldRobot(RobotLink):
         self._world = world
 
     def connect(self) -> None:
-        """See RobotLink."""
+        pass
 
     def next_status(self, timeout_s: float) -> Optional[RobotStatus]:
-        """See RobotLink."""
         for _ in range(max(round(timeout_s / STATUS_PERIOD_S), 1)):
             self._world.step()
             status = self._world.status()
@@ -151,12 +150,11 @@ class WorldRobot(RobotLink):
         return None
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink."""
         if not self._world.loses(self._world.time_s):
             self._world.robot.take(desired, self._world.time_s)
 
     def close(self) -> None:
-        """See RobotLink."""
+        pass
 
 
 class WorldCar(CarLink):
