@@ -21,7 +21,7 @@ MAPS = replace(WANTS, waypoint=Waypoint(), map_car_id=3)
 
 @pytest.fixture
 def machine():
-    started = StateMachine(Parameters(resume_by_operator=False))
+    started = StateMachine(Parameters(resume_by_operator=False, signal_s=0.0))
     started.step(Observation(desired=replace(WANTS, waypoint=Waypoint()), age_s=ALL_WELL))
     return started
 

@@ -255,7 +255,7 @@ def test_stop_hold_outlives_the_session_that_was_stopped(robot):
 @pytest.mark.parametrize("duration_s", [0.2, 2.0, 10.0])
 def test_longest_silence_without_a_hold_is_a_parameter(duration_s):
     robot = Robot()
-    robot.machine = StateMachine(Parameters(hold_after_lost_s=duration_s))
+    robot.machine = StateMachine(Parameters(hold_after_lost_s=duration_s, signal_s=0.0))
     robot.follow()
     silent_link(robot, duration_s)
     assert not robot.decision.hold_id

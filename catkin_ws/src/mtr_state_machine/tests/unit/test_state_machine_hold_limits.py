@@ -8,6 +8,7 @@ from state_machine_seen import WANTS, WAYPOINT, seen
 from mtr_core.requests import Goal
 from mtr_state_machine.hold import EMPTY_FOR_S, RECHARGED, Hold
 from mtr_state_machine.observation import Drive
+from mtr_state_machine.parameters import Parameters
 
 LONGEST_PAUSE_S, EMPTY = 0.5, 0.05
 GOAL = Goal(WAYPOINT, 1)
@@ -16,14 +17,14 @@ GOAL = Goal(WAYPOINT, 1)
 @pytest.fixture
 def hold():
     """Return a hold after one observation at time 0."""
-    made = Hold(True, LONGEST_PAUSE_S, EMPTY)
+    made = Hold(Parameters(silent_after_s=LONGEST_PAUSE_S, empty_battery=EMPTY))
     made.update(seen(now_s=0.0), GOAL)
     assert not made.id
     return made
 
 
 def test_blockages_and_drives_from_before_the_start_hold_nobody():
-    made = Hold(True, LONGEST_PAUSE_S, EMPTY)
+    made = Hold(Parameters(silent_after_s=LONGEST_PAUSE_S, empty_battery=EMPTY))
     made.update(seen(now_s=0.0, drive=Drive(False, 4, 3), firmware_resets=2), GOAL)
     assert not made.id
     made.update(seen(now_s=0.1, drive=Drive(False, 4, 4), firmware_resets=2), GOAL)
