@@ -231,8 +231,8 @@ class ServiceModeTest(unittest.TestCase):
 
     def call(self, order):
         """A person at the robot; what the robot answers."""
-        rospy.wait_for_service(names.ORDER_SERVICE_MODE, STARTS_WITHIN_S)
-        return rospy.ServiceProxy(names.ORDER_SERVICE_MODE, OrderServiceMode)(order)
+        rospy.wait_for_service(names.SERVICE_MODE_REQUEST, STARTS_WITHIN_S)
+        return rospy.ServiceProxy(names.SERVICE_MODE_REQUEST, OrderServiceMode)(order)
 
     def release(self):
         """Both sides; the robot's first."""

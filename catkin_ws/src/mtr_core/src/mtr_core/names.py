@@ -39,7 +39,7 @@ TEST_AREA_IN_FORCE = "/test_area_in_force"
 SERVICE_MODE_IN_FORCE = "/service_mode_in_force"
 # Owner of the motion lock of service mode, and the dispatcher's service that orders it
 SERVICE_MODE = "service_mode"
-ORDER_SERVICE_MODE = "/dispatcher/service_mode"
+SERVICE_MODE_REQUEST = "/dispatcher/service_mode"
 
 # Sensors and wheels, with the names of a Jackal
 FRONT_SCAN = "/front/scan"

@@ -60,7 +60,8 @@ def test_message_of_another_node_than_the_given_driver_is_never_used():
 
 
 def test_every_order_has_its_watch():
-    orders = {value for name, value in vars(names).items() if name.isupper() and isinstance(value, str)
-              and (name.startswith("FIRMWARE_") or "/command/" in value or name.endswith("_MODE"))}
+    topics = {name: value for name, value in vars(names).items() if name.isupper() and str(value).startswith("/")}
+    orders = {value for name, value in topics.items()
+              if name.startswith("FIRMWARE_") or "/command/" in value or name.endswith("_MODE")}
     reports = {names.FIRMWARE_STATE, names.FIRMWARE_ECHO, names.FIRMWARE_HEALTH, names.FIRMWARE_INPUTS}
     assert orders - reports <= set(names.MOTION_INPUTS) and names.DESIRED_STATE in names.MOTION_INPUTS

@@ -33,7 +33,7 @@ class ServiceCalls:
 
     def __init__(self, mode: ServiceMode, release_s: float):
         self._mode, self._release_s = mode, release_s
-        self._service = rospy.Service(names.ORDER_SERVICE_MODE, OrderServiceMode, self._order)
+        self._service = rospy.Service(names.SERVICE_MODE_REQUEST, OrderServiceMode, self._order)
 
     def _order(self, request: OrderServiceModeRequest) -> OrderServiceModeResponse:
         if request.order == OrderServiceModeRequest.ENTER:
@@ -86,8 +86,8 @@ def main(arguments: Optional[List[str]] = None) -> int:
         print(NOT_CONFIRMED, file=sys.stderr)
         return REFUSED
     try:
-        rospy.wait_for_service(names.ORDER_SERVICE_MODE, ANSWER_LIMIT_S)
-        answer = rospy.ServiceProxy(names.ORDER_SERVICE_MODE, OrderServiceMode)(ORDERS[options.order])
+        rospy.wait_for_service(names.SERVICE_MODE_REQUEST, ANSWER_LIMIT_S)
+        answer = rospy.ServiceProxy(names.SERVICE_MODE_REQUEST, OrderServiceMode)(ORDERS[options.order])
     except (rospy.ROSException, rospy.ServiceException, OSError):
         print(NOT_STARTED, file=sys.stderr)
         return CANNOT
