@@ -74,7 +74,8 @@ void RecordBox::start_or_end() {
     return;
   }
   said_->clear();
-  process_->start("rosrun", {"mtr_recording", "record", "--profile", profile_->currentText(), "--out", folder_->text()});
+  process_->start("rosrun",
+                  {"mtr_recording", "record", "--profile", profile_->currentText(), "--out", folder_->text()});
 }
 
 void RecordBox::show_state() {
