@@ -142,7 +142,7 @@ def test_question_makes_a_sound():
 
 def test_ignition_pauses_the_test_and_hinders_its_resumption(operator, monkeypatch):
     state = [SignalState.CLEAR]
-    link = operator.application.flow.connecting.worker._links.car._link
+    link = operator.application.flow.connecting.worker._links.car
     monkeypatch.setattr(type(link), "signals", property(
         lambda _: (CarSignal(IGNITION, "Terminal of Power", state[0]),)))
     screen = operator.begin("handle_request", border_distance_m="1.8", handle_timeout_s="3600")

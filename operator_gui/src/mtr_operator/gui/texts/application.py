@@ -6,7 +6,7 @@ from ..events import sentences as events
 from . import cars, figures, handle, identity, keeping, learn, limits, pairing, passes
 from .bus import can, logs
 from .keys import phone, relay
-from .safety import area, supervision
+from .safety import area, service, supervision
 
 SENTENCES = (
     QT_TRANSLATE_NOOP("Sentence", "A test is being measured: stop it first, then open or begin another one."),
@@ -138,7 +138,7 @@ SENTENCES = (
     *limits.SENTENCES, *identity.SENTENCES, *pairing.SENTENCES,
     *can.SENTENCES, *logs.SENTENCES, *handle.SENTENCES, *passes.SENTENCES, *figures.SENTENCES, *learn.SENTENCES,
     *area.SENTENCES,
-    *cars.SENTENCES, *supervision.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
+    *cars.SENTENCES, *supervision.SENTENCES + service.SENTENCES, *events.SENTENCES, *phone.SENTENCES, *relay.SENTENCES,
     QT_TRANSLATE_NOOP("Sentence", "It cannot be read: {}."),
     QT_TRANSLATE_NOOP("Sentence", "It is truncated or not a JSON file."),
     QT_TRANSLATE_NOOP("Sentence", "The progress file belongs to another Car: its {} was {} m, now it measures {} m. "

@@ -125,8 +125,7 @@ class MainWindow(QMainWindow):
         """Open a window of a kind, or show the one that is open; this one stays alive, and its Stop."""
         dialog = self._opened.get(kind)
         if dialog is None:
-            with self._stopping.building():
-                dialog = self._opened[kind] = make()
+            dialog = self._opened[kind] = make()
             dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
             dialog.finished.connect(lambda _: self._forget(kind))
         dialog.show()
