@@ -1,4 +1,4 @@
-"""The matrix of states and faults: its file is complete, its codes exist, and docs/faults.md has its table."""
+"""The matrix of states and faults: its file is complete, its codes exist, and docs/fault-matrix.md has its table."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re
@@ -61,9 +61,9 @@ def test_no_cell_is_there_twice_and_some_are_part_of_every_test():
 
 
 def test_table_of_the_documentation_is_the_matrix():
-    page = (TOP / "docs/faults.md").read_text(encoding="utf-8")
+    page = (TOP / "docs/fault-matrix.md").read_text(encoding="utf-8")
     written = page.partition(BEGIN)[2].partition(END)[0].strip().splitlines()
-    assert written == table(MATRIX), "write it anew: python -m mtr_benchmarks.faults --table"
+    assert written == table(MATRIX), "write it again: python -m mtr_benchmarks.faults --table"
 
 
 def test_clock_of_a_fault_is_set_for_nodes_too_that_preload_nothing_else(tmp_path):

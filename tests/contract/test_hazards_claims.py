@@ -25,13 +25,14 @@ NEGATED = re.compile(r"\b(?:no|not|none|without)\b", re.IGNORECASE)
 NEUTRAL = re.compile(r"safe operation|safety relay", re.IGNORECASE)
 # Pages with another meaning of the word, and the reason.
 OTHER_MEANING = {
-    "docs/faults.md": "data that a disk reports as written",
+    "docs/lab-notebook/faults.md": "data that a disk reports as written",
     "docs/results.md": "passwords and files",
 }
 # Pages that use the thesis' term for the stop on the hand-held controller, which README.md states to be a controlled
 # stop. Further pages call it that.
 THESIS_TERM = {
-    "CONTRIBUTING.md", "README.md", "docs/accuracy.md", "docs/faults.md", "docs/lock-step.md", "docs/other-bases.md",
+    "CONTRIBUTING.md", "README.md", "docs/accuracy.md", "docs/faults.md", "docs/faults-link.md",
+    "docs/lab-notebook/faults.md", "docs/lock-step.md", "docs/other-bases.md",
     "docs/peripherals.md", "docs/robot-setup.md", "docs/robot.md", "firmware/README.md", "launch/README.md",
     "operator_gui/README.md", "catkin_ws/src/mtr_controller_input/README.md", "catkin_ws/src/mtr_core/README.md",
     "catkin_ws/src/mtr_dispatcher/README.md", "catkin_ws/src/mtr_drive_control/README.md",

@@ -1,7 +1,7 @@
 """Runs the matrix of states and faults on the simulated robot; figures go to faults.json.
 
 Usage: python -m mtr_benchmarks.faults --out out/bench
-       python -m mtr_benchmarks.faults --table     the rows for docs/faults.md
+       python -m mtr_benchmarks.faults --table     the rows for docs/fault-matrix.md
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -33,7 +33,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--only", default="", metavar="PATTERN", help="cells whose name has it, e.g. 'imu .* driving'")
     parser.add_argument("--robots", nargs="*", default=list(ROBOTS), choices=list(ROBOTS), help="only cells of these")
     parser.add_argument("--left", action="store_true", help="only cells that are not kept as right of this commit")
-    parser.add_argument("--table", action="store_true", help="print the matrix for docs/faults.md and run nothing")
+    parser.add_argument("--table", action="store_true", help="print the matrix for docs/fault-matrix.md and run nothing")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation")
     options = parser.parse_args(arguments)
     end_in_order()

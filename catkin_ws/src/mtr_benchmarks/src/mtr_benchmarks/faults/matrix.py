@@ -1,4 +1,4 @@
-"""Matrix of states and faults: its files, its cells, and the table for docs/faults.md. No ROS inside.
+"""Matrix of states and faults: its files, its cells, and the table for docs/fault-matrix.md. No ROS inside.
 
 A row of a file in cells/ names one or more faults (`part kind`) and their duration (`for_s`). `robot` is the kind of
 robot; its default is the `robot` of the file, else lock-step. `expect` has the expected behaviour, see Expected.
@@ -31,8 +31,8 @@ SMALL_DISK, GUARDED, SATELLITES = "small_disk", "guarded", "satellites"
 # Units of amounts that are not a time.
 AMOUNTS = {"lose": " of all", "sector": " deg", "tilt": " deg"}
 BEGIN, END = "<!-- fault matrix: begin -->", "<!-- fault matrix: end -->"
-HEAD = ("| fault | while | wheels stand in | lift stands in | the Operator reads | within | state then | afterwards | "
-        "a line at hand |",
+HEAD = ("| fault | while | wheels stop in | lift stops in | reported problem | within | state then | afterwards | "
+        "current line |",
         "|---|---|---|---|---|---|---|---|---|")
 
 
@@ -154,7 +154,7 @@ def _usual_amount(part: str, kind: str) -> float:
 
 
 def table(matrix: Matrix) -> List[str]:
-    """Return the rows for docs/faults.md."""
+    """Return the rows for docs/fault-matrix.md."""
     return [*HEAD, *(_row(cell) for cell in matrix.cells)]
 
 
