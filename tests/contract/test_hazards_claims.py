@@ -31,12 +31,13 @@ OTHER_MEANING = {
 # Pages that use the thesis' term for the stop on the hand-held controller, which README.md states to be a controlled
 # stop. Further pages call it that.
 THESIS_TERM = {
-    "CONTRIBUTING.md", "README.md", "docs/accuracy.md", "docs/faults.md", "docs/faults-link.md",
-    "docs/lab-notebook/faults.md", "docs/lock-step.md", "docs/other-bases.md",
-    "docs/peripherals.md", "docs/robot-setup.md", "docs/robot.md", "firmware/README.md", "launch/README.md",
-    "operator_gui/README.md", "catkin_ws/src/mtr_controller_input/README.md", "catkin_ws/src/mtr_core/README.md",
-    "catkin_ws/src/mtr_dispatcher/README.md", "catkin_ws/src/mtr_drive_control/README.md",
-    "catkin_ws/src/mtr_peripherals/README.md", "catkin_ws/src/mtr_state_machine/README.md",
+    "CONTRIBUTING.md", "README.md", "catkin_ws/src/mtr_controller_input/README.md",
+    "catkin_ws/src/mtr_core/README.md", "catkin_ws/src/mtr_dispatcher/README.md",
+    "catkin_ws/src/mtr_drive_control/README.md", "catkin_ws/src/mtr_peripherals/README.md",
+    "catkin_ws/src/mtr_state_machine/README.md", "docs/accuracy.md", "docs/benchmarks.md", "docs/faults-link.md",
+    "docs/faults.md", "docs/lab-notebook/faults.md", "docs/lab-notebook/robot.md", "docs/lock-step.md",
+    "docs/other-bases.md", "docs/peripherals.md", "docs/preflight.md", "docs/robot-motion.md",
+    "docs/robot-setup.md", "firmware/README.md", "launch/README.md", "operator_gui/README.md",
 }
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drive control stands still for every reason of docs/robot.md, within the times stated there."""
+"""Drive control stands still for every reason of docs/robot-motion.md, within the times stated there."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import sys

@@ -29,7 +29,7 @@ class Parameters(ParameterSet):
         lift_mps: speed of the lift while its axis is deflected and a dead-man button held.
         dead_zone: deflection below which an axis counts as released.
         silent_after_s: age of the newest message at which the controller is lost; its driver publishes every 0.04 s.
-            Together with the stopping time it yields the 0.5 s of docs/robot.md.
+            Together with the stopping time it yields the 0.5 s of docs/robot-motion.md.
         frozen_after_s: time without a change after which a controller that drives is lost. No hand is that still, but a
             driver may repeat the last message of a lost controller (joystick_drivers issue 92).
         heartbeat_after_s: age of the newest report, of motion sensors or raw, at which a controller that also reports

@@ -11,7 +11,7 @@ namespace mtr_drive_control {
 namespace {
 
 const char* const kHint =
-    " Load mtr_description/config/jackal_base.yaml before the base's controller starts, see docs/robot.md.";
+    " Load mtr_description/config/jackal_base.yaml before the base's controller starts, see docs/robot-motion.md.";
 
 /// Parameters in one namespace.
 class Reader {

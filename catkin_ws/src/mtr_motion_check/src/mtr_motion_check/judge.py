@@ -21,7 +21,7 @@ MIN_GRAVITY_MPS2, MAX_GRAVITY_MPS2 = 9.4, 10.2
 MAX_IMU_YAW_RAD = math.radians(30.0)
 UP, AHEAD = "imu.up", "imu.ahead"
 
-# Of motion; what is wrong is known by then, see docs/robot.md.
+# Of motion; what is wrong is known by then, see docs/preflight.md.
 ENOUGH_MOTION_S = 5.0
 
 

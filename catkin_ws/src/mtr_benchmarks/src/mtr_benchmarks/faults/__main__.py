@@ -33,7 +33,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument("--only", default="", metavar="PATTERN", help="cells whose name has it, e.g. 'imu .* driving'")
     parser.add_argument("--robots", nargs="*", default=list(ROBOTS), choices=list(ROBOTS), help="only cells of these")
     parser.add_argument("--left", action="store_true", help="only cells that are not kept as right of this commit")
-    parser.add_argument("--table", action="store_true", help="print the matrix for docs/fault-matrix.md and run nothing")
+    parser.add_argument("--table", action="store_true", help="only print the table of docs/fault-matrix.md")
     parser.add_argument("--seed", type=int, default=1, help="of the simulation")
     options = parser.parse_args(arguments)
     end_in_order()

@@ -5,12 +5,12 @@ from typing import NamedTuple, Optional, Sequence, Tuple
 
 from ..faults.judge import STANDS_MPS, standstill_s
 
-# Tolerated silence of each node, see docs/robot.md. Drive control sends zero in time after the last message of the
+# Tolerated silence of nodes, see docs/robot-motion.md. Drive control sends zero in time after the last message of the
 # first three. The state machine reports the fourth as silent after 0.5 s. The simulation has no serial bridge; the
 # peripherals connect board and robot.
 LIMITS_S = {"dispatcher": 0.0, "state_machine": 0.0, "motion_planner": 0.0, "peripherals": 0.5}
 STANDS_S = 0.5
-# Servos and tyres need up to 0.18 s after the zero velocity (measured, docs/faults.md).
+# Servos and tyres need up to 0.18 s after the zero velocity (measured, docs/lab-notebook/faults.md).
 AFTER_ZERO_S = 0.2
 # Rounding of stamps as floats; two stamps are 20 ms apart.
 ROUNDING_S = 1e-6

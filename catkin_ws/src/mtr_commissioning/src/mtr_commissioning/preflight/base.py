@@ -13,7 +13,7 @@ from .expected import Setup
 from .records import RobotRecord
 
 LIMITS, START, PARAMETERS, E_STOPS = "base.limits", "node.start", "node.parameters", "base.e_stops"
-HINT = "load mtr_description/config/jackal_base.yaml before the base's controller starts, see docs/robot.md"
+HINT = "load mtr_description/config/jackal_base.yaml before the base's controller starts, see docs/robot-motion.md"
 
 
 def start_findings(record: RobotRecord) -> List[Finding]:
