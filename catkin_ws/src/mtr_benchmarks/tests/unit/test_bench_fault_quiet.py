@@ -37,7 +37,7 @@ def test_codes_that_may_be_told_where_none_has_to():
     {"stood_s": 0.3, "end_mps": 0.0}, {"modes": ["following_waypoint", "fault"]}, {"then": HELD}])
 def test_robot_that_may_stand_says_why(change):
     cell = replace(QUIET, expected=replace(QUIET.expected, may_stand=True, may_tell=ANY_REASON, record=None,
-                                           mode="following_waypoint or fault", then="goes on or held"))
+                                           mode="following_waypoint or fault", then="resumes or held"))
     seen = replace(WELL, **change)
     assert ["does not say why" in each for each in wrong(cell, seen)] == [True]
     assert wrong(cell, replace(seen, told_s={"localization.lost": 0.1})) == [] and wrong(cell, WELL) == []

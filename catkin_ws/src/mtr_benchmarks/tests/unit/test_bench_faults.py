@@ -108,7 +108,7 @@ def test_cell_that_does_what_it_must_is_right():
 
 
 def test_of_several_states_and_ends_one_will_do_and_no_other():
-    cell = replace(CELL, expected=replace(MUST, mode="fault or unheard", then="goes on or held",
+    cell = replace(CELL, expected=replace(MUST, mode="fault or unheard", then="resumes or held",
                                           told="drive_control.imu_silent or drive_control.imu_frozen"))
     assert wrong(cell, SEEN) == []
     assert wrong(cell, replace(SEEN, modes=["following_waypoint", "unheard"], then=GOES_ON)) == []
@@ -122,7 +122,7 @@ def test_state_has_its_own_mode_beside_others(tmp_path):
 robot: paced
 faults:
 - {faults: [link_commands slow, link_commands off], for_s: 1, expect: {stands_s: null, told: "", told_s: 1.0,
-   mode: own or unknown, then: held}, in: {mapping: {}, lifting: {then: goes on}}}""", encoding="utf-8")
+   mode: own or unknown, then: held}, in: {mapping: {}, lifting: {then: resumes}}}""", encoding="utf-8")
     cells = read_matrix(tmp_path).cells
     assert [(cell.state, cell.amount, cell.robot) for cell in cells] == [
         ("mapping", 0.5, PACED), ("lifting", 0.5, PACED), ("mapping", 0.0, PACED), ("lifting", 0.0, PACED)]
@@ -134,7 +134,7 @@ faults:
     ({"stood_s": None}, "stands after None"), ({"stood_s": 0.8}, "stands after 0.8 s"), ({"told_s": {}}, "told after"),
     ({"told_s": {"drive_control.imu_frozen": 1.1}}, "told after 1.1 s"),
     ({"modes": ["ready_to_map_car"]}, "must be fault"),
-    ({"then": GOES_ON}, "afterwards goes on"), ({"record": ""}, "line is invalid because ''")])
+    ({"then": GOES_ON}, "afterwards resumes"), ({"record": ""}, "line is invalid because ''")])
 def test_each_deviation_is_a_sentence(change, words):
     found = wrong(CELL, replace(SEEN, **change))
     assert len(found) == 1 and words in found[0]

@@ -23,7 +23,7 @@ STATES = {"ready": "ready_to_map_car", MAPPING: "mapping_car", DRIVING: "followi
 OWN_MODE, OR = "own", " or "
 FAULT = "fault"
 ANY_REASON = "any"
-GOES_ON, HELD, LOST = "goes on", "held", "lost"
+GOES_ON, HELD, LOST = "resumes", "held", "lost"
 UNHEARD = "unheard"
 # Kinds of robots on which a cell can run; robots.py defines them.
 LOCKSTEP, PACED, CAR_BUS, MACHINE_CLOCK = "lockstep", "paced", "car_bus", "machine_clock"
@@ -46,7 +46,7 @@ class Expected:
         told_s: longest time until this report, s.
         mode: the robot's state until the fault ends, or alternatives separated by `or`; `unheard` while no Status
             arrives. `own` in a file is the mode of the state.
-        then: `goes on` by itself, `held` until the Operator resumes, or `lost`: the robot must be put back; or
+        then: `resumes` by itself, `held` until the Operator resumes, or `lost`: the robot must be put back; or
             alternatives.
         lift_s: longest time from the fault to standstill of the true lift, s; None: it may move on, or is not moving.
         back_s: longest time from the end of the fault until the robot no longer reports it, s.
