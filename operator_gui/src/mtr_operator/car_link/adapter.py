@@ -1,4 +1,4 @@
-"""Opening a CAN adapter through python-can, with a sentence for everything that may be wrong."""
+"""Opens CAN adapters through python-can; every fault is reported as a sentence."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ _ANSWER_LIMIT_S = 1.0
 _POLL_S = 0.05
 _SYSTEM_ERROR = re.compile(r"\(\d+, ['\"]([^'\"]*)['\"]\)")
 
-# Drivers log what their exceptions say too, and hints for programmers.
+# Exceptions carry the same texts as the drivers' log, which adds hints for programmers.
 logging.getLogger("can").addHandler(logging.NullHandler())
 
 
 @dataclass(frozen=True)
 class AdapterSettings:
-    """Adapter of the Car's CAN bus; options go to python-can's driver as they are.
+    """Adapter of the Car's CAN bus. options are passed to python-can's driver unchanged.
 
     is_listening: it sends nothing, not even an acknowledge. data_bitrate_bps: of CAN FD frames, None for classic CAN.
     """
@@ -66,7 +66,7 @@ class AdapterSettings:
 
     @property
     def text(self) -> str:
-        """How it is opened, as it stands in the record of a test."""
+        """Description of the opened adapter, as in the record of a test."""
         fd = "" if self.data_bitrate_bps is None else f", CAN FD with {self.data_bitrate_bps} bit/s"
         mode = "listens only" if self.is_listening else "takes part in the bus (normal mode)"
         return f"{self.interface} {self.channel}, {self.bitrate_bps} bit/s{fd}, {mode}"
@@ -90,7 +90,7 @@ def open_adapter(settings: AdapterSettings) -> can.BusABC:
         raise ConnectionFailed(str(error)) from None
     except ConnectionFailed:
         raise
-    # Drivers raise whatever their vendor's library does.
+    # Drivers raise any exception of their vendor's library.
     except Exception as error:
         if settings.interface == SLCAN and os.strerror(errno.ENOTTY) in str(error):
             raise _no_serial_port(settings.channel) from None
@@ -123,7 +123,7 @@ def _driver_options(settings: AdapterSettings) -> dict[str, Any]:
 
 
 def _listening(bus: can.BusABC, settings: AdapterSettings) -> can.BusABC:
-    """The adapter, unless it takes part in the bus against its order."""
+    """Return the adapter; close it and raise if it is not in the ordered listen-only mode."""
     is_ixxat = settings.interface == IXXAT
     if settings.is_listening and (ixxat.takes_part(bus) if is_ixxat else takes_part(settings.interface, bus)):
         shut_down(bus)
@@ -134,10 +134,10 @@ def _listening(bus: can.BusABC, settings: AdapterSettings) -> can.BusABC:
 
 
 def shut_down(bus: can.BusABC) -> None:
-    """Close the adapter, even if it has gone."""
+    """Close the adapter, even if it was unplugged."""
     try:
         bus.shutdown()
-    # The adapter may have been pulled out.
+    # The adapter may be unplugged.
     except Exception:
         serial_port = getattr(bus, "serialPortOrig", None)
         if serial_port is not None:
@@ -156,7 +156,7 @@ def _no_serial_port(path: str) -> ConnectionFailed:
 
 
 def _one_line(error: Exception) -> str:
-    # pyserial shows the tuple that the system's error is made of.
+    # pyserial shows the argument tuple of the system's error.
     text = _SYSTEM_ERROR.sub(r"\1", str(error))
     return " ".join(text.split()).rstrip(".")
 

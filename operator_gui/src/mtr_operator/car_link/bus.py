@@ -44,24 +44,24 @@ _NOT_CONNECTED = "The Car's CAN bus is not connected."
 
 def _poller(profile: CarProfile, settings: AdapterSettings,
             send: Callable[[can.Message], threading.Event]) -> StatePoller | None:
-    """What asks the Car for its state; None for a Car that sends it. ConnectionFailed on an adapter that listens."""
+    """Return the poller of the Car's state; None for a Car that sends it. ConnectionFailed on an adapter that only
+    listens."""
     if profile.poll is None:
         return None
     if settings.is_listening:
         raise ConnectionFailed(f"The car profile {profile.name} asks the Car for its lock state (uds_poll), and the "
                                "CAN adapter only listens; choose normal mode (--can-normal) where the Car may be "
                                "asked, or a profile with a state that it sends.")
-    # Needs packages that no other profile needs.
     from .uds.poller import StatePoller
     return StatePoller(profile.poll, send)
 
 
 class CanCarLink(CarLink, BusMonitor, BusRecorder, CarEquipment, FrameSink):
-    """Watches the locks on the CAN bus, and sends nothing on it unless it is opened in normal mode.
+    """Lock watch on the CAN bus; it sends nothing unless opened in normal mode.
 
-    profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver.
-    clock: the laptop's, monotonic, in s. is_listening, data_bitrate: see AdapterSettings. further: adapters of the
-    further buses that the profile names. databases: see load_profile.
+    profile: name of a shipped car profile, or path of a YAML file. options: passed to python-can's driver. clock: the
+    laptop's, monotonic, in s. is_listening, data_bitrate: see AdapterSettings. further: adapters of the further buses
+    that the profile names. databases: see load_profile.
 
     Attributes:
         profile: the loaded car profile, None before connect().
@@ -151,17 +151,17 @@ class CanCarLink(CarLink, BusMonitor, BusRecorder, CarEquipment, FrameSink):
 
     @property
     def handle(self) -> HandlePort | None:
-        """See CarEquipment: what the profile declares."""
+        """See CarEquipment: as declared by the profile."""
         return None if self._outputs is None else self._outputs.handle
 
     @property
     def extender(self) -> ExtenderPort | None:
-        """See CarEquipment: what the profile declares."""
+        """See CarEquipment: as declared by the profile."""
         return None if self._outputs is None else self._outputs.extender
 
     @property
     def distance_feed(self) -> DistanceFeed | None:
-        """See CarEquipment: what the profile declares."""
+        """See CarEquipment: as declared by the profile."""
         return self._phone
 
     @property
@@ -235,7 +235,7 @@ class CanCarLink(CarLink, BusMonitor, BusRecorder, CarEquipment, FrameSink):
         return "" if active is None else f"No output at the Car is switched. {active.sentence}"
 
     def _send(self, message: can.Message) -> threading.Event:
-        """Through the reader at hand; without one nothing is sent any more."""
+        """Send through the current reader; without one, discard the message."""
         return threading.Event() if self._reader is None else self._reader.send(message)
 
     def frame(self, frame: CanFrame) -> None:

@@ -1,4 +1,4 @@
-"""What is wrong with the Car's bus or the adapter on it, in one sentence: lasting faults, errors, lost frames."""
+"""Faults of the Car's bus or of its adapter as one sentence: lasting faults, error frames, lost frames."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,9 +7,9 @@ import math
 from .adapter import AdapterSettings
 from .can_frame import CanFrame
 
-# So many error frames without a frame are no accident.
+# So many error frames without a data frame are not a coincidence.
 _ENOUGH_ERRORS = 20
-# Robot time for which an error frame, or a frame that was lost, makes the bus a suspect one.
+# Robot time for which an error frame or a lost frame makes the bus suspect.
 _EFFECT_S = 1.0
 _LOST = ("The CAN adapter has lost frames: they were not read in time; end other programs, or use an adapter with more "
          "room for them.")
@@ -18,10 +18,10 @@ _FD_ON_CLASSIC = ("The Car's bus carries CAN FD frames, and the adapter was open
 
 
 class BusTrouble:
-    """Fed by the reader and by every Status.
+    """State of the bus, updated by the reader and by each Status.
 
     Attributes:
-        fault: what lasts, of the adapter itself; empty when there is nothing.
+        fault: lasting fault of the adapter itself; empty without one.
     """
 
     def __init__(self, settings: AdapterSettings):
@@ -33,28 +33,28 @@ class BusTrouble:
         self._errors, self._losses = _Suspicion(), _Suspicion()
 
     def frame(self, frame: CanFrame) -> None:
-        """A data frame."""
+        """Record a data frame."""
         self._has_frames = True
         self._has_fd = self._has_fd or frame.is_fd
 
     def error_frame(self) -> None:
-        """An error on the bus."""
+        """Record an error frame."""
         self._error_frames += 1
         self._errors.raised = True
 
     def frames_lost(self) -> None:
-        """Frames that could not be read."""
+        """Record that frames could not be read."""
         self._losses.raised = True
 
     def status(self, stamp_s: float) -> None:
-        """A Status with this stamp of robot time has come."""
+        """Advance to the robot time stamp of a Status."""
         self._stamp_s = stamp_s
         for suspicion in (self._errors, self._losses):
             suspicion.status(stamp_s)
 
     @property
     def problem(self) -> str:
-        """One sentence, or empty."""
+        """Current fault as one sentence, or empty."""
         if self.fault:
             return self.fault
         if self._losses.holds(self._stamp_s):
@@ -71,7 +71,7 @@ class BusTrouble:
 
     @property
     def no_frame(self) -> str:
-        """A sentence when there were error frames enough, and not one frame; empty else."""
+        """Sentence if there were enough error frames and no data frame; else empty."""
         return self._without_frames() if self._error_frames >= _ENOUGH_ERRORS and not self._has_frames else ""
 
     def _without_frames(self) -> str:
@@ -80,7 +80,7 @@ class BusTrouble:
 
 
 class _Suspicion:
-    """Lasts for a while of robot time from the first Status after what raised it; before that at once."""
+    """Flag that lasts for a fixed robot time from the first Status after it was raised, and until that Status."""
 
     def __init__(self) -> None:
         self.raised = False

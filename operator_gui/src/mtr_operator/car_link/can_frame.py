@@ -1,4 +1,4 @@
-"""A frame as it comes from the reader."""
+"""A received CAN frame."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from .clocks.stamp_kind import StampKind
 class CanFrame:
     """A received frame.
 
-    arrival_s: laptop's monotonic clock. stamp_ms: adapter's clock, starting again each minute; stamp_s: adapter's clock
-    that does not; None when it gives none. kind: which clock says when it was on the bus, None for
-    what the stamps tell. is_fd: a CAN FD frame. bus: name of the Car's bus, empty for that of the state.
+    arrival_s: laptop's monotonic clock. stamp_ms: adapter's clock that restarts each minute. stamp_s: adapter's clock
+    that does not restart. A stamp is None if the adapter does not supply it. kind: clock that timed the frame; None
+    derives it from the stamps. is_fd: a CAN FD frame. bus: name of the Car's bus, empty for the bus of the state.
     """
 
     can_id: int
@@ -28,10 +28,10 @@ class CanFrame:
 
     @property
     def is_stamped(self) -> bool:
-        """The adapter gave it a stamp."""
+        """True if the adapter stamped the frame."""
         return self.stamp_ms is not None or self.stamp_s is not None
 
     @property
     def stamps(self) -> StampKind:
-        """Which clock says when it was on the bus."""
+        """Clock that timed the frame."""
         return self.kind or (StampKind.ADAPTER if self.is_stamped else StampKind.ARRIVAL)

@@ -1,31 +1,31 @@
-"""How long a Status waits for the frames that precede it, by the wall clock."""
+"""Wait of a Status for the frames that precede it, limited by the wall clock."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 import threading
 from typing import Callable
 
-# Of a bus from which frames come; they are late by the adapter, its driver and the thread that reads it.
+# Limit for a bus that delivers frames. Their delay is caused by the adapter, its driver and the reading thread.
 LIMIT_S = 0.25
-# Of one that was late at the Status before, while the robot's time goes on. Who waited each time for a bus that is dead
-# would fall behind the ten Statuses a second, and the robot would stop because its Operator is silent.
+# Limit for a bus that was late at the previous Status, while the robot's time advances. Waiting longer each time for a
+# dead bus would fall behind ten Statuses per second, and the robot would stop because its Operator is silent.
 LATE_LIMIT_S = 0.02
-# Of an adapter that was asked, while the robot's time stands still: its word comes, however busy the machine is.
+# Limit for an adapter that was queried while the robot's time is stopped: its answer arrives even on a busy machine.
 SETTLED_LIMIT_S = 5.0
 
 
 class CatchUp:
-    """Of one bus. changed: notified whenever something has come from it."""
+    """Wait for the frames of one bus. changed: notified at each arrival from the bus."""
 
     def __init__(self, changed: threading.Condition):
         self._changed = changed
         self._is_late = False
 
     def wait(self, is_here: Callable[[], bool], stands: bool, ask: Callable[[], Callable[[], bool] | None]) -> None:
-        """With the condition held, until the frames are here, or nothing tells that they will come.
+        """Wait, with the condition held, until the frames have arrived or none can be expected.
 
-        stands: the robot's time stands still meanwhile, so that no later frame tells that all are here. ask: has the
-        adapter say a word behind them, and gives what tells that it was said; None where it has no such word.
+        stands: the robot's time is stopped, so no later frame proves that all frames have arrived. ask: requests a
+        marker behind the frames and returns a predicate for its arrival; None if the adapter has no marker.
         """
         settled = ask() if stands and not is_here() else None
         if settled is None:

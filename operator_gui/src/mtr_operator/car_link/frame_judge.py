@@ -1,7 +1,7 @@
-"""Judges the lock message frame by frame: what repeats, jumps or contradicts its counters is not to be believed.
+"""Plausibility check of the lock message, frame by frame: repetitions, jumps and contradictions to its counters.
 
-A judgement is a sentence, empty when the frame goes with the ones before it. What a car's profile does not declare is
-not looked at: its counters, its flag of a change.
+The result is a sentence, empty if the frame is consistent with the previous ones. Only counters and flags that the
+profile declares are checked.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -13,15 +13,15 @@ from mtr_operator.domain.ports import LockState
 from .further.counting import CountWatch
 from .profile import CarProfile, LockReading
 
-# A state that was seen in fewer frames than this is a glitch, whatever the cycle.
+# A state in fewer frames than this is a glitch, at any cycle time.
 _MIN_FRAMES = 2
 
 
 class FrameJudge:
-    """Remembers what the frames before said; a new one knows nothing, and believes the first.
+    """Check with the state of the previous frames; a new judge accepts the first frame.
 
     Attributes:
-        is_repeated: the frame judged last says nothing new: somebody on the bus sends an old one again.
+        is_repeated: the last frame repeats an old one, which a node on the bus sends again.
     """
 
     def __init__(self, profile: CarProfile):
@@ -36,7 +36,7 @@ class FrameJudge:
                         for name in (profile.alive_signal, profile.command_signal) if name}
 
     def judge(self, reading: LockReading, local_s: float) -> str:
-        """Why this frame is doubtful, read at a time of the clock that stamps the frames; empty when it is not."""
+        """Return why this frame is doubtful; empty if it is not. local_s: of the clock that stamps the frames."""
         last, is_change = self._last, self._known not in (None, reading.state)
         doubt, self.is_repeated = "", False
         if last is not None:
@@ -113,5 +113,5 @@ class FrameJudge:
 
     @property
     def _slack_s(self) -> float:
-        # Frames show a change up to a cycle late.
+        # Frames show a change with a delay of up to one cycle.
         return 0.0 if self._profile.is_only_on_change else self._profile.cycle_time_s

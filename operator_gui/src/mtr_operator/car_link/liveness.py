@@ -1,7 +1,7 @@
-"""Is the CAN bus alive? Judged on the robot's clock, so that a simulation that waits is not taken for a silent bus.
+"""Silence of the CAN bus, measured on the robot's clock, so that a paused simulation does not count as a silent bus.
 
-Some time of the laptop's clock must have passed too: in an accelerated simulation half a second is soon over, and the
-reading thread may just not have had its turn.
+Some time of the laptop's clock must pass as well: in an accelerated simulation half a second is short, and the reading
+thread may be delayed.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,12 +12,12 @@ from .profile import CarProfile
 
 SILENCE_LIMIT_S = 0.5
 _WALL_LIMIT_S = 0.1
-# Slow messages may miss this many cycles.
+# Limit of missing cycles for slow messages.
 _CYCLE_LIMIT = 3.0
 
 
 class _Heartbeat:
-    """Robot time since something was counted last; 0 while that was a moment of wall time ago."""
+    """Robot time since the last count; 0 within a short wall time after it."""
 
     def __init__(self) -> None:
         self.count = 0
@@ -32,26 +32,27 @@ class _Heartbeat:
 
 
 class Liveness:
-    """Watches all frames, and the lock message among them."""
+    """Watch of all frames, and of the lock message among them."""
 
     def __init__(self, profile: CarProfile):
         self._profile = profile
         self._frames = _Heartbeat()
         self._lock_messages = _Heartbeat()
-        # Of a state that is sent only on change, another message or any frame has to come.
+        # If the state is sent only on change, another message or any frame must be cyclic.
         self._message = profile.liveness if profile.is_only_on_change else profile.message
         self._lock_limit_s = max(SILENCE_LIMIT_S, _CYCLE_LIMIT * profile.cycle_time_s) if self._message else math.inf
         self._is_without_state = False
 
     def frame(self, is_lock_message: bool, is_without_state: bool = False) -> None:
-        """A frame arrived. is_lock_message: or another one that has to come again and again. is_without_state: of the
-        lock message, but nothing in it tells the state."""
+        """Add a frame. is_lock_message: a frame of the lock message, or of another required cyclic message.
+        is_without_state: a frame of the lock message that does not contain the state."""
         self._frames.count += 1
         self._lock_messages.count += is_lock_message
         self._is_without_state = not is_lock_message and (self._is_without_state or is_without_state)
 
     def observe(self, stamp_s: float, wall_s: float) -> None:
-        """At wall_s of the laptop's clock a Status with this stamp, and the frames that precede it, have arrived."""
+        """Advance to a Status with this stamp. At wall_s of the laptop's clock, it and all frames before it have
+        arrived."""
         self._frames.observe(stamp_s, wall_s)
         self._lock_messages.observe(stamp_s, wall_s)
 
@@ -62,18 +63,18 @@ class Liveness:
 
     @property
     def is_silent(self) -> bool:
-        """No frames for longer than the limit."""
+        """True without frames for longer than the limit."""
         return self.silence_s > self._silence_limit_s
 
     @property
     def _silence_limit_s(self) -> float:
-        # Without traffic beside it the lock message alone keeps the bus alive.
+        # Without other traffic, the lock message alone proves that the bus is alive.
         only_lock = self._message is not None and self._frames.count == self._lock_messages.count
         return self._lock_limit_s if only_lock and self._frames.count else SILENCE_LIMIT_S
 
     @property
     def problem(self) -> str:
-        """One sentence, or empty."""
+        """Current fault as one sentence, or empty."""
         if self.is_silent:
             return (f"No CAN frame for {self.silence_s:.1f} s; check the plug, the bit rate and that the Car is awake.")
         if self._lock_messages.silence_s > self._lock_limit_s:

@@ -1,4 +1,4 @@
-"""Changes of the Car's locks, and frames that are not to be believed, from the readings of the lock message."""
+"""Changes of the Car's locks, and doubtful frames, from the readings of the lock message."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from mtr_operator.domain.results.refused import Refused
 from .frame_judge import FrameJudge
 from .profile import CarProfile, LockReading
 
-# Frames that follow one another faster or slower than this had waited, in the adapter or the laptop.
+# Intervals outside these parts of the cycle mean that a frame was delayed in the adapter or the laptop.
 _EVEN_CYCLES = (0.5, 1.5)
-# Without Statuses nothing is taken, and a link that is silent for so long makes each line invalid anyway.
+# Without Statuses no change is released, and a link that is silent for this long makes each line invalid anyway.
 _KEPT_CHANGES = 1000
 
 
@@ -22,7 +22,7 @@ _KEPT_CHANGES = 1000
 class Change:
     """A change of the locks, a doubtful frame, or both.
 
-    is_timed: its time can be told; a clock was not set meanwhile. is_event: false for a return from an unknown state.
+    is_timed: its time is known, because no clock was set meanwhile. is_event: False for a return from an unknown state.
     """
 
     local_s: float
@@ -35,16 +35,16 @@ class Change:
 
 
 class LockChanges:
-    """Fed with every reading; changes wait until they are taken.
+    """Queue of changes, updated with every reading.
 
     Attributes:
         waiting: changes in their order.
         first: state of the first reading, UNKNOWN before it.
-        refused: frames that are not to be believed.
+        refused: rejected frames.
     """
 
     def __init__(self, profile: CarProfile, refused: Refused):
-        """refused: those of before."""
+        """refused: rejected frames before this."""
         self._profile = profile
         self._judge = FrameJudge(profile)
         self._state: LockState | None = None
@@ -56,28 +56,29 @@ class LockChanges:
 
     @property
     def is_repeated(self) -> bool:
-        """The newest reading says nothing new: a gateway that goes on with the last frame is as good as silent."""
+        """True if the newest reading repeats the previous frame: a gateway that repeats its last frame counts as
+        silent."""
         return self._judge.is_repeated
 
     def begin_new_time(self) -> None:
-        """A clock was set: what was not taken yet has no time any more."""
+        """Handle a clock step: changes that were not released have no valid time."""
         self.waiting = collections.deque((replace(change, is_timed=False) for change in self.waiting),
                                          maxlen=_KEPT_CHANGES)
 
     def begin_new_frames(self) -> None:
-        """The clock of the frames was set: what was before them is at no time of it."""
+        """Handle a step of the frames' clock: earlier frames have no time on it."""
         self.begin_new_time()
         self._state_s = math.nan
         self._judge = FrameJudge(self._profile)
 
     def doubt(self, local_s: float, arrival_s: float, sentence: str) -> None:
-        """Something beside the lock message is not to be believed."""
+        """Record a doubt about a message other than the lock message."""
         self.refused = Refused(self.refused.count + 1, sentence)
         state = LockState.UNKNOWN if self._state is None else self._state
         self.waiting.append(Change(local_s, local_s, arrival_s, LockReading(state), doubt=sentence))
 
     def follow(self, local_s: float, arrival_s: float, reading: LockReading, may_have_waited: bool) -> None:
-        """Take a reading; may_have_waited: its time is that of its arrival."""
+        """Add a reading; may_have_waited: it is timed by its arrival."""
         doubt, is_changed = self._judge.judge(reading, local_s), reading.state is not self._state
         if doubt:
             self.refused = Refused(self.refused.count + 1, doubt)
@@ -94,6 +95,6 @@ class LockChanges:
             self._known = reading.state
 
     def _is_even(self, gap_s: float) -> bool:
-        """False for a frame that had waited: its state may be as old as the last one that had not."""
+        """Return False for a delayed frame: its state may be as old as the last frame that was not delayed."""
         least, most = _EVEN_CYCLES
         return least <= gap_s / self._profile.cycle_time_s <= most

@@ -1,4 +1,4 @@
-"""Turns CAN frames and Statuses into lock events on the robot's clock; no threads, sockets or adapters."""
+"""Converts CAN frames and Statuses to lock events on the robot's clock; no threads, sockets or adapters."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from .liveness import Liveness
 from .lock_changes import Change, LockChanges
 from .profile import CarProfile, LockReading
 
-# Kept small against the cycle, so that "caught up" means the same frame whatever the small error of the map.
+# Small against the cycle, so that "caught up" selects the same frame despite the small error of the map.
 _CATCH_UP_MARGIN_S = 0.003
-# More missing cycles than this between two frames: frames were lost, and a change may be as old as the gap.
+# More missing cycles than this between two frames mean lost frames, so a change may be as old as the gap.
 _LOST_CYCLES = 2.5
-# Stamps that start again each minute cannot be followed over a longer silence.
+# Stamps that restart each minute cannot be followed over a longer silence.
 _MAX_FOLLOWED_SILENCE_S = 50.0
-# Frames of the lock message kept as evidence, and so many cycles of them to both sides of a change.
+# Stored frames of the lock message, and the cycles before and after a change that are evidence.
 _KEPT_FRAMES = 64
 _EVIDENCE_CYCLES = 10.0
 
 
 class LockWatch:
-    """Follows the lock state.
+    """Follower of the lock state.
 
     Attributes:
         lock_state: at the stamp of the last released Status; UNKNOWN while the bus is silent.
-        is_lock_message: the newest frame was one. local_s: its time by the clock that times the frames.
-        is_alive_message: it was one whose silence is told.
+        is_lock_message: the newest frame was a lock message. local_s: its time by the clock that times the frames.
+        is_alive_message: the newest frame was of the message whose silence is reported.
     """
 
     def __init__(self, profile: CarProfile):
@@ -65,30 +65,30 @@ class LockWatch:
 
     @property
     def is_only_on_change(self) -> bool:
-        """The state comes with a change and never else: a frame that is lost leaves it unknown."""
+        """True if the state is sent only on change: a lost frame makes it unknown."""
         return self._profile.is_only_on_change
 
     @property
     def has_time(self) -> bool:
-        """A frame has come since the beginning, or since the adapter was opened anew."""
+        """True if a frame has arrived since the start or since the adapter was reopened."""
         return not math.isnan(self._time.newest_s)
 
     @property
     def refused(self) -> Refused:
-        """Frames that are not to be believed, since the beginning."""
+        """Rejected frames since the start."""
         return self._changes.refused
 
     def restart(self) -> None:
-        """The adapter was opened anew: its clock and the present lock state are learnt again."""
+        """Restart after the adapter was reopened: its clock and the lock state are determined again."""
         self._restart()
 
     def forget_state(self) -> None:
-        """A change may have been missed, and none of a state that is sent only on change is told again."""
+        """Discard the state: a change may have been missed, and a state that is sent only on change is not repeated."""
         self._changes = LockChanges(self._profile, self.refused)
         self._released = None
 
     def frame(self, frame: CanFrame) -> None:
-        """Take a frame, in the order of arrival."""
+        """Add a frame, in the order of arrival."""
         self._buses.frame(frame)
         if frame.bus:
             self._beside(frame)
@@ -112,7 +112,7 @@ class LockWatch:
         self._companion(frame, local_s)
 
     def _beside(self, frame: CanFrame) -> None:
-        """A frame of a further bus: its adapter has a clock of its own, and belongs to what came with it."""
+        """Add a frame of a further bus. Its adapter has its own clock, so the frame gets the time of the first bus."""
         self.is_lock_message = self.is_alive_message = False
         if self.has_time:
             self.local_s = self._time.newest_s
@@ -125,7 +125,7 @@ class LockWatch:
             self._changes.doubt(local_s, frame.arrival_s, doubt)
 
     def status(self, status: RobotStatus, arrival_s: float) -> None:
-        """Take a Status, before waiting for the frames that precede it."""
+        """Add a Status, before waiting for the frames that precede it."""
         if status.robot_session_id != self._robot_session_id:
             self._robot_session_id = status.robot_session_id
             self._time = FrameTime()
@@ -136,16 +136,16 @@ class LockWatch:
             self._changes.begin_new_time()
 
     def has_caught_up(self) -> bool:
-        """True when the frames up to the stamp of the Status are here, or are not to be expected."""
+        """True if the frames up to the stamp of the Status have arrived, or cannot be expected."""
         time = self._time
         if self._liveness.is_silent or not time.is_ready:
             return True
-        # Where both clocks are the simulated one the next frame is known to be later than the Status: all have come.
+        # If both clocks are the simulated one, the next frame is known to be later than the Status: all have arrived.
         cycle_s = min(time.gap_s, self._profile.cycle_time_s)
         return time.newest_robot_s >= time.stamp_s - cycle_s - _CATCH_UP_MARGIN_S
 
     def release(self, now_s: float) -> list[CarEvent]:
-        """Events not later than the stamp of the Status that were not released before; now_s: laptop's clock."""
+        """Return the unreleased events up to the stamp of the Status. now_s: laptop's clock."""
         self._liveness.observe(self._time.stamp_s, now_s)
         if self._liveness.silence_s > _MAX_FOLLOWED_SILENCE_S:
             self._restart()
@@ -169,7 +169,7 @@ class LockWatch:
 
     @property
     def problem(self) -> str:
-        """One sentence, or empty."""
+        """Current fault as one sentence, or empty."""
         silence = self._liveness.problem
         return (self._buses.elsewhere(is_silent=bool(silence)) or silence or self._time.problem
                 or self._buses.several_channels)
@@ -181,17 +181,17 @@ class LockWatch:
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """A sentence for each further bus with the message of the state."""
+        """Sentence for each further bus with the message of the state."""
         return self._buses.notices
 
     @property
     def clock_problem(self) -> str:
-        """Why the time of frames is not known on the robot's clock; empty when it is."""
+        """Reason why frames cannot be placed on the robot's clock; empty if they can."""
         return self._time.problem
 
     @property
     def stamps(self) -> StampKind | None:
-        """By which clock frames are timed, None before the first."""
+        """Clock that times the frames, None before the first."""
         return self._time.stamps
 
     def _event(self, change: Change) -> CarEvent:
@@ -199,7 +199,7 @@ class LockWatch:
         if not change.is_timed:
             return CarEvent(self._time.stamp_s, math.inf, reading.state, reading.source, change.doubt)
         time_s, told = self._time.to_robot(change.local_s), self._companions.told(change.local_s)
-        # A cyclic message shows a change that happened at any time since the message before.
+        # A cyclic message shows a change that happened at any time since the previous message.
         gap_s = time_s - self._time.to_robot(change.previous_local_s)
         vague = not self._profile.sent_on_change or gap_s > _LOST_CYCLES * self._profile.cycle_time_s
         spread_s = gap_s if vague and not self._profile.is_only_on_change else 0.0
@@ -208,12 +208,12 @@ class LockWatch:
                         told.raw or self._raw(reading), told.key, reading.doors)
 
     def _raw(self, reading: LockReading) -> str:
-        """The source of the lock message when the profile does not list it."""
+        """Return the raw source of the lock message if the profile does not list it."""
         is_listed = reading.source or reading.source_raw is None
         return "" if is_listed else f"{self._profile.source_signal} = {reading.source_raw}"
 
     def _evidence(self, change: Change) -> tuple[str, ...]:
-        """Frames around a change, with robot time, as candump writes them."""
+        """Return the frames around a change, with robot time, in candump's format."""
         around_s, frame_id = _EVIDENCE_CYCLES * self._profile.cycle_time_s, self._profile.message.frame_id
         return tuple(f"({self._time.to_robot(local_s):.4f}) {frame_id:03X}#{data.hex().upper()}"
                      for local_s, data in self._frames if abs(local_s - change.local_s) <= around_s)

@@ -1,4 +1,4 @@
-"""What comes over the bus, message by message, on the laptop's clock; bounded, whatever a bus carries."""
+"""Messages of the bus with their statistics on the laptop's clock; of bounded size."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from mtr_operator.domain.ports import BusMessage, BusMessages
 
 from .can_frame import CanFrame
 
-# A whole car has some hundred messages on one bus; more are counted, and not kept.
+# A whole car has some hundred messages on one bus; further ones are counted, but not stored.
 MAX_MESSAGES = 512
-# The cycle is the mean of so many gaps: of now, and steady enough to be read.
+# The cycle is the mean of this number of gaps: current, and steady enough to be read.
 _GAPS = 20
 
 MessageId = tuple[int, bool]
@@ -26,8 +26,8 @@ class _Row:
 
 
 class MessageTable:
-    """Fed with every data frame in the order of arrival. names: of known messages, by identifier and whether it is an
-    extended one."""
+    """Table of messages, updated with every data frame in the order of arrival. names: of known messages, by identifier
+    and is_extended."""
 
     def __init__(self, names: Mapping[MessageId, str] | None = None):
         self._names = dict(names or {})
@@ -35,7 +35,7 @@ class MessageTable:
         self._others = 0
 
     def frame(self, frame: CanFrame) -> None:
-        """A frame arrived."""
+        """Add a frame."""
         key = (frame.can_id, frame.is_extended)
         row = self._rows.get(key)
         if row is None:
@@ -48,7 +48,7 @@ class MessageTable:
         row.arrivals_s.append(frame.arrival_s)
 
     def messages(self, now_s: float) -> BusMessages:
-        """All messages by their identifiers, as of a time of the laptop's clock."""
+        """Return all messages in the order of their identifiers, at a time of the laptop's clock."""
         return BusMessages(tuple(self._message(key, row, now_s) for key, row in sorted(self._rows.items())),
                            self._others)
 
@@ -56,6 +56,6 @@ class MessageTable:
         arrivals_s = row.arrivals_s
         gaps = len(arrivals_s) - 1
         cycle_s = (arrivals_s[-1] - arrivals_s[0]) / gaps if gaps > 0 else None
-        # A stamp of the kernel may be read a little before its frame counts as read.
+        # A kernel stamp may be read slightly before its frame counts as read.
         age_s = max(now_s - arrivals_s[-1], 0.0)
         return BusMessage(*key, self._names.get(key, ""), row.count, cycle_s, age_s, row.data)

@@ -1,4 +1,4 @@
-"""Profile of a car: which signal of which message of its CAN database tells the state of the locks."""
+"""Profile of a car: the signal and message of its CAN database that carry the state of the locks."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -35,24 +35,24 @@ from .uds.declared import UdsPoll, read_poll, response_message
 _MAX_CYCLE_S = 10.0
 _CYCLE = "cycle_time_s"
 _REQUIRED = ("database", "message", "signal", "states", _CYCLE)
-# A state that is asked for has no message; its database may be there for what the Car sends besides.
+# A polled state has no message; a database may still supply the Car's further signals.
 _REQUIRED_OF_POLL = ("uds_poll", "states")
 _OPTIONAL = ("description", "sent_on_change", "source_signal", "sources", ONLY_ON_CHANGE, LIVENESS, *WITNESSES,
              *VALUES_OF.values(), "min_state_s", "relock_after_s", HANDLE_KEY, EXTENDER_KEY, *KEYS, "uds_poll", PHONE)
-# Motors of door locks need some tenths of a second; a state that is over sooner was none.
+# Motors of door locks need some tenths of a second; a shorter state is a glitch.
 _MIN_STATE_S = 0.1
-# A change is shown by two frames more before a glitch of one frame can be told from it.
+# Two further frames must confirm a change, to distinguish it from a glitch of one frame.
 _CONFIRMING_CYCLES = 2.0
 _MAX_RELOCK_S = 3600.0
-# Between the names of signals that tell a state together.
+# Separator of the names of signals that define a state together.
 _AND = "+"
 
 
 class LockReading(NamedTuple):
-    """What one frame says. source: of the last change, empty when it is not known.
+    """Content of one frame. source: of the last change, empty if unknown.
 
-    raw: value of the state's signal. alive, commands, changed: see CarProfile, None when it declares no such signal.
-    source_raw: value of the source's signal, None without one. doors: that are unlocked when not all are; else empty.
+    raw: value of the state's signal. alive, commands, changed: see CarProfile, None if it declares no such signal.
+    source_raw: value of the source's signal, None without one. doors: the unlocked ones if only some are; else empty.
     """
 
     state: LockState
@@ -70,27 +70,27 @@ Decode = Callable[[int, bool, bytes], "LockReading | None"]
 
 @dataclass(frozen=True, eq=False)
 class CarProfile:
-    """One car.
+    """Profile of one car.
 
     states: raw values of the signal; a value that is not listed is an unknown state.
-    cycle_time_s: period of the message. sent_on_change: it is also sent at once when the state changes.
-    source_signal: signal of the same message that tells what made the locks move, empty when there is none.
+    cycle_time_s: period of the message. sent_on_change: it is also sent at once when the state changes. source_signal:
+    signal of the same message with the cause of a lock change, empty without one.
     sources: its raw values; one that is not listed is an unknown source.
     alive_signal: signal that counts the frames of the message. command_signal: signal that counts accepted commands, so
-    that a change comes with one. changed_signal: flag that begins with each change. Each wraps, and is empty when there
-    is none.
-    min_state_s: shortest time between two changes. relock_after_s: time after which the car locks by itself when it was
-    unlocked and not opened, None when it does not.
-    handle_output: the message that has an actuator take the handle, extender_output: that switches an extender; None
-    when a person has to.
-    message_names: of all messages of the database, by identifier and whether it is an extended one.
-    door_signals: one of each door, by its name, when they tell the state together; signal is all their names then.
-    driver_only: raw values with which all but the driver's door are locked.
-    further: what other messages tell. poll: how the state is asked for, None when the Car sends it.
-    phone: what tells the distance of a phone, None without it.
-    is_only_on_change: the message comes with a change and never else; cycle_time_s is then that of liveness, a message
-    of the same bus whose silence is told, None when any frame says that the bus is alive.
-    count_ranges: of counters in the message of the state, by their names.
+    that a change comes with one. changed_signal: flag that begins with each change. The counters wrap; each name is
+    empty without such a signal.
+    min_state_s: shortest time between two changes. relock_after_s: time after which the car relocks if it was unlocked
+    and not opened, None if it does not.
+    handle_output: message to an actuator that pulls the handle, extender_output: message that switches an extender;
+    None if a person has to.
+    message_names: of all messages of the database, by identifier and is_extended.
+    door_signals: one for each door, by its name, if they define the state together; signal then joins all their names.
+    driver_only: raw values with which only the driver's door is unlocked.
+    further: signals of other messages. poll: query of the state, None if the Car sends it.
+    phone: source of a phone's distance, None without it.
+    is_only_on_change: the message is sent only on change; cycle_time_s is then the period of liveness, a message of the
+    same bus whose silence is reported. liveness is None if any frame proves that the bus is alive. count_ranges: of
+    counters in the message of the state, by their names.
     """
 
     name: str
@@ -121,8 +121,8 @@ class CarProfile:
 
     @property
     def facts(self) -> LockFacts:
-        """What a scenario has to know of it."""
-        # A change that a second signal vouches for needs no second frame.
+        """Facts about the locks that a scenario needs."""
+        # A change that a second signal confirms needs no second frame.
         is_vouched = bool(self.command_signal or self.changed_signal or self.further.counters)
         cycles_s = 0.0 if self.is_only_on_change else _CONFIRMING_CYCLES * self.cycle_time_s
         confirm_s = 0.0 if is_vouched else max(self.min_state_s, cycles_s)
@@ -132,34 +132,36 @@ class CarProfile:
 
     @property
     def identifiers(self) -> dict[str, tuple[int, bool]]:
-        """Identifier and whether it is an extended one, by the names of the messages of all buses."""
+        """Identifier and is_extended, by the names of the messages of all buses."""
         further = {place.message.name: place.key[1:] for place in self.further.places()}
         return {**further, **{name: key for key, name in self.message_names.items()}}
 
     def counts(self, signal: str) -> CountRange:
-        """The values that a counter of the state's message counts through."""
+        """Return the range of a counter in the state's message."""
         length = self.message.get_signal_by_name(signal).length
         return self.count_ranges.get(signal, CountRange(0, (1 << length) - 1, length))
 
     def is_message(self, can_id: int, is_extended: bool) -> bool:
-        """True for frames of the message of the state."""
+        """Return True for frames of the message of the state."""
         return bool(can_id == self.message.frame_id and is_extended == self.message.is_extended_frame)
 
     def is_alive(self, can_id: int, is_extended: bool) -> bool:
-        """True for frames whose silence is told: of the state, or of what stands for it, which may be any frame."""
+        """Return True for frames whose silence is reported: of the state, or of its liveness message, which may be any
+        frame."""
         message = self.liveness if self.is_only_on_change else self.message
         return message is None or bool(can_id == message.frame_id and is_extended == message.is_extended_frame)
 
     def decoder(self) -> Decode:
-        """What frames in their order say; as decode, and for a state that is asked for by the answers."""
+        """Return a decoder of frames in their order; for a polled state it decodes the answers."""
         return self.decode if self.poll is None else self.poll.decoder(self.reading)
 
     def decode(self, can_id: int, is_extended: bool, data: bytes) -> LockReading | None:
-        """What a frame says; None when the frame is another message, too short, or of another multiplex page."""
+        """Return the content of a frame; None if it is a different message, too short, or a different multiplex
+        page."""
         return self._decode_data(data) if self.is_message(can_id, is_extended) else None
 
     def reading(self, raw: int) -> LockReading:
-        """What a value says that was asked for."""
+        """Return the reading of a polled value."""
         return LockReading(self.states.get(raw, LockState.UNKNOWN), raw=raw, doors=self._driver(raw))
 
     def _driver(self, raw: int) -> str:
@@ -170,7 +172,7 @@ class CarProfile:
         named = (self.source_signal, self.alive_signal, self.command_signal, self.changed_signal)
         return SignalReader(self.message, {*named, *(self.door_signals.values() or (self.signal,))} - {""})
 
-    # The same few frames repeat for ever.
+    # The same few frames repeat continuously.
     @functools.lru_cache(maxsize=1024)  # noqa: B019
     def _decode_data(self, data: bytes) -> LockReading | None:
         values = self._reader.values(data)
@@ -184,7 +186,7 @@ class CarProfile:
                               changed=None if changed is None else bool(changed), source_raw=source_raw)
 
     def _state(self, values: Mapping[str, Any]) -> LockReading | None:
-        """Of one signal, or of all doors together; None when the frame carries none."""
+        """Return the reading of one signal, or of all doors together; None if the frame contains none."""
         if not self.door_signals:
             raw = values.get(self.signal)
             return None if raw is None else self.reading(raw)
@@ -201,9 +203,9 @@ class CarProfile:
 
 
 def load_profile(name_or_path: str, databases: pathlib.Path | None = None) -> CarProfile:
-    """Profile by the name of a shipped one or by the path of a YAML file; ConnectionFailed says what is wrong.
+    """Load a shipped profile by its name, or a YAML file by its path; ConnectionFailed states a fault.
 
-    databases: folder of its databases; by default that of the profile, then that of MTR_CAR_DATABASES.
+    databases: folder of its databases; by default the profile's folder, then MTR_CAR_DATABASES.
     """
     path = _find(name_or_path)
     entries = Entries(path, _read(path), databases)
@@ -211,7 +213,7 @@ def load_profile(name_or_path: str, databases: pathlib.Path | None = None) -> Ca
 
 
 def _sent(path: pathlib.Path, entries: Entries) -> CarProfile:
-    """Of a Car that sends its state."""
+    """Load the profile of a Car that sends its state."""
     content = entries.content
     message = entries.message(content["message"])
     names = signal_names(entries, message)
@@ -230,7 +232,7 @@ def _sent(path: pathlib.Path, entries: Entries) -> CarProfile:
 
 
 def _polled(path: pathlib.Path, entries: Entries) -> CarProfile:
-    """Of a Car that is asked for its state."""
+    """Load the profile of a Car that is polled for its state."""
     content, poll = entries.content, read_poll(entries)
     message = response_message(poll)
     return CarProfile(
@@ -251,7 +253,7 @@ def _common(entries: Entries, message: Any, cycle_time_s: float) -> dict[str, An
 
 
 def profile_files(name_or_path: str) -> tuple[pathlib.Path, ...]:
-    """The profile and its databases; ConnectionFailed when there is no such profile."""
+    """Return the paths of the profile and its databases; ConnectionFailed if the profile does not exist."""
     path = _find(name_or_path)
     entries = Entries(path, _read(path))
     buses = (*((FIRST_BUS,) if "database" in entries.content else ()), *entries.buses)
@@ -259,15 +261,15 @@ def profile_files(name_or_path: str) -> tuple[pathlib.Path, ...]:
 
 
 def bundled_files(name_or_path: str) -> tuple[dict[str, pathlib.Path], dict[str, str]]:
-    """Files of a profile that a bundle may hold, and why others are left out, by their names; ConnectionFailed when
-    there is no such profile."""
+    """Return the files of a profile that a bundle may contain, and the reasons for omitting others, by their names.
+    ConnectionFailed if the profile does not exist."""
     path = _find(name_or_path)
     files, left_out = Entries(path, _read(path)).usable_databases()
     return {path.name: path, **files}, left_out
 
 
 def bus_names(name_or_path: str) -> tuple[str, ...]:
-    """Of the further buses, in their order; ConnectionFailed when there is no such profile, or a wrong one."""
+    """Return the names of the further buses, in their order; ConnectionFailed if the profile is missing or faulty."""
     path = _find(name_or_path)
     return Entries(path, _read(path)).buses
 

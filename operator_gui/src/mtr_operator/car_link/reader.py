@@ -1,4 +1,4 @@
-"""Thread that reads the CAN adapter, stamps each frame, and opens the adapter again when it has gone."""
+"""Thread that reads the CAN adapter, stamps each frame, and reopens the adapter after a loss."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -24,39 +24,39 @@ _REOPEN_PERIOD_S = 1.0
 
 
 class FrameSink(ABC):
-    """Takes what the reader sees; called from its thread."""
+    """Receiver of the reader's reports; called from its thread."""
 
     @abstractmethod
     def frame(self, frame: CanFrame) -> None:
-        """A data frame."""
+        """Receive a data frame."""
 
     @abstractmethod
     def error_frame(self) -> None:
-        """The adapter reports an error on the bus."""
+        """Report an error frame of the adapter."""
 
     @abstractmethod
     def frames_lost(self) -> None:
-        """The adapter reports frames that were lost before they could be read."""
+        """Report frames that were lost before they could be read."""
 
     @abstractmethod
     def fault(self, text: str) -> None:
-        """What is wrong with adapter or controller now; empty when nothing is."""
+        """Report the current fault of adapter or controller; empty without one."""
 
     @abstractmethod
     def reopened(self) -> None:
-        """The adapter was opened again."""
+        """Report that the adapter was reopened."""
 
     def answered(self) -> None:  # noqa: B027, most have asked nothing
-        """The adapter has said the word for which it was asked."""
+        """Report that the adapter answered a request of settled()."""
 
     def tick(self, now_s: float) -> None:  # noqa: B027, most have nothing to do
-        """Time has passed, by the laptop's monotonic clock; ten times a second and with each frame."""
+        """Advance the time, by the laptop's monotonic clock; called ten times a second and with each frame."""
 
 
 class CanReader:
-    """Owns the bus between start() and stop().
+    """Owner of the bus between start() and stop().
 
-    interface: python-can's word, which tells how frames are stamped. clock: the laptop's, monotonic, in s.
+    interface: python-can's name, which determines the stamps of the frames. clock: the laptop's, monotonic, in s.
     """
 
     def __init__(self, open_bus: Callable[[], can.BusABC], sink: FrameSink, interface: str = "",
@@ -78,7 +78,7 @@ class CanReader:
         self._thread.start()
 
     def stop(self) -> None:
-        """End the thread and close the adapter."""
+        """Stop the thread and close the adapter."""
         self._stopping.set()
         if self._thread is not None:
             self._thread.join()
@@ -88,18 +88,18 @@ class CanReader:
             self._bus = None
 
     def send(self, message: can.Message) -> threading.Event:
-        """Have a frame sent by the thread; the event is set when it has left, and never when the adapter fails."""
+        """Queue a frame for the thread; the event is set when it has left, and never if the adapter fails."""
         left = threading.Event()
         self._outgoing.put((message, left))
         return left
 
     def settled(self) -> Callable[[], bool] | None:
-        """Have the adapter say a word behind all frames of before; what is given tells whether they have been read.
-        None: this one has no such word, or is not there."""
+        """Request a marker behind all previous frames; return a predicate that is true when they have been read. None
+        if the adapter has no such marker, or is missing."""
         bus = self._bus
         if not isinstance(bus, StampedSlcanBus):
             return None
-        # An adapter that has gone is the thread's business.
+        # The thread handles a lost adapter.
         with contextlib.suppress(Exception):
             number = bus.request_flags()
             return lambda: bus.flags_answered >= number
@@ -113,12 +113,12 @@ class CanReader:
                 continue
             try:
                 self._read(bus)
-            # Drivers raise whatever their vendor's library does.
+            # Drivers raise any exception of their vendor's library.
             except Exception as error:
                 self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
                 shut_down(bus)
                 self._bus = None
-        # What is let go with the last order shall not stay taken; the adapter may have gone.
+        # The last frames may deactivate outputs, so they are still sent; the adapter may be lost.
         with contextlib.suppress(Exception):
             self._send_all()
 
@@ -129,7 +129,7 @@ class CanReader:
         return bus
 
     def _send_all(self) -> None:
-        """What waits; nothing of it when there is no adapter, for it would come too late."""
+        """Send the queue; without an adapter discard it, because it would be sent too late."""
         while not self._outgoing.empty():
             message, left = self._outgoing.get()
             if self._bus is not None:
@@ -163,11 +163,12 @@ class CanReader:
         except ConnectionFailed as error:
             self._sink.fault(str(error))
             return
-        # Of a terminal that goes while it is opened, for one; without this thread nobody would notice the next frame.
+        # For example, a terminal may vanish while it is opened. Without this thread, no further frame would be
+        # received.
         except Exception as error:
             self._sink.fault(f"The CAN adapter has failed: {' '.join(str(error).split())}.")
             return
-        # What was asked for while the adapter was being opened would come too late, as well.
+        # Frames that were queued while the adapter was being opened would be sent too late as well.
         self._send_all()
         self._bus = bus
         self._health = AdapterHealth(self._interface, self._sink)

@@ -1,6 +1,6 @@
-"""A small Car inside the application, for the first try of somebody who has none: its locks react to the key's place.
+"""Small Car inside the application, for a first try without a real one: its locks react to the key's position.
 
-It is no model of a Car: its ranges are smooth curves around it, with a little chance. mtr_simulation has real ones.
+It is not a model of a real Car: its ranges are smooth curves with some random noise. mtr_simulation has realistic ones.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,30 +19,30 @@ from mtr_operator.domain.robot_status import CarDimensions, PressReport, RobotSt
 
 from .phone.simulated import SimulatedPhone
 
-# Where a standing key is noticed, from the Car's outline; it is given up farther away. Where half of the requests at
-# the handle are inside; where half of the presses work, from the Car's centre.
+# Distance from the Car's outline at which a stationary key is detected, and at which it is lost. Distance at which half
+# of the handle requests succeed; distance from the Car's centre at which half of the presses succeed.
 UNLOCK_M, LOCK_M, HANDLE_M, PRESS_M = 1.5, 2.2, 1.3, 5.2
-# Parts by which these differ around the Car, by the number of lobes.
+# Relative amplitudes of these ranges around the Car, by the number of lobes.
 _LOBES = ((1, 0.06), (2, 0.05), (3, 0.03))
-# Widths of the logistic curves of presses and requests, 1 sigma of a poll's noise, and a press that fails anywhere.
+# Widths of the logistic curves of presses and requests, 1 sigma of a poll's noise, and probability of a random miss.
 _PRESS_WIDTH_M, _HANDLE_WIDTH_M, _POLL_NOISE_M, _LAPSE = 0.12, 0.08, 0.02, 0.01
-# Polls that fall anywhere between two Statuses.
+# Polls occur at any time between two Statuses.
 _POLL_S, _REACTION_S, _TIME_SIGMA_S = 0.13, 0.02, 0.005
 _PRESS_REACTION_S = 0.1
-# Rest after which the key sleeps, and the motion that wakes it: that of the simulated robot's noise is smaller.
+# Rest after which the key sleeps, and the motion that wakes it: the noise of the simulated robot is smaller.
 KEY_SLEEP = Limit("rest after which the simulated key sleeps", 0.0, 3600.0, "s")
 _WAKE_MOVE_M = 0.03
-# By how much an extender, while it is switched on, has the key be nearer for the Car; 0: one that does nothing.
+# Apparent reduction of the key's distance while an extender is on; 0: no effect.
 EXTENDER = Limit("reach of the simulated extender", 0.0, 100.0, "m")
 _OTHER_STATE = {LockState.LOCKED: LockState.UNLOCKED, LockState.UNLOCKED: LockState.LOCKED}
 _NOBODY = CarDimensions(math.nan, math.nan, math.nan, math.nan)
 
 
 class SimulatedHandle(HandlePort):
-    """An output that is there at once.
+    """Output without delay.
 
     Attributes:
-        is_waiting: it was taken, and the Car has not looked yet.
+        is_waiting: the handle was pulled, and the Car has not reacted yet.
     """
 
     by = OUTPUT
@@ -62,9 +62,9 @@ class SimulatedHandle(HandlePort):
 
 
 class SimulatedExtender(ExtenderPort):
-    """A relay between Car and key that is switched at once; off at first.
+    """Relay between Car and key that is switched without delay; off at first.
 
-    nearer_m: by so much the key is nearer for the Car while it is on.
+    nearer_m: apparent reduction of the key's distance while it is on.
     """
 
     by = OUTPUT
@@ -83,12 +83,12 @@ class SimulatedExtender(ExtenderPort):
         self._is_switched = False
 
     def gap_m(self, gap_m: float) -> float:
-        """How far a key seems to be that is so far away."""
+        """Return the apparent distance of a key at this distance."""
         return max(gap_m - self._nearer_m, 0.0) if self._is_on else gap_m
 
 
 class SleepingKey:
-    """A key whose motion sensor lets it sleep: it then answers no poll and no request; a press of its button is sent.
+    """Key whose motion sensor lets it sleep: asleep, it ignores polls and requests, but a press of its button is sent.
 
     sleep_s: rest after which it sleeps; 0: never.
     """
@@ -99,29 +99,29 @@ class SleepingKey:
         self._moved_s = -math.inf
 
     def forget(self) -> None:
-        """Another clock begins."""
+        """Restart for another clock."""
         self._rest, self._moved_s = None, -math.inf
 
     def see(self, time_s: float, place: tuple[float, float]) -> None:
-        """Where it is now, in m."""
+        """Update the key's position, in m."""
         if self._rest is None or math.dist(self._rest, place) >= _WAKE_MOVE_M:
             self._rest, self._moved_s = place, time_s
 
     def is_awake(self, time_s: float) -> bool:
-        """True when it answers."""
+        """Return True if the key answers."""
         return self._sleep_s == 0.0 or time_s - self._moved_s < self._sleep_s
 
 
 class SimulatedCarLink(CarLink, CarEquipment):
-    """Passive entry by the key's place, presses and requests at the handle by its distance.
+    """Passive entry by the key's position; presses and handle requests by its distance.
 
-    key_sleep_s: rest after which the key sleeps, 0 to 3600 s; 0: never. extender_m: by how much its extender has the
-    key be nearer while it is on, 0 to 100 m; 0: not at all.
+    key_sleep_s: rest after which the key sleeps, 0 to 3600 s; 0: never. extender_m: apparent reduction of the key's
+    distance while its extender is on, 0 to 100 m; 0: no effect.
 
-    Passive entry rests once a button was pressed or the handle taken: only one of them can be measured at a time. It is
-    back with the next test, which has a session of its own. car_seed: which Car it is, by its ranges; seed: of chance.
-    The same seeds and the same Statuses give the same events.
-    A phone that is its key tells its distance with the errors of PhoneModel.
+    Passive entry is disabled after a button press or handle request, because only one of them can be measured at a
+    time. The next test, with a new session, enables it again. car_seed: selects the Car's ranges; seed: of the random
+    noise. The same seeds and the same Statuses give the same events.
+    A phone that is its key reports its distance with the errors of PhoneModel.
     """
 
     def __init__(self, seed: int = 1, key_sleep_s: float = 0.0, extender_m: float = 0.0, *, car_seed: int = 1):
@@ -131,7 +131,7 @@ class SimulatedCarLink(CarLink, CarEquipment):
         self._key = SleepingKey(key_sleep_s)
         self._chance, car = random.Random(seed), random.Random(car_seed)
         self._lobes = [(count, part, car.uniform(0.0, 2.0 * math.pi)) for count, part in _LOBES]
-        # A seed's first numbers once drew the Car; chance continues behind them, so that its results stay the same.
+        # The first random numbers of a seed once defined the Car; skipping them keeps its results unchanged.
         for _ in _LOBES:
             self._chance.random()
         self._handle = SimulatedHandle()
@@ -171,7 +171,7 @@ class SimulatedCarLink(CarLink, CarEquipment):
         self._session_id, self._is_passive, self._handle.is_waiting = session_id, True, False
 
     def _forget_times(self, robot_session_id: int) -> None:
-        """Drop all instants, and the session, of the previous clock of the robot: the new one starts below them."""
+        """Discard all times and the session of the robot's previous clock: the new one starts below them."""
         self._robot_session_id = robot_session_id
         self._begin_session(0)
         self._poll_s = self._answered_s = -math.inf
@@ -194,7 +194,7 @@ class SimulatedCarLink(CarLink, CarEquipment):
         return [self._change(min(press.start_s + _PRESS_REACTION_S, press.end_s))]
 
     def _requests(self, status: RobotStatus, car: CarDimensions) -> list[CarEvent]:
-        """A hand that came since the last Status."""
+        """Return the reaction to a handle request since the last Status."""
         if not self._handle.is_waiting:
             return []
         self._handle.is_waiting, self._is_passive = False, False
@@ -204,20 +204,20 @@ class SimulatedCarLink(CarLink, CarEquipment):
         gap_m = self._extender.gap_m(gap_to_outline(place, car))
         if not self._works(gap_m, HANDLE_M * self._part(place), _HANDLE_WIDTH_M):
             return []
-        # Later than what was observed before, and not in the future.
+        # Later than the previous observation, and not in the future.
         self._answered_s = max(self._answered_s, status.stamp_s)
         return [self._change(status.stamp_s)]
 
     def _polls(self, before: tuple[float, tuple[float, float]], now: tuple[float, tuple[float, float]],
                car: CarDimensions) -> list[CarEvent]:
-        """The Car looks for its key again and again; two looks in a row have to agree."""
+        """Return the reactions to the Car's polls of its key; two consecutive polls must agree."""
         events = []
         (start_s, start), (end_s, end) = before, now
         self._poll_s = max(self._poll_s + _POLL_S, start_s)
         while self._poll_s <= end_s - _REACTION_S:
             part = (self._poll_s - start_s) / max(end_s - start_s, 1e-9)
             place = (start[0] + part * (end[0] - start[0]), start[1] + part * (end[1] - start[1]))
-            # A key that sleeps is gone for the Car.
+            # A sleeping key is absent for the Car.
             gap_m = self._extender.gap_m(gap_to_outline(place, car)) + self._chance.gauss(0.0, _POLL_NOISE_M) \
                 if self._key.is_awake(self._poll_s) else math.inf
             is_other = gap_m < UNLOCK_M * self._part(place) if self._state is LockState.LOCKED else \
@@ -231,7 +231,7 @@ class SimulatedCarLink(CarLink, CarEquipment):
         return events
 
     def _part(self, place: tuple[float, float]) -> float:
-        """By which the ranges are longer or shorter in a direction."""
+        """Return the relative change of the ranges in a direction."""
         bearing = math.atan2(place[1], place[0])
         return 1.0 + sum(part * math.cos(count * bearing + phase) for count, part, phase in self._lobes)
 

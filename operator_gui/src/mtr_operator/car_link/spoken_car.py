@@ -1,7 +1,7 @@
-"""A simulated Car that speaks a profile's frames on python-can's virtual bus, in lock-step with a robot's substitute.
+"""Simulated Car that sends a profile's frames on python-can's virtual bus, in lock-step with a robot's substitute.
 
-For tests and benchmarks of all that lies between a bus and a distance, and to try a profile. Nobody waits for a time:
-each frame is taken before the next Status comes.
+It serves tests and benchmarks of the path from bus to distance, and the trial of a profile. No timed waits are needed:
+each frame is received before the next Status comes.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -30,7 +30,7 @@ from .uds.declared import UdsPoll
 if TYPE_CHECKING:
     from .uds.spoken_ecu import SpokenEcu
 
-# Between the instant of a frame and the step of the robot's clock.
+# Offset between a frame and the step of the robot's clock.
 _PHASE_S = 0.001
 _PATIENCE_S = 10.0
 _INTERFACE = "virtual"
@@ -38,9 +38,9 @@ _BITRATE_BPS, _DATA_BITRATE_BPS = 500_000, 2_000_000
 
 
 class SpokenCar(RobotLink):
-    """A robot's link that has the Car speak on its buses up to each Status that it gives.
+    """Robot link that lets the Car send its frames up to each Status that it returns.
 
-    channel: of the virtual bus. profile: what the Car's frames are; databases: see load_profile.
+    channel: of the virtual bus. profile: defines the Car's frames; databases: see load_profile.
 
     Attributes:
         car: link on that bus, not connected yet; its clock is the robot's.
@@ -70,7 +70,7 @@ class SpokenCar(RobotLink):
 
     @property
     def cycle_s(self) -> float:
-        """Of the message that tells the state."""
+        """Cycle of the message of the state."""
         return self._profile.cycle_time_s
 
     def connect(self) -> None:
@@ -102,7 +102,7 @@ class SpokenCar(RobotLink):
 
     @property
     def _next_s(self) -> float:
-        """When the next frames come: by their cycle, or at once with a change."""
+        """Return the time of the next frames: by their cycle, or at once with a change."""
         next_s = round(self._sent_s + self._profile.cycle_time_s, 6)
         is_sooner = self._profile.sent_on_change and self._events and self._sent_s < self._events[0].time_s < next_s
         return self._events[0].time_s if is_sooner else next_s
@@ -122,7 +122,7 @@ class SpokenCar(RobotLink):
         self._wait()
 
     def _speak_of_phone(self, status: RobotStatus) -> None:
-        """As a Car that ranges to a phone would, where the profile names the signal."""
+        """Send the distance of a phone, if the profile names the signal."""
         signal = self._profile.phone
         if self.car.profile is None or not isinstance(signal, PhoneSignal):
             return
@@ -133,7 +133,7 @@ class SpokenCar(RobotLink):
         self._wait()
 
     def _answer(self, ecu: SpokenEcu) -> None:
-        """A frame lets the reader go on; then it is time that it asks."""
+        """Answer the requests of the reader: a frame advances its time, then it sends a request."""
         ecu.raw = state_raw(self._profile, self._frames.is_locked)
         self._buses[FIRST_BUS].send(can.Message(arbitration_id=BACKGROUND_ID, is_extended_id=False))
         answered = ecu.answer(_PATIENCE_S)
@@ -155,6 +155,5 @@ class SpokenCar(RobotLink):
 
 
 def _ecu(poll: UdsPoll, bus: can.BusABC) -> SpokenEcu:
-    # Needs packages that no other profile needs.
     from .uds.spoken_ecu import SpokenEcu
     return SpokenEcu(poll, bus)

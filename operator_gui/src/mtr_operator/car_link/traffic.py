@@ -1,4 +1,4 @@
-"""How full the bus is and how often the lock message comes, counted on the laptop's clock as frames arrive."""
+"""Load of the bus and cycle of the lock message, counted on the laptop's clock as frames arrive."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,19 +8,20 @@ from mtr_operator.domain.ports import BusTraffic
 
 from .can_frame import CanFrame
 
-# Long enough for several cycles of the slowest lock messages, short enough to be of now.
+# Long enough for several cycles of the slowest lock messages, short enough to be current.
 WINDOW_S = 4.0
-# ISO 11898-1: bits of a frame without its data, with the gap of three bits behind it. Stuffed bits depend on the
-# content and are not counted: they make the bus up to a fifth fuller.
+# ISO 11898-1: bits of a frame without its data, including the gap of three bits. Stuffed bits depend on the content and
+# are not counted: they increase the load by up to a fifth.
 _BITS, _EXTENDED_BITS = 47, 67
-# Of a CAN FD frame: at the bit rate, and at the data bit rate with a short and a long check sum.
+# Bits of a CAN FD frame: at the bit rate, and at the data bit rate with a short and a long check sum.
 _FD_BITS, _FD_EXTENDED_BITS = 30, 49
 _FD_DATA_BITS, _FD_LONG_DATA_BITS, _FD_SHORT_BYTES = 31, 36, 16
 _BITS_PER_BYTE = 8
 
 
 class TrafficMeter:
-    """Fed with every frame in the order of arrival. data_bitrate_bps: of CAN FD frames, None for classic CAN."""
+    """Meter, updated with every frame in the order of arrival. data_bitrate_bps: of CAN FD frames, None for classic
+    CAN."""
 
     def __init__(self, bitrate_bps: int, data_bitrate_bps: int | None = None):
         self._bitrate_bps = bitrate_bps
@@ -30,7 +31,7 @@ class TrafficMeter:
         self._begun_s: float | None = None
 
     def frame(self, frame: CanFrame, is_lock_message: bool) -> None:
-        """A frame arrived."""
+        """Add a frame."""
         if self._begun_s is None:
             self._begun_s = frame.arrival_s
         self._frames.append((frame.arrival_s, self._duration_s(frame)))
@@ -39,7 +40,7 @@ class TrafficMeter:
         self._forget(frame.arrival_s)
 
     def traffic(self, now_s: float, expected_cycle_s: float) -> BusTraffic:
-        """What has come within the last few seconds of the laptop's clock."""
+        """Return the traffic of the last few seconds of the laptop's clock."""
         self._forget(now_s)
         begun_s = now_s if self._begun_s is None else self._begun_s
         span_s = min(WINDOW_S, now_s - begun_s)

@@ -1,2 +1,2 @@
-"""The clocks of a line: the robot's, the CAN adapter's and the laptop's; what maps one to another, and who was set."""
+"""Clocks of the robot, the CAN adapter and the laptop: maps between them, and detection of clock steps."""
 # SPDX-License-Identifier: Apache-2.0

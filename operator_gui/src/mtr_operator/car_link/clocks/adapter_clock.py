@@ -1,9 +1,9 @@
 """Map from the clock of a CAN adapter that stamps its frames to the robot's clock.
 
-Both clocks run at true rate (in an accelerated simulation both are the simulated one), so only an offset is sought. A
-Status that arrives between two frames says that its stamp lies about between theirs. How long the Status and the frames
-were under way scatters, by tens of milliseconds of simulated time in an accelerated simulation; the offset does not, so
-the median over many pairs is taken.
+Both clocks run at true rate (in an accelerated simulation both are the simulated one), so only an offset is estimated.
+The stamp of a Status that arrives between two frames lies approximately between their stamps. The transmission delays
+of Statuses and frames scatter, by tens of milliseconds of simulated time in an accelerated simulation; the offset is
+constant. The map therefore uses the median over many pairs.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,13 +19,13 @@ from .clock_map import MIN_PAIRS, MIN_SPAN_S, ClockMap
 # 30 s of Status: quartz clocks that differ by 200 ppm drift 6 ms in it, and the median lags half of that.
 _WINDOW = 300
 _RATE_TOLERANCE = 200e-6
-# A longer gap between two frames says nothing of a Status between them.
+# A longer gap between two frames does not locate a Status between them.
 _MAX_GAP_S = 0.25
-# One of the clocks was set anew when this many pairs in a row are so far off.
+# A clock was set if this many consecutive pairs deviate by this much.
 _JUMP_S = 1.0
 _JUMP_PAIRS = 10
 _STAMP_MODULO_MS = 60_000
-# An older stamp than the last one by less than this is a late frame, not a new minute.
+# A stamp that is older than the last one by less than this is a late frame, not a new minute.
 _DISORDER_MS = 1_000
 # The outer two of these quantiles (16.7 % and 83.3 %) are about one sigma from the median.
 _QUANTILES = 6
@@ -38,7 +38,7 @@ class StampUnwrapper:
         self._total_ms: int | None = None
 
     def unwrap(self, stamp_ms: int) -> float:
-        """Time of this stamp."""
+        """Return the continuous time of a stamp."""
         if self._total_ms is None:
             self._total_ms = stamp_ms
             return stamp_ms / 1000.0
@@ -56,17 +56,20 @@ class _Pair(NamedTuple):
 
 
 class _Ordered:
-    """Attributes: values: in ascending order; sorting them all anew for each Status costs more than all else here."""
+    """Sorted multiset. Sorting all values for each Status would be the largest cost of this map.
+
+    Attributes: values: in ascending order.
+    """
 
     def __init__(self) -> None:
         self.values: list[float] = []
 
     def add(self, value: float) -> None:
-        """One more."""
+        """Insert a value."""
         bisect.insort(self.values, value)
 
     def remove(self, value: float) -> None:
-        """One that was added."""
+        """Remove a value that was added."""
         del self.values[bisect.bisect_left(self.values, value)]
 
 
@@ -74,7 +77,7 @@ class AdapterClockMap(ClockMap):
     """robot = adapter + offset.
 
     Attributes:
-        gap_s: from frame to frame where a Status came between them, by the median.
+        gap_s: median interval of the two frames around a Status.
     """
 
     def __init__(self) -> None:
@@ -99,7 +102,7 @@ class AdapterClockMap(ClockMap):
         self._newest_s = local_s
 
     def status(self, stamp_s: float, arrival_s: float) -> None:
-        """See ClockMap; the arrival matters only by its place between the frames."""
+        """See ClockMap; the arrival counts only as a position between the frames."""
         if self._newest_s is not None:
             self._pending = (stamp_s, self._newest_s)
 
@@ -129,7 +132,7 @@ class AdapterClockMap(ClockMap):
         self._forget(len(self._pairs) - _WINDOW)
 
     def _forget(self, count: int) -> None:
-        """The oldest ones."""
+        """Remove the oldest pairs."""
         for _ in range(count):
             oldest = self._pairs.popleft()
             self._offsets_s.remove(oldest.offset_s)

@@ -16,7 +16,7 @@ from .clock_map import LEAST_WAY_S, MIN_PAIRS, MIN_SPAN_S, ClockMap
 
 # 10 s of Status.
 _WINDOW = 100
-# A rate so near to 1 is that of a robot, whose quartz is far better than any estimate from 10 s.
+# A rate this close to 1 belongs to a robot, whose quartz is far better than any estimate from 10 s.
 _TRUE_RATE_TOLERANCE = 0.02
 _BACKWARD_STEP_S = 1.0
 
@@ -41,7 +41,7 @@ class ArrivalClockMap(ClockMap):
         return self._rate
 
     def frame(self, local_s: float) -> None:
-        """See ClockMap; frames tell this map nothing."""
+        """See ClockMap; frames do not affect this map."""
 
     def status(self, stamp_s: float, arrival_s: float) -> None:
         """See ClockMap."""

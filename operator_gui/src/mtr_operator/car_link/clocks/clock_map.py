@@ -1,13 +1,14 @@
-"""What both maps from the time stamps of CAN frames to the robot's clock have in common."""
+"""Common interface of the maps from the time stamps of CAN frames to the robot's clock."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
 
-# A map is used once it rests on this many Statuses over this time of the robot's clock.
+# A map is used after this many Statuses over this time of the robot's clock.
 MIN_PAIRS = 20
 MIN_SPAN_S = 2.0
-# Even the fastest Status is late by its way: over Wi-Fi 1 to 5 ms, which no map can tell from the clocks' offset.
+# Even the fastest Status has a transmission delay, over Wi-Fi 1 to 5 ms. A map cannot separate it from the clock
+# offset.
 LEAST_WAY_S = 0.003
 
 
@@ -22,16 +23,16 @@ class ClockMap(ABC):
 
     @abstractmethod
     def frame(self, local_s: float) -> None:
-        """A frame with this local stamp arrived."""
+        """Add a frame with this local stamp."""
 
     @abstractmethod
     def status(self, stamp_s: float, arrival_s: float) -> None:
-        """A Status with this stamp of the robot's clock arrived at arrival_s of the laptop's."""
+        """Add a Status with its stamp (robot's clock) and its arrival (laptop's clock)."""
 
     @property
     @abstractmethod
     def is_ready(self) -> bool:
-        """False until enough pairs are known."""
+        """True if the map has enough pairs."""
 
     @property
     def rate(self) -> float:
@@ -40,4 +41,4 @@ class ClockMap(ABC):
 
     @abstractmethod
     def to_robot(self, local_s: float) -> float:
-        """Robot's time at a local time; only when is_ready."""
+        """Return the robot's time at a local time; valid only if is_ready."""

@@ -1,7 +1,7 @@
-"""One clock against the laptop's monotonic one: notices when it was set, and which stamps were not late.
+"""Comparison of a clock with the laptop's monotonic clock: detects steps of the clock, and stamps that were not late.
 
-A stamp arrives late by its way and never early. So one that is ahead of the best of the last while by more than the
-clocks drift apart, or a second in which all are behind it, says that the clock was set.
+A stamp arrives with a delay and never early. The clock was therefore set if a stamp is ahead of the best recent one by
+more than the clocks drift apart, or if all stamps of one second are behind it.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,10 +12,10 @@ import math
 from typing import NamedTuple
 
 _WINDOW_S = 10.0
-# The best stamp of each such piece is kept.
+# The best stamp of each piece of this length is stored.
 _PIECE_S = 0.1
-# That long all stamps have to be late before it is taken for a step backwards: interruptions of the Wi-Fi and stalls of
-# the laptop end with a stamp that is in time.
+# All stamps must be late for this time before it counts as a backward step. Wi-Fi interruptions and stalls of the
+# laptop end with a stamp that is in time.
 _PATIENCE_S = 1.0
 _MIN_STAMPS = 5
 
@@ -27,14 +27,14 @@ class _Piece(NamedTuple):
 
 
 class DelayWatch:
-    """Both clocks run at true rate.
+    """Step detector for two clocks that run at true rate.
 
-    step_s: smallest step that is noticed, more than the least delays of pieces of the window differ by; clocks 200 ppm
-    apart drift 2 ms in it.
+    step_s: smallest detected step, larger than the differences of the least delays in the window; clocks 200 ppm apart
+    drift 2 ms in it.
 
     Attributes:
-        in_time_s, in_time_arrival_s: the newest stamp that was under way about as long as the fastest, and its arrival.
-            What is newer may be late, or the clock was set back: that cannot be told yet.
+        in_time_s, in_time_arrival_s: newest stamp with about the least delay, and its arrival. A newer stamp may be
+            late, or the clock was set back: both are possible until more stamps arrive.
     """
 
     def __init__(self, step_s: float) -> None:
@@ -44,9 +44,9 @@ class DelayWatch:
         self.in_time_s = self.in_time_arrival_s = -math.inf
 
     def add(self, stamp_s: float, arrival_s: float, may_be_late: bool = False) -> bool:
-        """A stamp of the clock arrived; True when the clock was set since the one before, and all begins anew.
+        """Add a stamp of the clock; return True if the clock was set since the previous one, which restarts the watch.
 
-        may_be_late: being late tells nothing, for who stamps says himself when he was set back.
+        may_be_late: lateness is not evidence, because the source reports its own backward steps.
         """
         ahead_s = stamp_s - arrival_s
         if ahead_s > self._best_s + self._step_s and self._pieces:
@@ -75,7 +75,8 @@ class DelayWatch:
         self._best_s = max(self._best_s, ahead_s)
 
     def _is_behind(self, arrival_s: float) -> bool:
-        """All of some time was late; what a stall held back comes at once, and the last of it in time."""
+        """True if all stamps of the patience time were late; stamps delayed by a stall arrive together, the last one in
+        time."""
         late = list(itertools.takewhile(lambda piece: piece.ahead_s < self._best_s - self._step_s,
                                         reversed(self._pieces)))
         return (bool(late) and arrival_s - late[-1].begin_s >= _PATIENCE_S

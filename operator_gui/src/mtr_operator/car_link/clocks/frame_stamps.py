@@ -1,6 +1,6 @@
-"""When a frame was on the bus: by the stamp of kernel or adapter where the interface has one, else by its arrival.
+"""Time of a frame on the bus: the stamp of kernel or adapter if the interface supplies one, else the arrival.
 
-A stamp that is taken by this program is late whenever it is busy or the disk is slow; kernel and adapters are not.
+An arrival stamp of this program is late if the program is busy or the disk is slow; kernel and adapter stamps are not.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -15,14 +15,15 @@ from .stamp_kind import StampKind
 
 # The kernel stamps frames with the laptop's clock of day (SO_TIMESTAMP, Linux' Documentation/networking/can.rst).
 _BY_KERNEL = frozenset({"socketcan"})
-# Their drivers hand the adapter's own clock on, in s from any origin.
+# Their drivers supply the adapter's own clock, in s from an arbitrary origin.
 _BY_ADAPTER = frozenset({"pcan", "kvaser", "vector", "ixxat"})
-# A frame that is older when it is read was stamped before the clock of day was set.
+# An age above this means that the clock of day was set after the stamp.
 _MAX_AGE_S = 1.0
 
 
 class FrameTime(NamedTuple):
-    """arrival_s: laptop's monotonic clock; stamp_s: adapter's clock, None when it has none. kind: which one counts."""
+    """Time of a frame. arrival_s: laptop's monotonic clock; stamp_s: adapter's clock, None without one. kind: the clock
+    that counts."""
 
     arrival_s: float
     stamp_s: float | None

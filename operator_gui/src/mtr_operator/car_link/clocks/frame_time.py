@@ -1,4 +1,4 @@
-"""When a frame was on the bus, on the robot's clock, and how sure that is; anew when one of the clocks was set."""
+"""Time of a frame on the robot's clock, with its uncertainty; restarts when a clock was set."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from .ordered_map import OrderedClockMap, minutes_between
 from .robot_clock import RobotClock, sent_s
 from .stamp_kind import StampKind
 
-# Adapters hand frames on in batches, each 16 ms with common USB chips, 20 ms in simulation.
+# Adapters deliver frames in batches: every 16 ms with common USB chips, 20 ms in simulation.
 _ADAPTER_STEP_S = 0.022
-# Robot time for which an event may wait until it is clear whether a clock was set or its messages are late.
+# Longest robot time for which an event waits for the decision between a clock step and late messages.
 _MAX_DOUBT_S = 0.3
 _UNMAPPED = "The clock of the CAN frames is not mapped to the robot's yet; this takes about two seconds."
 _ROBOT_CLOCK_SET = ("The robot's clock was set; the clock of the CAN frames is mapped to it anew, which takes about "
@@ -29,12 +29,13 @@ _DOUBTFUL = ("Frames or messages of the robot are late, or a clock was set; the 
 
 
 class FrameTime:
-    """Fed with every frame and Status in the order of arrival. Local times are of the clock that stamps the frames.
+    """Time base of one bus, updated with each frame and Status in the order of arrival. Local times are of the clock
+    that stamps the frames.
 
     Attributes:
-        stamp_s: robot's time up to which Statuses have come.
+        stamp_s: robot's time up to which Statuses have arrived.
         newest_s: local time of the newest frame, NaN before the first.
-        stamps: by which clock its frames are timed, None before the first.
+        stamps: clock that times the frames, None before the first.
     """
 
     def __init__(self) -> None:
@@ -43,7 +44,7 @@ class FrameTime:
         self.restart()
 
     def restart(self) -> None:
-        """The adapter was opened anew, or its frames were silent for too long: its clock is learnt again."""
+        """Restart after the adapter was reopened or a long silence of the frames: the clock map is estimated again."""
         self._map: ClockMap | None = None
         self._unwrapper = StampUnwrapper()
         self._delays = DelayWatch(_ADAPTER_STEP_S)
@@ -54,16 +55,16 @@ class FrameTime:
         self.newest_s = math.nan
 
     def goes_on_with(self, frame: CanFrame) -> bool:
-        """False for the first frame, and where an adapter begins or ceases to give stamps."""
+        """False for the first frame, and if the adapter starts or stops to supply stamps."""
         return self._map is not None and frame.is_stamped == self._is_stamped
 
     def begin(self, frame: CanFrame) -> None:
-        """This is the first frame since a restart."""
+        """Start with the first frame since a restart."""
         self._is_stamped = frame.is_stamped
         self._map = self._new_map()
 
     def frame(self, frame: CanFrame) -> tuple[float, bool]:
-        """The frame's local time, and whether the adapter's clock was set before it."""
+        """Return the frame's local time, and True if the adapter's clock was set before it."""
         local_s, was_set = self._local_s(frame), False
         self.stamps = frame.stamps
         if self._is_by_adapter and self._delays.add(local_s, frame.arrival_s):
@@ -80,12 +81,12 @@ class FrameTime:
         return local_s, was_set
 
     def status(self, status: RobotStatus, arrival_s: float) -> bool:
-        """A Status arrived; True when the robot's clock was set before it."""
+        """Add a Status; return True if the robot's clock was set before it."""
         was_set = self._robot_clock.status(status, arrival_s)
         if was_set:
             self.stamp_s = -math.inf
             self._begin_anew(_ROBOT_CLOCK_SET)
-        # A pose that is newer than its Status is one of before the clock was set back.
+        # A pose that is newer than its Status was measured before the clock was set back.
         stamp_s = min(status.stamp_s, sent_s(status))
         if stamp_s > self.stamp_s and self._map is not None:
             self._order(sent_s(status))
@@ -95,34 +96,34 @@ class FrameTime:
 
     @property
     def is_ready(self) -> bool:
-        """True when to_robot is known."""
+        """True if to_robot is valid."""
         return self._map is not None and self._map.is_ready
 
     def sigma_with(self, spread_s: float) -> float:
-        """1 sigma of a mapped time that lies anywhere within a spread, NaN while there is no map."""
+        """1 sigma of a mapped time with a uniform spread, NaN without a map."""
         if self._map is None or self.stamps is None:
             return math.nan
         way_s = LEAST_WAY_S if self._is_by_adapter else 0.0
         return math.hypot(self._map.sigma_s, way_s, self._map.rate * self.stamps.sigma_s, spread_s / math.sqrt(12.0))
 
     def to_robot(self, local_s: float) -> float:
-        """Robot's time at a local time; only when is_ready."""
+        """Return the robot's time at a local time; valid only if is_ready."""
         return math.nan if self._map is None else self._map.to_robot(local_s)
 
     @property
     def gap_s(self) -> float:
-        """From frame to frame, known where both clocks are one; else infinite."""
+        """Interval of the frames if both clocks are the same, else infinite."""
         return self._map.gap_s if isinstance(self._map, OrderedClockMap) else math.inf
 
     @property
     def newest_robot_s(self) -> float:
-        """Robot's time of the newest frame; only when is_ready."""
+        """Robot's time of the newest frame; valid only if is_ready."""
         if isinstance(self._map, OrderedClockMap):
             return self.newest_s + self._map.whole_s
         return self.to_robot(self.newest_s)
 
     def is_certain(self, local_s: float, arrival_s: float) -> bool:
-        """False before a frame and a Status from after it tell that no clock was set back before it."""
+        """True after a frame and a Status prove that no clock was set back before this time."""
         time_s = self.to_robot(local_s)
         if not time_s <= self.stamp_s:
             return False
@@ -133,7 +134,7 @@ class FrameTime:
 
     @property
     def is_by_arrival(self) -> bool:
-        """Frames are stamped when they are read: one that had waited is late."""
+        """True if frames are stamped when they are read, so that a frame that waited is late."""
         return not self._is_stamped and self._robot_clock.is_real_time
 
     @property
@@ -148,7 +149,8 @@ class FrameTime:
         return self._is_stamped and self._robot_clock.is_real_time
 
     def _order(self, stamp_s: float) -> None:
-        """Have the map go by the stamps' order where both clocks are the simulated one, else by that of arrivals."""
+        """Select the map: by the order of the stamps if both clocks are the simulated one, else by the order of
+        arrival."""
         if isinstance(self._map, OrderedClockMap):
             if not self._map.is_one_clock:
                 self._map = self._map.by_arrival

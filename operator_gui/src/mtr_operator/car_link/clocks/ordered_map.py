@@ -1,8 +1,8 @@
 """Map for an adapter whose clock is the robot's own: both are the simulated one.
 
-There arrivals tell what the machine had to do: a reading thread that is late, or a simulator that is ahead, makes the
-same frame one of before a Status or of after it. Their stamps tell the order that they would come in on a robot, so the
-map is made in that order, and a simulated test does not depend on the machine's speed.
+In simulation, arrivals depend on the load of the machine: with a late reading thread or a fast simulator, the same
+frame arrives before or after a Status. The stamps have the order of arrival on a real robot. The map uses that order,
+so a simulated test does not depend on the speed of the machine.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -13,28 +13,31 @@ import math
 from .adapter_clock import AdapterClockMap
 from .clock_map import ClockMap
 
-# Stamps of an adapter start again each minute.
+# Stamps of an adapter restart each minute.
 _MINUTE_S = 60.0
-# A newest frame is as old as this, or as far ahead, when a Status comes; another clock is anywhere in the minute.
+# Largest age or lead of the newest frame when a Status arrives; a different clock may be anywhere in the minute.
 _NEAR_S = 0.25
-# What is older than this against the newest Status has all come: a Status waits for frames that are a cycle older.
+# All frames older than this relative to the newest Status have arrived: a Status waits for frames that are a cycle
+# older.
 _SETTLED_S = 0.4
-# A bus speaks on when no Status comes: a second of the busiest that there is.
+# Limit of the frames that wait for a Status: one second of the busiest possible bus.
 _MOST_WAITING = 10_000
-# Medians by arrival are within some hundredths of a second of the truth, however busy the machine is.
+# Medians by arrival are accurate to some hundredths of a second, even on a busy machine.
 _APART_S = 0.3
 
 
 def minutes_between(local_s: float, stamp_s: float) -> float | None:
-    """What a frame's simulated time is beyond its stamp, in s; None where the adapter's clock is another one."""
+    """Return the offset of a frame's simulated time from its stamp, in s; None if the adapter has a different clock."""
     whole_s = _MINUTE_S * round((stamp_s - local_s) / _MINUTE_S) if math.isfinite(stamp_s - local_s) else math.nan
     return whole_s if abs(stamp_s - local_s - whole_s) <= _NEAR_S else None
 
 
 class OrderedClockMap(ClockMap):
-    """Attributes:
-        whole_s: what a frame's simulated time is beyond its stamp.
-        by_arrival: the map that arrivals tell, which knows when the clocks are not one.
+    """Map by the order of the stamps.
+
+    Attributes:
+        whole_s: offset of a frame's simulated time from its stamp.
+        by_arrival: map by arrivals, which detects that the clocks are not the same.
     """
 
     def __init__(self, whole_s: float) -> None:
@@ -62,13 +65,13 @@ class OrderedClockMap(ClockMap):
 
     @property
     def is_one_clock(self) -> bool:
-        """False when arrivals say that the adapter's clock is another one, or was set."""
+        """False if the arrivals show that the adapter's clock is a different one, or was set."""
         by_arrival = self.by_arrival
         return not by_arrival.is_ready or abs(by_arrival.to_robot(0.0) - self.whole_s) <= _APART_S
 
     @property
     def gap_s(self) -> float:
-        """From frame to frame, by the median."""
+        """Median interval of the frames."""
         return self._in_order.gap_s
 
     @property

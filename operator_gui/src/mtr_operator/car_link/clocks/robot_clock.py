@@ -1,4 +1,4 @@
-"""Notices that the robot's clock was set: exactly by its steady clock, else by the arrival of the Statuses."""
+"""Detects steps of the robot's clock: exactly by its steady clock, else by the arrival of the Statuses."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,25 +10,26 @@ from mtr_operator.domain.robot_status import RobotStatus
 
 from .delay_watch import DelayWatch
 
-# Some Status of each piece of time comes over a Wi-Fi almost as fast as the fastest.
+# Over Wi-Fi, some Status of each piece arrives almost as fast as the fastest.
 STEP_S = 0.012
-# A robot that does not tell its steady clock runs at true rate when its best stamps of some such pieces agree; a
+# A robot without a steady clock in its Status runs at true rate if its best stamps of this many pieces agree; a
 # simulation may run at any rate.
 _PIECE_S = 1.0
 _PIECES = 3
 
 
 def sent_s(status: RobotStatus) -> float:
-    """When the Status was sent, on the robot's clock; a robot of before says it only while its pose is not valid."""
+    """Return the send time of the Status on the robot's clock; older robots supply it only while the pose is
+    invalid."""
     return status.stamp_s if math.isnan(status.sent_s) else status.sent_s
 
 
 class RobotClock:
-    """Fed with every Status in the order of arrival.
+    """Step detector of the robot's clock, updated with each Status in the order of arrival.
 
     Attributes:
-        is_real_time: the robot's clock is known to run at the rate of the laptop's; False in simulation.
-        is_simulated: it is known to be a simulated one.
+        is_real_time: the robot's clock is known to run at the rate of the laptop's; False in simulation. is_simulated:
+        the robot's clock is known to be simulated.
     """
 
     def __init__(self) -> None:
@@ -38,7 +39,7 @@ class RobotClock:
         self._rate = _RateCheck()
 
     def status(self, status: RobotStatus, arrival_s: float) -> bool:
-        """A Status arrived; True when the clock was set since the one before."""
+        """Add a Status; return True if the clock was set since the previous one."""
         before, self._before = self._before, status
         if before is not None and (clock_was_set(before, status) or _went_back(before, status)):
             self._delays = DelayWatch(STEP_S)
@@ -49,24 +50,24 @@ class RobotClock:
         else:
             self.is_simulated = is_simulated(status)
             self.is_real_time = not self.is_simulated
-        # Fed before it counts, so that it knows the fastest by then.
+        # Updated before its result is used, so that the fastest delay is known then.
         was_set = self._delays.add(sent_s(status), arrival_s, may_be_late=not math.isnan(status.steady_s))
         return was_set and self.is_real_time
 
     @property
     def certain_s(self) -> float:
-        """Robot's time up to which the clock was not set unnoticed."""
+        """Robot's time up to which no unnoticed clock step is possible."""
         by_arrivals = self.is_real_time and self._before is not None and math.isnan(self._before.steady_s)
         return self._delays.in_time_s if by_arrivals else math.inf
 
 
 def _went_back(before: RobotStatus, status: RobotStatus) -> bool:
-    """True when a later Status was sent earlier."""
+    """True if a later Status was sent earlier."""
     return status.id > before.id and sent_s(status) < sent_s(before) - MIN_STEP_S
 
 
 class _RateCheck:
-    """Compares the least delays of pieces of time that follow one another."""
+    """Compares the least delays of consecutive pieces of time."""
 
     def __init__(self) -> None:
         self._begin_s = math.nan
@@ -74,7 +75,7 @@ class _RateCheck:
         self._agreed = 0
 
     def add(self, stamp_s: float, arrival_s: float) -> bool:
-        """True when the stamps run at the rate of their arrivals."""
+        """Return True if the stamps run at the rate of their arrivals."""
         if math.isnan(self._begin_s):
             self._begin_s = arrival_s
         if arrival_s - self._begin_s >= _PIECE_S:

@@ -1,4 +1,4 @@
-"""Which clock says when a frame was on the bus, and how far its stamp is from that instant."""
+"""Clock that timed a frame, and the uncertainty of its stamp."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import enum
 
 
 class StampKind(enum.Enum):
-    """The word is that of the record of a test."""
+    """Kinds of stamps; the value is the word in the record of a test."""
 
     ADAPTER = "the adapter's clock"
     KERNEL = "the kernel's clock"
@@ -14,15 +14,15 @@ class StampKind(enum.Enum):
 
     @property
     def sigma_s(self) -> float:
-        """1 sigma of a stamp against the instant, beside what the map to the robot's clock has."""
+        """1 sigma of the stamp error, in addition to the uncertainty of the map to the robot's clock."""
         return _SIGMA_S[self]
 
     @property
     def text(self) -> str:
-        """As it stands in the record of a test."""
+        """Description in the record of a test."""
         return f"{self.value}, 1 sigma {1000.0 * self.sigma_s:g} ms"
 
 
-# Adapters stamp in whole milliseconds or finer. The kernel stamps what USB brings, which asks once a millisecond. A
-# frame that is stamped when it is read has waited for the reading thread.
+# Adapters stamp in whole milliseconds or finer. The kernel stamps frames at USB polls, once a millisecond. A frame that
+# is stamped at reading has waited for the reading thread.
 _SIGMA_S = {StampKind.ADAPTER: 0.0005, StampKind.KERNEL: 0.001, StampKind.ARRIVAL: 0.002}

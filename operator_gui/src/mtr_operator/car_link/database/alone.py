@@ -16,13 +16,13 @@ from .faults import cause, in_words
 
 # Messages that are read one by one; whole cars have some hundred.
 MAX_MESSAGES = 4096
-# Characters of all parts of a file that are read one by one, of each character of the file and besides.
+# Limit of the characters of all separately read parts: per character of the file, and a constant.
 _PER_CHARACTER, _BESIDES = 2, 512 * 1024
-# The library creates a codec for each page, and for each it visits all signals. Visits of one message.
+# Limit of the visits for one message: the library creates a codec for each page, and visits all signals for each.
 MAX_VISITS = 1 << 22
 TOO_MANY_PAGES = "a message has too many pages"
 _MAX_SAID = 300
-# A place in the part of the file that the library reads alone.
+# Position in the part of the file that the library reads separately.
 _PLACE = re.compile(r" at line \d+, column \d+")
 _KCD = {"k": "http://kayak.2codeornot2code.org/1.0"}
 _BITS_PER_BYTE = 8
@@ -30,7 +30,7 @@ _BITS_PER_BYTE = 8
 
 @dataclass
 class Separated:
-    """Messages (cantools'), and those that cannot be read with the fault of each by its name."""
+    """Messages (cantools'), and the fault of each unreadable one by its name."""
 
     messages: list[Any] = field(default_factory=list)
     faults: dict[str, str] = field(default_factory=dict)
@@ -40,7 +40,7 @@ class Separated:
         """Add what a reader returns, or the fault for which it raises an exception."""
         try:
             self.messages += read()
-        # The library refuses a message by whatever exception.
+        # The library raises various exceptions for a faulty message.
         except Exception as error:
             said = _PLACE.sub("", " ".join(in_words(kind, cause(error)).split()))
             fault = printable(said.rstrip(".")[:_MAX_SAID])
@@ -50,7 +50,7 @@ class Separated:
 
 
 def kcd_messages(text: str) -> Separated | None:
-    """Messages of a KCD file; None when it is no such file, or has too many for this."""
+    """Messages of a KCD file; None if it is a different kind of file, or has too many messages."""
     root = ElementTree.fromstring(text)
     pairs = [(bus, message) for bus in root.iterfind("k:Bus", _KCD) for message in bus.iterfind("k:Message", _KCD)]
     if len(pairs) > MAX_MESSAGES:
@@ -70,7 +70,7 @@ def kcd_messages(text: str) -> Separated | None:
 
 
 def _written(document: ElementTree.Element) -> str:
-    """A document as text; empty when it is nested too deeply."""
+    """Return the document as text; empty if it is nested too deeply."""
     try:
         return ElementTree.tostring(document, "unicode")
     except RecursionError:
@@ -78,25 +78,25 @@ def _written(document: ElementTree.Element) -> str:
 
 
 def kcd_problem(text: str) -> str:
-    """Return what is wrong with a KCD file that would cost too much time; empty when it would not."""
+    """Return the fault of a KCD file that would take too long to read; empty if it would not."""
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError:
-        # The library says where.
+        # The library reports the position.
         return ""
     is_large = any(_visits(each) > MAX_VISITS for each in root.iterfind("k:Bus/k:Message", _KCD))
     return TOO_MANY_PAGES if is_large else ""
 
 
 def _visits(message: ElementTree.Element) -> int:
-    """Visits of signals by the library."""
+    """Number of visits of signals by the library."""
     multiplexers, groups, signals = (sum(1 for _ in message.iter(f"{{{_KCD['k']}}}{tag}"))
                                      for tag in ("Multiplex", "MuxGroup", "Signal"))
     return (multiplexers + groups) * (multiplexers + signals)
 
 
 def max_characters(text: str) -> int:
-    """Return how many characters the parts of a file may have, which repeat what several messages need."""
+    """Return the limit of characters of all parts of a file; the parts repeat what several messages need."""
     return _PER_CHARACTER * len(text) + _BESIDES
 
 
@@ -115,7 +115,7 @@ def _loaded_kcd(document: str, message: ElementTree.Element) -> list[Any]:
 
 
 def loaded_alone(text: str, kind: str) -> list[Any]:
-    """The messages of a part of a file. ValueError states a size that would use memory without limit."""
+    """Return the messages of a part of a file. ValueError states a size that would use memory without limit."""
     size = too_large(text, f".{kind}")
     if size:
         raise ValueError(size_words(size))
@@ -124,12 +124,12 @@ def loaded_alone(text: str, kind: str) -> list[Any]:
 
 
 def with_kcd_lengths(text: str) -> str:
-    """Return a KCD file in which each message without a length, or of the length "auto", has that of its farthest
-    signal; the library uses the signal that begins last."""
+    """Return a KCD file in which each message without a length, or with the length "auto", gets the length of its last
+    signal by bit position. The library would use the signal that begins last."""
     try:
         root = ElementTree.fromstring(text)
     except ElementTree.ParseError:
-        # The library says where.
+        # The library reports the position.
         return text
     is_changed = False
     for message in root.iterfind("k:Bus/k:Message", _KCD):
@@ -146,7 +146,7 @@ def with_kcd_lengths(text: str) -> str:
 
 
 def single(number: str) -> range:
-    """An identifier, as a range of one; an empty range of an unreadable one."""
+    """Return an identifier as a range of one; an empty range if it is unreadable."""
     try:
         identifier = int(number, 0)
     except ValueError:

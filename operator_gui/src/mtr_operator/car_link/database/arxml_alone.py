@@ -10,18 +10,18 @@ from xml.etree import ElementTree
 from .alone import MAX_MESSAGES, Separated, single
 from .car_database import Unread
 
-# Methods of the library's reader that are overridden, with their parameters; other versions may have others.
+# Overridden methods of the library's reader, with their parameters; other versions may have others.
 _OVERRIDDEN = {"_load_message": ["self", "bus_name", "can_frame_triggering"],
                "_load_package_messages": ["self", "package_elem"]}
-# Signals of all messages, of each that the file lists and besides; several messages may refer to the same ones.
+# Limit of the signals of all messages: per signal that the file lists, and a constant. Messages may share signals.
 _PER_SIGNAL, _BESIDES = 4, 4096
 _SIGNAL = "I-SIGNAL-TO-I-PDU-MAPPING"
 
 
 def arxml_messages(text: str) -> Separated | None:
-    """Messages of an AUTOSAR system; None when the library's reader has other parts, or there are too many for this."""
+    """Messages of an AUTOSAR system; None if the library's reader has a different structure, or there are too many."""
     try:
-        # The reader is no part of the library's interface. When it is elsewhere, all other databases are readable.
+        # The reader is not part of the library's interface. If it was moved, all other databases are still readable.
         from cantools.database.can.formats.arxml import SystemLoader, is_ecu_extract  # type: ignore[attr-defined]
     except ImportError:
         return None
@@ -38,7 +38,7 @@ def arxml_messages(text: str) -> Separated | None:
     loader = _loader(SystemLoader, separated, _PER_SIGNAL * tags[_SIGNAL] + _BESIDES)
     messages = list(loader(root, False).load().messages)
     if len(messages) != len(separated.messages) or {*map(id, messages)} != {*map(id, separated.messages)}:
-        # Messages were loaded in another way than by the overridden methods.
+        # Messages were loaded in a different way than by the overridden methods.
         return None
     separated.messages = messages
     return separated
@@ -50,8 +50,8 @@ def _parameters(reader: Any, name: str) -> list[str]:
 
 
 def _loader(inherited: Any, separated: Separated, max_signals: int) -> Any:
-    """Return the library's reader as one that skips messages that cannot be read. The file has references from each
-    message to any place, so that its messages cannot be cut out."""
+    """Return the library's reader, changed to skip unreadable messages. Messages cannot be cut out of the file, because
+    each may refer to any place in it."""
 
     signals = 0
 
@@ -81,7 +81,7 @@ def _loader(inherited: Any, separated: Separated, max_signals: int) -> Any:
 
 
 def _frame(triggering: ElementTree.Element) -> tuple[str, range]:
-    """Name of the frame of a triggering, and its identifier."""
+    """Return the name of the frame of a triggering, and its identifier."""
     reference = _text(triggering, "FRAME-REF") or _text(triggering, "SHORT-NAME") or ""
     return reference.rpartition("/")[2].strip(), single(_text(triggering, "IDENTIFIER") or "")
 

@@ -1,4 +1,4 @@
-"""A CAN database as a profile uses it: only the messages and signals that are named have to be right."""
+"""A CAN database as a profile uses it: only the named messages and signals must be correct."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _MAX_NAME = 100
 
 @dataclass
 class Problems:
-    """Lines by the names of messages and signals, empty where they are not known; what is wrong with which."""
+    """Lines by the names of messages and signals, empty if unknown; and the faults of messages and signals."""
 
     message_lines: dict[str, int] = field(default_factory=dict)
     signal_lines: dict[tuple[str, str], int] = field(default_factory=dict)
@@ -28,7 +28,7 @@ class Problems:
 
 @dataclass(frozen=True)
 class Unread:
-    """A message that cannot be read. identifiers, bus: on which it may be; None of an unknown bus."""
+    """An unreadable message. identifiers: its possible identifiers; bus: None if unknown."""
 
     name: str
     identifiers: range
@@ -36,8 +36,8 @@ class Unread:
 
 
 class CarDatabase:
-    """messages: cantools'. refusal: why the library refused the file as a whole; empty when it did not. unread: those
-    with a fault, which may be on the identifier of another one."""
+    """Database with its faults. messages: cantools'. refusal: the library's reason for refusing the whole file; empty
+    if it did not. unread: unreadable messages, which may share the identifier of another one."""
 
     def __init__(self, path: pathlib.Path, messages: Sequence[Any], problems: Problems, refusal: str = "",
                  unread: Sequence[Unread] = ()):
@@ -78,17 +78,17 @@ class CarDatabase:
                                f"{self._unread()}.")
 
     def _unread(self) -> str:
-        """Why a message or signal may be missing: the library's reason, else the first message with a fault."""
+        """Return the reason for a missing message or signal: the library's refusal, else the first faulty message."""
         if self._refusal:
             return f"; not all of it could be read: {self._refusal}"
         for name, problem in self._problems.messages.items():
-            # A repeated message was read, and is not the one that is missing.
+            # A repeated message was read, so it is not the missing one.
             if not problem.startswith(REPEATED):
                 return f"; message {self._placed(name)} could not be read: {problem}"
         return ""
 
     def _placed(self, name: str) -> str:
-        """A message with its line."""
+        """Return a message name with its line."""
         return f"{printable(name)[:_MAX_NAME]}{_line(self._problems.message_lines.get(name))}"
 
     def _without_page(self, message: Any, name: str) -> str:
@@ -110,7 +110,7 @@ class CarDatabase:
                                          f"{message.frame_id:#x} and contradicts it")
 
     def is_usable(self, message: Any, name: str) -> bool:
-        """True for a signal of a message that a profile can name."""
+        """Return True for a signal that a profile can name."""
         try:
             return self.message(message.name) is message and self.signal(message, name) == name
         except ConnectionFailed:
@@ -118,12 +118,12 @@ class CarDatabase:
 
 
 def printable(text: str) -> str:
-    """Return a text of a stranger without control characters and the like."""
+    """Return a text from outside without control characters and other unprintable characters."""
     return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
 def _spellings(name: str) -> tuple[str, ...]:
-    """A name that begins with a digit is known with a line before it, see dbc_lines."""
+    """Return the possible names; a name that begins with a digit gets an underscore, see dbc_lines."""
     return (name, f"_{name}") if name[:1].isdecimal() else (name,)
 
 
@@ -153,7 +153,7 @@ def _without_number(signal: Any) -> str:
 
 
 def is_finite(number: Any) -> bool:
-    """Return whether a number of a database is finite as a float; whole numbers may have any number of digits."""
+    """Return True if a number of a database is finite as a float; integers may have any number of digits."""
     try:
         return math.isfinite(number)
     except OverflowError:

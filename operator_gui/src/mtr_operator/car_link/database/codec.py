@@ -1,7 +1,7 @@
-"""Raw values of signals in the data of a frame, and the data that carries them; everything that decodes uses it.
+"""Decodes and encodes the raw values of signals in the data of a frame, for all users.
 
-Only the signals that are named count: others may overlap them, or lie outside the message. A frame may be shorter than
-the database says; signals within it are read.
+Only the named signals count: others may overlap them or lie outside the message. A frame may be shorter than in the
+database; signals within it are read.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -24,7 +24,7 @@ class SignalReader:
         self._signals = {name: (by_name[name], pages(message, name)) for name in names if name in by_name}
 
     def values(self, data: bytes) -> dict[str, Any]:
-        """Raw values by name; a signal is absent when it lies beyond the data, or another page is sent."""
+        """Raw values by name; a signal is absent if it lies beyond the data, or another page is sent."""
         found = {}
         for name, (signal, multiplexers) in self._signals.items():
             value = raw_value(signal, data)
@@ -34,7 +34,8 @@ class SignalReader:
 
 
 def pages(message: Any, name: str) -> list[tuple[Any, frozenset[int]]]:
-    """Each multiplexer that decides on a signal, from the signal up, with its values; KeyError when one is missing."""
+    """Return each multiplexer that selects a signal, from the signal upwards, with its values; KeyError if one is
+    missing."""
     by_name = {signal.name: signal for signal in message.signals}
     found: list[tuple[Any, frozenset[int]]] = []
     signal = by_name[name]
@@ -52,7 +53,7 @@ def _is_sent(page: tuple[Any, frozenset[int]], data: bytes) -> bool:
 
 
 def raw_value(signal: Any, data: bytes) -> Raw | None:
-    """Raw value of a signal, whatever its page; None when the data is too short for it."""
+    """Raw value of a signal regardless of its page; None if the data is too short for it."""
     bits = _bits(signal, data)
     if bits is None:
         return None
@@ -63,19 +64,19 @@ def raw_value(signal: Any, data: bytes) -> Raw | None:
 
 
 def end_bit(signal: Any) -> int:
-    """Bits of a frame that has to be so long for a signal to lie within it."""
+    """Least length in bits of a frame that contains the signal."""
     return int(_first_bit(signal) + signal.length)
 
 
 def reading(signal: Any) -> tuple[Any, ...]:
-    """Facts on which the values of a signal depend; definitions of one signal that differ in them contradict."""
+    """Return the properties that determine the values of a signal; definitions that differ in them contradict."""
     pages_of = None if signal.multiplexer_ids is None else tuple(sorted(signal.multiplexer_ids))
     return (signal.start, signal.length, signal.byte_order, bool(signal.is_signed), bool(signal.conversion.is_float),
             signal.scale, signal.offset, signal.minimum, signal.maximum, signal.multiplexer_signal, pages_of)
 
 
 def occupied(signal: Any) -> int:
-    """Bits of a signal as a number, with bit 0 of the first byte lowest; 0 when it begins before the frame."""
+    """Bits of a signal as a number, with bit 0 of the first byte lowest; 0 if it begins before the frame."""
     if signal.length < 1 or _first_bit(signal) < 0:
         return 0
     bits, end = (1 << signal.length) - 1, end_bit(signal)
@@ -86,7 +87,7 @@ def occupied(signal: Any) -> int:
 
 
 def as_decoded(signal: Any, raw: int) -> int | None:
-    """A raw value as a profile lists it, as it is decoded: 1 of a signed bit is -1. None when the signal has no such
+    """Return a raw value of a profile as it is decoded: 1 of a signed bit is -1. None if the signal has no such
     value."""
     if signal.conversion.is_float:
         return raw
@@ -97,8 +98,8 @@ def as_decoded(signal: Any, raw: int) -> int | None:
 
 
 def encode(message: Any, wanted: Mapping[str, Raw]) -> bytes:
-    """Data with these raw values; all other bits are 0, but multiplexers have an allowed value. ValueError when a
-    signal has no such value, or does not lie within the message."""
+    """Return data with these raw values; all other bits are 0, but multiplexers have an allowed value. ValueError if a
+    signal has no such value, or lies outside the message."""
     data = bytearray(message.length)
     for name, value in (*_other_multiplexers(message, wanted), *wanted.items()):
         _write(message.get_signal_by_name(name), value, data)
@@ -106,7 +107,8 @@ def encode(message: Any, wanted: Mapping[str, Raw]) -> bytes:
 
 
 def _other_multiplexers(message: Any, wanted: Mapping[str, Raw]) -> Iterator[tuple[str, int]]:
-    """Values that have the pages of the wanted signals sent, behind those of multiplexers that decide on none."""
+    """Yield the multiplexer values that select the pages of the wanted signals, after the multiplexers that select
+    none."""
     for signal in message.signals:
         ids = [each for child in message.signals if child.multiplexer_signal == signal.name
                for each in child.multiplexer_ids or ()]
@@ -139,7 +141,7 @@ def _to_bits(signal: Any, value: Raw) -> int:
 
 
 def _bits(signal: Any, data: bytes) -> int | None:
-    """Unsigned; None when the data is too short."""
+    """Return the unsigned bits of a signal; None if the data is too short."""
     spare = BITS_PER_BYTE * len(data) - end_bit(signal)
     if spare < 0:
         return None
@@ -150,7 +152,7 @@ def _bits(signal: Any, data: bytes) -> int | None:
 
 
 def _first_bit(signal: Any) -> int:
-    """Number of the first bit in the order of its bytes."""
+    """Return the number of the first bit in transmission byte order."""
     if _is_big_endian(signal):
         byte, bit = divmod(signal.start, BITS_PER_BYTE)
         return int(BITS_PER_BYTE * byte + BITS_PER_BYTE - 1 - bit)

@@ -13,7 +13,7 @@ _MESSAGE = re.compile(r"BO_\s+(\d{1,10})\s+([^:\"\n]*?)\s*:\s*(\d+)(?:\s|$)")
 _SIGNAL = re.compile(
     r"SG_\s+([^:\"\n]*?)(?:\s+(M|m\d{1,10}M?|m))?\s*:\s*(\d+)\s*\|\s*(\d+)\s*@\s*([01])\s*([+-])\s*\(\s*([^,()]*?)"
     r"\s*,\s*([^,()]*?)\s*\)\s*(?:\[\s*([^\]|]*?)\s*\|\s*([^\]]*?)\s*\])?\s*(?:\"([^\"]*)\")?")
-# Characters of a statement that matter; lists of receivers may be longer.
+# Significant characters of a statement; lists of receivers may be longer.
 _LONGEST = 4096
 # Senders or receivers, which may be on lines of their own.
 _NODES = re.compile(r"(?:\s*,?\s*\w+(?:\s*,\s*\w+)*)?[\s,;]*")
@@ -25,10 +25,10 @@ _PAGES = re.compile(r"SG_MUL_VAL_\s+(\d+)\s+(\S+)\s+(\S+)\s+([\d\s,-]+);")
 _FLOAT = re.compile(r"SIG_VALTYPE_\s+(\d+)\s+([^\s:;]+)(?:\s*:\s*|\s+)([0-3])\s*;")
 _CYCLE = re.compile(r"BA_\s+\"GenMsgCycleTime\"\s+BO_\s+(\d+)\s+(\d{1,9})(?!\d)")
 _LONG_NAME = re.compile(r"BA_\s+\"System(?:Message|Signal)LongSymbol\"\s+(?:BO_|SG_)\s+(\d+)(?:\s+(\S+))?\s+\"(\w+)\"")
-# Signals that no message has are collected under this name.
+# Name under which signals without a message are collected.
 _WITHOUT_MESSAGE = "VECTOR__INDEPENDENT_SIG_MSG"
 _QUOTED = 120
-# Signals of one name in messages of one identifier; more are no list of pages.
+# Limit of signals of one name in messages of one identifier; more are not a list of pages.
 _MAX_SAME = 16
 # Digits of the largest identifier.
 _DIGITS = 10
@@ -36,8 +36,8 @@ _DIGITS = 10
 
 @dataclass
 class DbcSignal:
-    """A statement SG_. page: such as M or m3, empty without one. scale, offset, limits: as they are written. ranges:
-    values of the multiplexer in a statement of its own, with its name. problem: why it cannot be used."""
+    """A statement SG_. page: such as M or m3, empty without one. scale, offset, limits: as written. ranges: values of
+    the multiplexer in a separate statement, with its name. problem: reason why it cannot be used."""
 
     name: str
     line: int
@@ -59,7 +59,7 @@ class DbcSignal:
 
 @dataclass
 class DbcMessage:
-    """A statement BO_ with its signals. problem: why it cannot be used."""
+    """A statement BO_ with its signals. problem: reason why it cannot be used."""
 
     name: str
     line: int
@@ -72,7 +72,7 @@ class DbcMessage:
 
 
 def dbc_messages(text: str) -> list[DbcMessage]:
-    """All messages in their order; comments, tables of values and other attributes are left out."""
+    """Return all messages in their order, without comments, tables of values and other attributes."""
     found: list[DbcMessage] = []
     rest: list[Statement] = []
     current: DbcMessage | None = None
@@ -82,7 +82,7 @@ def dbc_messages(text: str) -> list[DbcMessage]:
             current, is_understood = _message(statement)
             found.append(current)
         elif not re.match(r"SG_\s", statement.bare):
-            # Signals behind a statement that is not understood belong to no message.
+            # Signals after an unparsed statement belong to no message.
             current = None
             rest.append(statement)
         elif current is not None:
@@ -94,12 +94,12 @@ def dbc_messages(text: str) -> list[DbcMessage]:
 
 
 def quoted(text: str) -> str:
-    """A line as a sentence shows it."""
+    """Return a line as quoted in a sentence."""
     return f'"{text[:_QUOTED]}"'
 
 
 def _message(statement: Statement) -> tuple[DbcMessage, bool]:
-    """A message, and whether all of its statement is understood."""
+    """Return a message, and True if its whole statement is understood."""
     match = _MESSAGE.match(statement.bare, 0, _LONGEST)
     if match is None:
         text = statement.code.partition("\n")[0]
@@ -112,7 +112,7 @@ def _message(statement: Statement) -> tuple[DbcMessage, bool]:
 
 
 def _signal(statement: Statement) -> tuple[DbcSignal, bool]:
-    """A signal, and whether all of its statement is understood."""
+    """Return a signal, and True if its whole statement is understood."""
     match = _SIGNAL.match(statement.code, 0, _LONGEST)
     if match is None:
         text = statement.code.partition("\n")[0]
@@ -133,8 +133,8 @@ def _size_problem(*numbers: str) -> str:
 
 
 def _read(statement: Statement, match: re.Match[str]) -> tuple[str, bool]:
-    """The text of a statement on one line. False when what is behind its match may be another statement, of which the
-    keyword is misspelled."""
+    """Return the text of a statement on one line. False if the text after its match may be another statement with a
+    misspelled keyword."""
     same, _, further = statement.code[match.end():].partition("\n")
     is_understood = (not further and not statement.is_followed) or _NODES.fullmatch(f"{same}\n{further}") is not None
     return " ".join(f"{match[0]}{same}".split()), is_understood
@@ -146,7 +146,7 @@ def _name(line: str) -> str:
 
 
 def _spelled(name: str) -> str:
-    """Names that begin with a digit get a line before it, because the format forbids them."""
+    """Return the name, with an underscore before a leading digit, because the format forbids one."""
     return f"_{name}" if name[:1].isdecimal() else name
 
 
@@ -168,7 +168,7 @@ def _apply(rest: Sequence[Statement], found: Sequence[DbcMessage]) -> None:
 
 def _decode(statement: Statement, by_both: dict[tuple[int, str], list[DbcSignal]],
             by_name: dict[str, list[DbcSignal]]) -> None:
-    """Apply a statement to the signal of which it changes the values; without its message, it makes all of the name
+    """Apply a statement that changes the values of a signal; without its message, all signals of the name become
     unusable."""
     text = "".join(statement.bare.partition(";")[:2])
     wrong = f"line {statement.line} describes it as {quoted(' '.join(text.split()))}"
@@ -184,7 +184,7 @@ def _decode(statement: Statement, by_both: dict[tuple[int, str], list[DbcSignal]
     for signal in same:
         _extend(signal, None if is_repeated else match, wrong)
     if is_repeated:
-        # They are unusable now; a further statement would cost time for each of them.
+        # These signals are unusable now; a further statement would cost time for each of them.
         same.clear()
 
 
@@ -227,5 +227,5 @@ def _name_and_time(lines: Sequence[str], by_number: dict[int, list[DbcMessage]],
 
 
 def _number(digits: str) -> int:
-    """An identifier; Python converts no number of thousands of digits."""
+    """Return an identifier; Python does not convert numbers with thousands of digits."""
     return int(digits[:_DIGITS])

@@ -1,4 +1,4 @@
-"""Messages of a DBC as cantools has them, from lines of which some are wrong; and what is wrong with which."""
+"""Builds cantools messages from the lines of a DBC file, of which some may be wrong, and collects the faults."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .dbc_lines import DbcMessage, DbcSignal, quoted
 from .repeated import REPEATED
 
 _EXTENDED, _STANDARD_BITS, _EXTENDED_BITS = 0x8000_0000, 11, 29
-# Values of a multiplexer that one signal can have; more are a mistake.
+# Limit of the multiplexer values of one signal; more are a mistake.
 _MAX_PAGES = 4096
-# The library creates a codec for each page, and for each it visits all signals of the message, with all pages of each.
+# Limits: the library creates a codec for each page, and for each it visits all signals of the message with all pages.
 _MAX_VISITS, _PAGES_PER_VISIT = 1 << 22, 16
 
 
 def built(lines: Sequence[DbcMessage]) -> list[Any]:
-    """The messages without problem, each without its signals that have one; notes on the lines what is wrong."""
+    """Return the messages without a fault, each without its faulty signals; record the faults in the lines."""
     found = []
     visits = 0
     for message in lines:
@@ -45,7 +45,7 @@ def built(lines: Sequence[DbcMessage]) -> list[Any]:
 
 
 def _visits(message: DbcMessage, multiplexers: int) -> int:
-    """Visits of signals by the library, which are quadratic."""
+    """Number of visits of signals by the library, which is quadratic."""
     paged = sum(each.page not in ("", "M") for each in message.signals)
     ranges = [(low, high) for each in message.signals for low, high in each.ranges if low <= high]
     listed = sum(high - low + 1 for low, high in ranges)
@@ -76,19 +76,19 @@ def _signal(line: DbcSignal, message: DbcMessage, multiplexers: Sequence[str]) -
 
 
 def _is_accepted(signal: Signal, message: DbcMessage) -> bool:
-    """False for a signal for which the library can make no codec."""
+    """False for a signal for which the library cannot create a codec."""
     alone = Signal(signal.name, signal.start, signal.length, signal.byte_order, signal.is_signed,
                    conversion=signal.conversion)
     try:
         Message(0, message.name, message.length, [alone], strict=False)
-    # Whatever the library for bits raises.
+    # The library for bits raises various exceptions.
     except Exception:
         return False
     return True
 
 
 def _pages(line: DbcSignal, names: Sequence[str]) -> tuple[str | None, list[int] | None]:
-    """Multiplexer and its values; none for a signal that is sent always. names: multiplexers of the message."""
+    """Return the multiplexer and its values; None for an unconditional signal. names: multiplexers of the message."""
     if line.page in ("", "M"):
         return None, None
     multiplexer = line.multiplexer or (names[0] if len(names) == 1 else "")
@@ -110,7 +110,7 @@ def _number(text: str) -> float | None:
 
 
 def problems(lines: Sequence[DbcMessage], messages: Sequence[Any]) -> Problems:
-    """Faults of messages and signals by their names; messages: the usable ones."""
+    """Return the faults of messages and signals by their names. messages: the usable ones."""
     found = Problems({message.name: message.line for message in lines},
                      {(message.name, signal.name): signal.line for message in lines for signal in message.signals})
     for name, same in _several(lines):
@@ -147,7 +147,7 @@ def _joined(lines: Sequence[Any]) -> str:
 
 
 def _facts(line: Any) -> Any:
-    """Facts in which two lines of one name have to agree."""
+    """Return the properties in which two lines of one name must agree."""
     if isinstance(line, DbcMessage):
         return line.number, line.length, sorted(map(_facts, line.signals), key=str)
     # Distances of phones depend on scale and offset, values of counters on the limits.

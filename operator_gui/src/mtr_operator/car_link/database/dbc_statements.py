@@ -5,27 +5,27 @@ from __future__ import annotations
 import re
 from typing import Iterator, NamedTuple
 
-# Characters before a keyword that decide whether it begins a statement.
+# Number of characters before a keyword that decide whether it begins a statement.
 _NEAR = 256
 # A message or signal of this shape begins a statement anywhere, because no other statement has a colon there.
 _SHAPED = r"BO_(?=\s+\d+\s+[^\s:\"]+\s*:)|SG_(?=\s+[^\s:\"]+(?:\s+[Mm]\w*)?\s*:)"
-# Keywords that are in no other statement.
+# Keywords that occur in no other statement.
 _ALONE = ("CM_|BA_|BA_DEF_|BA_DEF_DEF_|BA_REL_|BA_DEF_REL_|BA_DEF_DEF_REL_|VAL_|VAL_TABLE_|SIG_GROUP_|SIG_VALTYPE_|"
           "SG_MUL_VAL_|BO_TX_BU_|ENVVAR_DATA_|SGTYPE_|SIG_TYPE_REF_")
 _START = re.compile(rf"\b(?P<sure>(?:{_SHAPED})|(?:{_ALONE})\b)|^[ \t]*(?P<line>(?:BO_|SG_|BU_|EV_|NS_|BS_)(?![^\s:]))",
                     re.MULTILINE)
-# The beginning of a comment or attribute, which BO_ or SG_ on the next line continues.
+# Beginning of a comment or attribute that BO_ or SG_ on the next line continues.
 _AWAITS = re.compile(r"\b(?:CM_|BA_DEF_|BA_\s+\"+)\s*\Z")
 _TEXTS = re.compile(r"\"[^\"]*\"|//[^\n]*")
 _TEXTS_OF_LINES = re.compile(r"\"[^\"\n]*(?:\"|$)|//[^\n]*", re.MULTILINE)
-# Statements that change how a signal is decoded, and characters that tell them from blanks and strings.
+# Statements that change the decoding of a signal; the prefix distinguishes them from blanks and strings.
 _PREFIX = 5
 _DECODING = re.compile(r"\b(?:SIG_VALTYPE_|SG_MUL_VAL_)\s+\d[^;]{0,200}")
 
 
 class Statement(NamedTuple):
     """A statement. line: number of its first line. code: without comments. bare: code with quotation marks for each
-    character of a string. is_followed: another statement begins on its last line. is_doubtful: it may be a part of a
+    character of a string. is_followed: another statement begins on its last line. is_doubtful: it may be part of a
     string, because one string of the file has no end."""
 
     line: int
@@ -36,8 +36,8 @@ class Statement(NamedTuple):
 
 
 def without_texts(text: str) -> str:
-    """Return a text without comments and strings; all of it, if a string has no end, because the library may see
-    others."""
+    """Return a text without comments and strings; the whole text if a string has no end, because the library may see
+    different strings."""
     return _masked(text, '"') if _is_balanced(text.replace('\\"', "''")) else text
 
 

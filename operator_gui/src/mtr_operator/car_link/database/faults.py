@@ -1,4 +1,4 @@
-"""Exceptions of the library for CAN databases as words about the file."""
+"""Converts exceptions of the library for CAN databases to sentences about the file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import re
 
 from .car_database import printable
 
-# Of a library's sentence, characters.
+# Maximum length of a quoted sentence of the library, in characters.
 _MAX_SAID = 300
-# Kinds of databases, as the library names the reason of each.
+# Kinds of databases for which the library's exception has a reason each.
 _KINDS = ("ARXML", "DBC", "KCD", "SYM", "CDD")
 _WITHOUT_MUX = "a message is multiplexed, and a part of it has no line Mux"
 _NO_NUMBER = re.compile(
     r"(?:invalid literal for int\(\) with base \d+|could not convert string to float): ['\"](.*)['\"]", re.DOTALL)
 _INCOMPLETE = "a required part is missing or is not a number"
-# Words of Python about its own objects.
+# Terms of Python about its own objects.
 _INTERNAL = re.compile(r"\b(?:object|instances|unpack|NoneType|arguments?|<class)\b|^$")
 
 
@@ -45,7 +45,7 @@ def in_words(kind: str, error: Exception) -> str:
 
 
 def _reason(error: Exception) -> str:
-    """Text of an exception; of each kind that the library tried, when it could read none of them."""
+    """Text of an exception, with the reason of each kind that the library tried if it could read none."""
     causes = [(kind, getattr(error, f"e_{kind.lower()}", None)) for kind in _KINDS]
     stated = [f'{kind}: "{in_words(kind, each)}"' for kind, each in causes if each is not None]
     return ", ".join(stated) or str(error)

@@ -1,4 +1,4 @@
-"""Reads CAN databases of any kind that cantools reads; a faulty message costs no other one."""
+"""Reads CAN databases of all kinds that cantools supports; a faulty message does not affect the others."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -24,41 +24,42 @@ from .sym_alone import sym_messages
 from .sym_expansion import expansion
 from .sym_text import sym_problems
 
-# Databases of a whole car have some megabytes; reading one takes the library ten seconds and more.
+# Databases of a whole car have some megabytes; the library needs ten seconds or more for one.
 _MAX_DATABASE_BYTES = 16 * 1024 * 1024
 _DBC, _KCD, _SYM = ".dbc", ".kcd", ".sym"
-# Exceptions whose texts a person understands, and what is said of all others.
+# Exceptions with readable texts, and the text for all others.
 _READABLE = (OSError, UnicodeError, cantools.database.errors.Error)
 _DAMAGED = "it is damaged"
-# Kinds of which messages can be read one by one.
+# Kinds whose messages can be read one by one.
 _ALONE = {_KCD: kcd_messages, _SYM: sym_messages, ".arxml": arxml_messages}
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
-# The library logs names of messages as a stranger wrote them, of any length. Every program that reads such a database
-# imports this module, and contradictions that matter to a profile are refused with a sentence.
+# The library logs foreign message names of any length. Every program that reads such a database imports this module,
+# and contradictions that matter to a profile are refused with a sentence.
 logging.getLogger("cantools").addHandler(logging.NullHandler())
 logging.getLogger("cantools").propagate = False
 
 
 def load_database(path: pathlib.Path) -> CarDatabase:
-    """Read a database; ConnectionFailed states why it is unreadable. One of another kind than CAN has no message."""
+    """Read a database; ConnectionFailed states why it is unreadable. A database of a kind other than CAN has no
+    message."""
     try:
         if path.stat().st_size > _MAX_DATABASE_BYTES:
             raise ConnectionFailed(f"CAN database {path} is larger than {_MAX_DATABASE_BYTES // 1024} KiB; "
                                    "leave the messages that the profile does not name out of it.")
         text = decoded_text(path.read_bytes(), path.suffix)
         size = too_large(without_texts(text) if path.suffix.lower() == _DBC else text, path.suffix)
-        # The library uses memory for each bit. Messages of an ARXML have no part of it for themselves.
+        # The library allocates memory for each bit. Messages of an ARXML file have no separate part in it.
         return _parsed(path, text, f"CAN database {path} cannot be read: {size_words(size)}." if size else "")
     except _READABLE as error:
         raise ConnectionFailed(f"CAN database {path} cannot be read: {one_line(error)}.") from None
-    # The library's readers of some five formats raise whatever a damaged file leads them to.
+    # The library's readers of some five formats raise various exceptions for damaged files.
     except (ValueError, TypeError, AttributeError, LookupError, ArithmeticError, RecursionError):
         raise ConnectionFailed(f"CAN database {path} cannot be read: {_DAMAGED}.") from None
 
 
 def decoded_text(data: bytes, suffix: str) -> str:
-    """Text of a database: by the mark at its beginning, else UTF-8, else the encoding of Windows, as of every SYM."""
+    """Decode a database: by its byte order mark, else as UTF-8, else in the encoding of Windows, as every SYM file."""
     encoding = next((name for mark, name in _MARKS.items() if data.startswith(mark)), "") or _unmarked(data[:2])
     encoding = encoding or ("cp1252" if suffix.lower() == _SYM else "utf-8")
     try:
@@ -69,20 +70,20 @@ def decoded_text(data: bytes, suffix: str) -> str:
 
 
 def _unmarked(begin: bytes) -> str:
-    """UTF-16 without its mark, in which a zero is next to the first letter."""
+    """Return the UTF-16 byte order without a mark, detected by the zero next to the first letter."""
     return "utf-16-le" if begin[1:] == b"\0" else "utf-16-be" if begin[:1] == b"\0" else ""
 
 
 def _parsed(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
-    """Read a text; refusal: why the library must not read it as a whole, as a sentence."""
+    """Parse a text. refusal: sentence why the library must not read it as a whole."""
     if path.suffix.lower() != _DBC:
         return _parsed_other(path, text, refusal)
     lines = dbc_messages(text)
     try:
         messages, reason = _messages(_loaded(path, text, refusal)), ""
-    # The library refuses a file as a whole, by whatever exception; then the messages count that can be used.
+    # The library refuses a file as a whole, with various exceptions; then the usable messages count.
     except Exception as error:
-        # Of a file without one complete line BO_ the library's sentence says more.
+        # Without one complete line BO_, the library's sentence is more specific.
         if all(line.problem for line in lines) and not refusal:
             raise
         messages, reason = built(lines), one_line(error) if isinstance(error, _READABLE) else _DAMAGED
@@ -90,7 +91,7 @@ def _parsed(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
 
 
 def _parsed_other(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
-    """Read another kind than DBC; after a refusal of the library, its messages one by one."""
+    """Parse a kind other than DBC; after a refusal of the library, its messages one by one."""
     suffix, separated = path.suffix.lower(), Separated()
     text = with_kcd_lengths(text) if suffix == _KCD else text
     if not refusal:
@@ -98,7 +99,7 @@ def _parsed_other(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
         refusal = f"CAN database {path} cannot be read: {problem}." if problem else ""
     try:
         messages = _messages(_loaded(path, text, refusal))
-    # As of a DBC.
+    # The same applies as to a DBC file.
     except Exception:
         found = None if refusal and suffix not in (_KCD, _SYM) else _separated(suffix, text)
         if found is None or not (found.messages or found.faults):
@@ -113,7 +114,7 @@ def _parsed_other(path: pathlib.Path, text: str, refusal: str) -> CarDatabase:
 
 
 def _loaded(path: pathlib.Path, text: str, refusal: str) -> Any:
-    """The library's database. ConnectionFailed states the refusal, if any."""
+    """Return the library's database. ConnectionFailed states the refusal, if any."""
     if refusal:
         raise ConnectionFailed(refusal)
     suffix = path.suffix.lower()
@@ -123,10 +124,10 @@ def _loaded(path: pathlib.Path, text: str, refusal: str) -> Any:
 
 
 def _separated(suffix: str, text: str) -> Separated | None:
-    """Messages of a file that the library refuses; None when not even one can be read alone."""
+    """Return the messages of a file that the library refuses; None if not even one can be read alone."""
     try:
         return _ALONE[suffix](text) if suffix in _ALONE else None
-    # The reason of the refusal of the whole file says more.
+    # The reason for refusing the whole file is more specific.
     except Exception:
         return None
 

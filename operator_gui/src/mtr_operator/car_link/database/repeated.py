@@ -1,4 +1,4 @@
-"""Messages and signals of one name, and messages of one identifier, that contradict each other; of any kind of file."""
+"""Detects contradicting definitions of messages and signals of one name, and of messages of one identifier."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,17 +7,18 @@ from typing import Any, Iterator, Sequence
 
 from .codec import occupied, pages, reading
 
-# Beginning of what is wrong with definitions of one name that contradict each other.
+# Beginning of the fault of contradicting definitions of one name.
 REPEATED = "it is there more than once"
 _DIFFERENT = f"{REPEATED}, with different definitions"
-# Identifiers of one message in a sentence.
+# Maximum number of identifiers of one message in a sentence.
 _MAX_LISTED = 4
 
 
 def join_pages(messages: Sequence[Any]) -> None:
-    """Give a signal that pages of one multiplexer repeat in the same bits the values of all of these pages.
+    """Merge a signal that several pages of one multiplexer repeat in the same bits: it gets the values of all these
+    pages.
 
-    SYM and KCD list a signal once a page; of signals of one name only one is read.
+    SYM and KCD list a signal once per page; of several signals of one name only one is read.
     """
     for message in messages:
         for _, same in _several(message.signals):
@@ -36,10 +37,10 @@ def contradictions(messages: Sequence[Any]) -> tuple[dict[str, str], dict[tuple[
 
 
 def contradicting(message: Any, name: str, messages: Sequence[Any]) -> Any | None:
-    """Return another message with this identifier to which a signal or its multiplexers mean something else, or None.
+    """Return another message with this identifier that defines a signal or its multiplexers differently, or None.
 
-    Live link and logs decode every frame with the identifier as the named message. That is right for a message that is
-    listed under a second name, or that describes other bits of the same frame, as some tools split long messages.
+    Live link and logs decode every frame with the identifier as the named message. That is correct for a message that
+    is listed under a second name, or that describes other bits of the same frame, as some tools split long messages.
     """
     others = [each for each in messages if each.name != message.name and _frame(each) == _frame(message)]
     if not others:
@@ -56,7 +57,8 @@ def _several(named: Sequence[Any]) -> Iterator[tuple[str, list[Any]]]:
 
 
 def _facts(message: Any) -> tuple[Any, ...]:
-    """Facts in which messages of one name have to agree; the bus is none, because an adapter is on only one."""
+    """Return the properties in which messages of one name must agree; the bus does not count, because an adapter is on
+    one."""
     signals = frozenset((signal.name, *reading(signal)) for signal in message.signals)
     return message.frame_id, message.is_extended_frame, message.length, signals
 
@@ -72,12 +74,12 @@ def _difference(messages: Sequence[Any]) -> str:
 
 
 def _frame(message: Any) -> tuple[Any, ...]:
-    """Return the facts that distinguish frames of messages; KCD and ARXML describe several buses in one file."""
+    """Return the properties that distinguish frames of messages; KCD and ARXML describe several buses in one file."""
     return message.frame_id, message.is_extended_frame, message.bus_name
 
 
 def _differs(signal: Any, other: Any) -> bool:
-    """Return whether another message has the signal elsewhere, or uses its bits for a signal of another name."""
+    """Return True if another message has the signal elsewhere, or uses its bits for a signal of another name."""
     same = [each for each in other.signals if each.name == signal.name]
     if same:
         return all(reading(each) != reading(signal) for each in same)

@@ -13,19 +13,20 @@ from .sym_expansion import IDENTIFIERS, MAX_REPEATED, expansion
 from .sym_text import NAME, PART, SIGNALS, unquoted
 
 _HEAD = re.compile(r"\s*(?://[^\n]*\n\s*)?FormatVersion\s*=\s*6\.0\s*//")
-# The library ignores an incomplete statement at the end of a file, therefore a section without messages follows.
+# The library ignores an incomplete statement at the end of a file; therefore a section without messages follows.
 _FILE = ('FormatVersion=6.0 // Do not edit this line!\nTitle="x"\n\n{{ENUMS}}\n{}\n{{SIGNALS}}\n{}\n{}\n{}'
          "\n{{SENDRECEIVE}}\n")
 _TABLE = "/e:"
 _ENUMS, _MESSAGES = "{ENUMS}", ("{SEND}", "{RECEIVE}", "{SENDRECEIVE}")
 _DEFINED = {SIGNALS: "Sig", _ENUMS: "Enum"}
-# Messages and identifiers in a text, also within a string that has no end.
+# Beginnings of messages and identifiers in a text, also within an unterminated string.
 _BEGINS = re.compile(r"^[ \t]*\[[ \t]*\"?([^\]\"\n]+?)\"?[ \t]*\]", re.MULTILINE)
 _WORD = re.compile(r"[^\s=(\]-]+")
 
 
 class _Piece(NamedTuple):
-    """A statement or the beginning of a message, with all text up to the next one. message: None outside of any."""
+    """A statement or the beginning of a message, with all text up to the next one. message: None outside of a
+    message."""
 
     section: str
     message: str | None
@@ -35,8 +36,8 @@ class _Piece(NamedTuple):
 
 
 def sym_messages(text: str) -> Separated | None:
-    """Messages of a SYM file; None when it is of another version, has too many for this, or has parts of messages
-    outside of any."""
+    """Messages of a SYM file; None if it has a different version, too many messages, or parts of messages outside of
+    any."""
     pieces = list(_pieces(text)) if _HEAD.match(text) else []
     definitions: dict[str, dict[str, str]] = {SIGNALS: {}, _ENUMS: {}}
     messages: dict[tuple[str, str], list[_Piece]] = collections.defaultdict(list)
@@ -71,7 +72,7 @@ def _loaded(document: str, problem: str) -> list[Any]:
 
 
 def _document(section: str, pieces: Sequence[_Piece], definitions: Mapping[str, Mapping[str, str]]) -> tuple[str, str]:
-    """A file of one message with all of its pages, and the text of the message in it."""
+    """Return a file of one message with all its pages, and the text of the message in it."""
     signals, enums = definitions[SIGNALS], definitions[_ENUMS]
     body = "".join(piece.text for piece in pieces)
     names = dict.fromkeys(piece.name for piece in pieces if piece.key == "Sig")
@@ -89,13 +90,13 @@ def _pieces(text: str) -> Iterator[_Piece]:
         elif part["message"] is not None:
             message = unquoted(part["message"])
         name = NAME.match(part["value"] or "")
-        # The statement of a section is written with each of its messages.
+        # The statement of a section is repeated with each of its messages.
         yield _Piece("" if part["section"] else section, message, part["key"] or "", unquoted(name[0]) if name else "",
                      text[part.start():end])
 
 
 def _unread(name: str, text: str) -> Iterable[Unread]:
-    """All messages that may be in the text of one that cannot be read; each on any of the identifiers."""
+    """Yield all messages that may be in the text of an unreadable one; each may have any of the identifiers."""
     names = dict.fromkeys([name, *_BEGINS.findall(text)])
     numbers = [range(int(low, 16), int(high or low, 16) + 1) for low, high in IDENTIFIERS.findall(text)]
     return [Unread(each, number) for each in names for number in numbers or [range(0)]][:MAX_MESSAGES]

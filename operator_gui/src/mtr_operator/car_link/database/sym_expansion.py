@@ -1,4 +1,5 @@
-"""Signals of a SYM database for which the library uses time and memory: all of a message for each identifier."""
+"""Estimates the time and memory of the library for a SYM database: it repeats all signals of a message per
+identifier."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,30 +10,30 @@ from typing import NamedTuple, Sequence
 from .alone import MAX_VISITS, TOO_MANY_PAGES
 from .sym_text import PART, unquoted
 
-# As the library reads them: the second one of two is the end of a range, with any character before it.
+# Same pattern as in the library: the second number is the end of a range, with any character before it.
 IDENTIFIERS = re.compile(r"ID\s*=\s*-?(\d[0-9A-Fa-f]*)h(?:\s*-?([0-9A-Fa-f]+)h)?")
-# Signals of all messages for each identifier besides the first one.
+# Limit of the repeated signals of all messages: all identifiers but the first repeat them.
 MAX_REPEATED = 1 << 14
 # Digits of an identifier.
 _DIGITS = 8
 
 
 class Expansion(NamedTuple):
-    """Signals that the library repeats, of all messages; visits: of the message with the most of them."""
+    """Repeated signals of all messages. visits: of the message with the most."""
 
     repeated: int
     visits: int
 
     def problem(self) -> str:
-        """Return what is wrong with a file that would use too much time or memory; empty when it would not."""
+        """Return the fault of a file that would use too much time or memory; empty if it would not."""
         if self.repeated > MAX_REPEATED:
             return f"its ranges of identifiers repeat more than {MAX_REPEATED} signals"
         return TOO_MANY_PAGES if self.visits > MAX_VISITS else ""
 
 
 def expansion(text: str) -> Expansion:
-    """Return how much the library would make of a file."""
-    # Also of what may be a text or comment, so that no large range is overlooked.
+    """Return the cost of a file for the library."""
+    # Strings and comments count as well, so that no large range is missed.
     largest = max(map(_count, IDENTIFIERS.findall(text)), default=0)
     if largest > MAX_REPEATED:
         return Expansion(largest, 0)
@@ -53,7 +54,7 @@ def expansion(text: str) -> Expansion:
 
 
 def _count(ends: Sequence[str]) -> int:
-    """Identifiers of a range."""
+    """Number of identifiers of a range."""
     low, high = (each.lstrip("0") for each in ends)
     if len(high) > _DIGITS or len(low) > _DIGITS:
         return MAX_REPEATED + 1 if high else 1

@@ -1,4 +1,5 @@
-"""Contradictions in the text of a SYM database that the library resolves in silence: it reads the first or last one."""
+"""Detects contradictions in a SYM database that the library resolves silently by reading the first or last
+definition."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,24 +14,24 @@ _KEYS = ("FormatVersion|Title|UniqueVariables|FloatDecimalPlaces|BRS|Enum|Sig|ID
          "Color|Var|Type")
 _STRING = r'"(?:\\"|[^"])*"'
 _NEXT = rf"\b(?:{_KEYS})\s*=|[\[{{]"
-# A statement ends before the next one, not with its line; units contain anything but blanks.
+# A statement ends before the next one, not at the line end; units contain any character but blanks.
 PART = re.compile(rf"//[^\n]*|(?P<section>\{{[A-Z]+\}})|\[\s*(?P<message>{_STRING}|[^\]\s\[]+)\s*\]|"
                    rf"\b(?P<key>{_KEYS})\s*=\s*"
                    rf"(?P<value>(?:[^A-Z\"/\[{{]+|/u:(?:{_STRING}|\S+)|//[^\n]*|{_STRING}|(?!{_NEXT})[^\"])*)|{_STRING}")
 NAME = re.compile(rf"{_STRING}|[^\s=(\]-]+")
-# No value depends on unit, table of values, long name, default, decimals, SPN, flags of the display and comment.
+# Fields that do not affect values: unit, table of values, long name, default, decimals, SPN, display flags, comment.
 _IDLE = re.compile(rf"/(?:u|e|ln|d|p|spn):(?:{_STRING}|\S+)|//[^\n]*|-[hbstv]\b")
 _PLACE = re.compile(r"(?<!\d)(\d{1,9})\s*,\s*(\d{1,9})")
 SIGNALS = "{SIGNALS}"
-# Statements of a message of which the library reads the first.
+# Statements of which the library reads the first per message.
 _ONCE = ("ID", "Len", "Type", "Mux")
 
-# Definitions that should be one, with their lines.
+# Definitions that must be unique, with their lines.
 _Lines = dict[str, int]
 
 
 class _Block(NamedTuple):
-    """A part of a section: a message, or a page of it. number: in the file."""
+    """Part of a section: a message, or a page of it. number: in the file."""
 
     number: int = 0
     section: str = ""
@@ -48,7 +49,7 @@ class _Statement(NamedTuple):
 
 
 def sym_problems(text: str, messages: Sequence[Any], found: Problems) -> None:
-    """Add contradictions to the faults of messages and signals, and the lines of messages."""
+    """Add contradictions to the faults of messages and signals, and record the lines of messages."""
     statements = list(_statements(text))
     found.message_lines.update((each.block.message, each.block.line) for each in statements if each.key == "ID")
     for (_, name, key), lines in _repeated(statements).items():
@@ -74,20 +75,22 @@ def _statements(text: str) -> Iterator[_Statement]:
 
 
 def _repeated(statements: Sequence[_Statement]) -> dict[tuple[Any, str, str], _Lines]:
-    """Statements of messages that may be there once, by number of the block or its section, message and key."""
+    """Return the statements that must be unique in a message, by number of the block or its section, message and
+    key."""
     found: dict[tuple[Any, str, str], _Lines] = collections.defaultdict(dict)
     for each in statements:
         block = each.block
         if block.message and each.key in _ONCE:
             found[block.number, block.message, each.key].setdefault(_facts(each.value), each.line)
             if each.key == "Mux":
-                # Pages of a message are listed as messages of one name and section; the library reads the first place.
+                # Pages of a message are listed as messages of one name and section; the library reads the first
+                # position.
                 found[block.section, block.message, each.key].setdefault(_place(each.value), each.line)
     return found
 
 
 def _definitions(statements: Sequence[_Statement]) -> dict[str, _Lines]:
-    """Definitions of signals, by their names; the library reads the last one."""
+    """Return the definitions of signals by name; the library reads the last one."""
     found: dict[str, _Lines] = collections.defaultdict(dict)
     for each in statements:
         name = NAME.match(each.value)

@@ -1,2 +1,2 @@
-"""What the drivers of CAN adapters differ in: how one only listens, carries CAN FD, and tells what is wrong."""
+"""Differences of the CAN drivers: listen-only mode, CAN FD and fault reports."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,7 @@
-"""What an adapter says of its controller, driver by driver: off the bus, error-passive, frames lost for want of room.
+"""State of an adapter's controller, driver by driver: bus-off, error-passive, frames lost by overrun.
 
-A lasting trouble is a sentence until it is over; errors and lost frames are counted as they come. Where a driver can be
-asked it is asked often enough to tell within half a second.
+A lasting fault is reported until it is over; errors and lost frames are counted at arrival. Drivers with a state query
+are polled often enough to report within half a second.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,14 +12,14 @@ import can
 
 from .slcan import FLAG_BUS_ERROR, FLAG_ERROR_PASSIVE, StampedSlcanBus
 
-# With one more look of the reader for the answer it is told within half a second.
+# With one more pass of the reader, a fault is reported within half a second.
 LOOK_PERIOD_S = 0.2
 BUS_OFF = ("The CAN adapter reports errors on the bus or has left it (bus-off); check bit rate, plug and "
            "termination.")
 REFUSES = ("The CAN adapter does not take the order to listen only (L of slcan), and stays closed; use another adapter "
            "or firmware, or choose normal mode (--can-normal) for a bench of one node.")
 PASSIVE = "The CAN adapter is error-passive; check bit rate, plug and termination."
-# PCAN-Basic's words, python-can's can.interfaces.pcan.basic.
+# Status bits of PCAN-Basic, from python-can's can.interfaces.pcan.basic.
 _PCAN_OVERRUN, _PCAN_BUS_OFF, _PCAN_QUEUE_OVERRUN, _PCAN_PASSIVE = 0x02, 0x10, 0x40, 0x40000
 # Linux' include/uapi/linux/can/error.h: classes in the identifier, the controller's state in the second byte.
 _KERNEL_CONTROLLER, _KERNEL_BUS_OFF, _KERNEL_RESTARTED = 0x004, 0x040, 0x100
@@ -27,16 +27,16 @@ _KERNEL_RECEIVE_OVERFLOW, _KERNEL_PASSIVE, _KERNEL_ACTIVE = 0x01, 0x30, 0x40
 
 
 class HealthSink(Protocol):
-    """Takes what is found; see FrameSink."""
+    """Receiver of the reports; see FrameSink."""
 
     def error_frame(self) -> None:
-        """An error on the bus."""
+        """Report an error frame on the bus."""
 
     def frames_lost(self) -> None:
-        """Frames were lost before they could be read."""
+        """Report that frames were lost before they could be read."""
 
     def fault(self, text: str) -> None:
-        """What lasts; empty when it is over."""
+        """Report a lasting fault; an empty text ends it."""
 
 
 class _State(NamedTuple):
@@ -45,7 +45,7 @@ class _State(NamedTuple):
 
 
 class AdapterHealth:
-    """Of one adapter from its opening on. interface: python-can's word."""
+    """State of one adapter since it was opened. interface: python-can's name."""
 
     def __init__(self, interface: str, sink: HealthSink):
         self._look: Callable[[Any], _State | None] = _LOOKS.get(interface, lambda: _plain)()
@@ -56,17 +56,17 @@ class AdapterHealth:
         self._fault = ""
 
     def frame(self) -> None:
-        """A frame came: a controller that had left the bus is back."""
+        """Record a frame: a controller that was bus-off has recovered."""
         if self._is_kernels:
             self._say("")
 
     def error_frame(self, message: can.Message) -> None:
-        """An error frame of the driver."""
+        """Record an error frame of the driver."""
         if not self._is_kernels or not self._controller(message.arbitration_id, bytes(message.data)):
             self._sink.error_frame()
 
     def look(self, bus: can.BusABC, now_s: float) -> None:
-        """Ask the driver, where it can be asked and if it is time."""
+        """Query the driver, if it supports queries and the period has passed."""
         if self._looked_s is None or now_s - self._looked_s >= LOOK_PERIOD_S:
             self._looked_s = now_s
             self._take(self._look(bus))
@@ -80,7 +80,7 @@ class AdapterHealth:
         self._say(state.fault)
 
     def _controller(self, classes: int, data: bytes) -> bool:
-        """True when an error frame of the kernel tells the controller's state alone."""
+        """Return True if an error frame of the kernel reports only the controller's state."""
         state = data[1] if classes & _KERNEL_CONTROLLER and len(data) > 1 else 0
         if state & _KERNEL_RECEIVE_OVERFLOW:
             self._sink.frames_lost()
@@ -109,7 +109,7 @@ def _slcan(bus: Any) -> _State | None:
 
 
 class _PcanCounter:
-    """PCAN-Basic tells an overrun as a state that is over with the next reading; here it is counted."""
+    """Overrun detector: PCAN-Basic reports an overrun as a state that the next reading clears; this class counts it."""
 
     def __init__(self) -> None:
         self._count = 0
@@ -133,9 +133,9 @@ def _of_state(bus: Any) -> str:
 
 
 def _no_look(_: Any) -> None:
-    """The kernel tells its interface's state by error frames."""
+    """Return no state: the kernel reports its interface's state by error frames."""
 
 
-# What looks at a bus, by interface; one for each adapter.
+# Query of a bus by interface; one instance for each adapter.
 _LOOKS: dict[str, Callable[[], Callable[[Any], _State | None]]] = {
     "slcan": lambda: _slcan, "pcan": _PcanCounter, "kvaser": lambda: _kvaser, "socketcan": lambda: _no_look}

@@ -1,4 +1,4 @@
-"""Link to a Car that is simulated in this process: its frames without an adapter."""
+"""Link to a Car that is simulated in this process; its frames pass without an adapter."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from ..bus import CanCarLink
 from ..can_frame import CanFrame
 from ..reader import CanReader
 
-# As an adapter's stamps, which start again each minute.
+# The stamps restart each minute, as an adapter's stamps do.
 _STAMP_MODULO_MS = 60_000
 _MAX_STANDARD_ID = 0x7FF
 _NS_PER_MS = 1_000_000
 
 
 class _Direct(CanReader):
-    """Frames come without a thread that reads them, and go to the Car at once."""
+    """Reader without a thread: frames are received and sent immediately."""
 
     def start(self) -> None:
         """See CanReader."""
@@ -27,7 +27,7 @@ class _Direct(CanReader):
         """See CanReader."""
 
     def settled(self) -> Callable[[], bool]:
-        """See CanReader: all frames are there, and whoever waited would keep others from coming."""
+        """See CanReader: all frames have arrived, and waiting would block further ones."""
         return lambda: True
 
     def send(self, message: can.Message) -> threading.Event:
@@ -40,10 +40,10 @@ class _Direct(CanReader):
 
 
 class InProcessCarLink(CanCarLink):
-    """The same watch of the locks as behind an adapter that stamps its frames.
+    """Lock watch as behind an adapter that stamps its frames.
 
-    profile: of the Car. clock: simulated time in s, in place of the laptop's. to_car: takes identifier and data of what
-    goes to the Car.
+    profile: of the Car. clock: simulated time in s, replaces the laptop's. to_car: receives identifier and data of each
+    frame to the Car.
     """
 
     READER = _Direct
@@ -53,6 +53,6 @@ class InProcessCarLink(CanCarLink):
         self.to_car = to_car
 
     def received(self, can_id: int, data: bytes, time_ns: int) -> None:
-        """A frame of the Car, which was on the bus at that time."""
+        """Receive a frame of the Car that was on the bus at this time."""
         stamp_ms = time_ns // _NS_PER_MS % _STAMP_MODULO_MS
         self.frame(CanFrame(can_id, can_id > _MAX_STANDARD_ID, data, self._clock(), stamp_ms))

@@ -1,7 +1,7 @@
-"""IXXAT adapters that only listen: python-can's driver has no option for it, and the vendor's interface has.
+"""Listen-only mode of IXXAT adapters: python-can's driver has no option for it, but the vendor's interface has one.
 
-The order is added to the one with which the driver sets the controller up, before it is started, and is read back.
-From the sources of python-can 4.6 and the modes of VCI (CAN_OPMODE_LISTONLY); tried with a stand-in for the library.
+The flag is added to the mode with which the driver initializes the controller, before its start, and is read back.
+Sources: python-can 4.6 and the modes of VCI (CAN_OPMODE_LISTONLY); tested with a stand-in for the library.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,22 +12,22 @@ from typing import Any, Iterator
 
 from .options import Unsupported
 
-# The bit of VCI's operating modes, in python-can's can.interfaces.ixxat.constants.
+# Bit of VCI's operating modes, from python-can's can.interfaces.ixxat.constants.
 _LISTEN_ONLY = 0x08
-# The driver's own for classic CAN is 16 frames, which a full bus fills in 4 ms; this is its own for CAN FD.
+# The driver's default for classic CAN is 16 frames, which a full bus fills in 4 ms; this is its default for CAN FD.
 ROOM = {"rx_fifo_size": 1024}
 
 
 @contextlib.contextmanager
 def ordered_to_listen() -> Iterator[None]:
-    """A controller that is set up meanwhile sends nothing."""
+    """Initialize controllers in listen-only mode within this context."""
     try:
         from can.interfaces.ixxat import canlib_vcinpl, canlib_vcinpl2
     except ImportError:
         raise Unsupported("python-can's driver ixxat is for Windows with the vendor's VCI; on Linux use the kernel's "
                           "interface of the adapter (socketcan).") from None
     with contextlib.ExitStack() as stack:
-        # Classic CAN and CAN FD, each with a library of its own; None where it is not installed.
+        # Libraries for classic CAN and CAN FD; None if not installed.
         for library in (canlib_vcinpl._canlib, canlib_vcinpl2._canlib):
             if library is not None:
                 former = library.canControlInitialize
@@ -43,7 +43,7 @@ def _listening(initialize: Any) -> Any:
 
 
 def takes_part(bus: Any) -> bool:
-    """True when the controller does not say that it only listens. bus: python-can's."""
+    """Return True unless the controller reports listen-only mode. bus: python-can's."""
     from can.interfaces.ixxat import canlib_vcinpl, canlib_vcinpl2, structures
     inner = bus.bus
     is_fd = isinstance(inner, canlib_vcinpl2.IXXATBus)

@@ -1,6 +1,6 @@
-"""A CAN interface of the Linux kernel, which opens the adapter itself: at which rate, and whether it only listens.
+"""CAN interface of the Linux kernel, which opens the adapter itself: its bit rate and listen-only mode.
 
-The program ip (iproute2) tells, without rights of an administrator.
+The program ip (iproute2) reports them without administrator rights.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -20,7 +20,8 @@ _WITHOUT_WIRE = ("vcan", "vxcan")
 
 @dataclass(frozen=True)
 class KernelLink:
-    """is_silent: nothing that is sent by itself leaves it. bitrate_bps, data_bitrate_bps: None when not told."""
+    """State of the interface. is_silent: it sends nothing by itself. bitrate_bps, data_bitrate_bps: None if not
+    reported."""
 
     is_silent: bool
     bitrate_bps: int | None = None
@@ -28,7 +29,7 @@ class KernelLink:
 
 
 def show_link(channel: str) -> str:
-    """What ip says of an interface; OSError when it says nothing."""
+    """Return the output of ip for an interface; OSError without output."""
     try:
         done = subprocess.run(["ip", "-details", "-json", "link", "show", "dev", channel], capture_output=True,
                               text=True, check=False, timeout=_LIMIT_S)
@@ -40,7 +41,7 @@ def show_link(channel: str) -> str:
 
 
 def link_of(text: str) -> KernelLink:
-    """Interface in ip's words; ValueError when they are none."""
+    """Parse the output of ip; ValueError if it is not an interface."""
     try:
         info = json.loads(text)[0]["linkinfo"]
         kind, data = info["info_kind"], info.get("info_data", {})
@@ -57,7 +58,7 @@ def _rate(data: dict[str, Any], name: str) -> int | None:
 
 def check_link(channel: str, bitrate_bps: int, data_bitrate_bps: int | None, is_listening: bool,
                show: Callable[[str], str] = show_link) -> None:
-    """ConnectionFailed when the kernel has opened the adapter otherwise than the Operator wants it."""
+    """Raise ConnectionFailed if the kernel has opened the adapter in a different way than requested."""
     try:
         link = link_of(show(channel))
     except (OSError, ValueError):

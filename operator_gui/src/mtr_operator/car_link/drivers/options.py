@@ -1,7 +1,7 @@
-"""Options with which python-can's drivers open an adapter that only listens, and one for CAN FD.
+"""Options of python-can's drivers for adapters that only listen, and for CAN FD.
 
-An adapter that listens sends nothing: no frame, no acknowledge and no error flag. From the drivers' sources in
-python-can 4.6; tried with slcan and the virtual bus alone, and with stand-ins for the libraries of PCAN and IXXAT.
+An adapter that listens sends nothing: no frame, no acknowledge and no error flag. Source: the drivers of python-can
+4.6. Tested: slcan and the virtual bus, and PCAN and IXXAT with stand-ins for their libraries.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -16,30 +16,30 @@ _LISTENING: Mapping[str, Mapping[str, Any]] = {
     PCAN: {"state": can.BusState.PASSIVE},
     "kvaser": {"driver_mode": False},  # its name for silent, DRIVER_MODE_SILENT
     VECTOR: {"listen_only": True},
-    # Its controller is ordered to: drivers/ixxat.py.
+    # The controller mode is set in drivers/ixxat.py.
     IXXAT: {},
     "systec": {"state": can.BusState.PASSIVE},
     "nixnet": {"listen_only": True},
     "cantact": {"monitor": True},
     "seeedstudio": {"operation_mode": "silent"},
-    # The kernel opens the adapter; kernel_link looks how.
+    # The kernel opens the adapter; kernel_link checks the mode.
     SOCKETCAN: {},
-    # There is no wire, and nobody acknowledges.
+    # These have neither wire nor acknowledge.
     "virtual": {},
     "udp_multicast": {}}
 _FD_CLOCK_HZ = 80_000_000
-# CiA 601-3 has both sample points at 80 % for such clocks.
+# CiA 601-3: both sample points at 80 % for such clocks.
 _SAMPLE_POINT_PERCENT = 80.0
 # PCAN calls 83.333, 47.619, 33.333 and 95.238 kbit/s 83, 47, 33 and 95; its other names are exact.
 _SAME_RATE = 0.015
 
 
 class Unsupported(Exception):
-    """The driver cannot do it; the text is a sentence."""
+    """The driver does not support it; the text is a sentence."""
 
 
 def listening_options(interface: str) -> dict[str, Any]:
-    """Options of an adapter that only listens; Unsupported where the driver has no such state."""
+    """Return the options of an adapter that only listens; Unsupported if the driver has no such mode."""
     if interface not in _LISTENING:
         raise Unsupported(f"python-can's driver {interface} cannot open an adapter so that it only listens; use one of "
                           f"{', '.join(sorted(_LISTENING))}, or choose normal mode (--can-normal) for a bench of one "
@@ -48,7 +48,8 @@ def listening_options(interface: str) -> dict[str, Any]:
 
 
 def rate_of(interface: str, bitrate_bps: int) -> int:
-    """A bit rate in the driver's words; Unsupported where it has none, and would take another one without a word."""
+    """Return the bit rate as named by the driver; Unsupported if it lacks the rate and would silently use another
+    one."""
     if interface != PCAN:
         return bitrate_bps
     from can.interfaces.pcan.basic import PCAN_BITRATES
@@ -60,7 +61,8 @@ def rate_of(interface: str, bitrate_bps: int) -> int:
 
 
 def takes_part(interface: str, bus: Any) -> bool:
-    """True when an adapter was told to only listen, and its driver says that it does not; python-can does not look."""
+    """Return True if an adapter was ordered to only listen and its driver reports otherwise; python-can does not
+    check."""
     return interface in _TAKES_PART and _TAKES_PART[interface](bus)
 
 
@@ -71,7 +73,7 @@ def _pcan_takes_part(bus: Any) -> bool:
 
 
 def _vector_takes_part(bus: Any) -> bool:
-    """Where another program has the right to set the channel up, the driver leaves it as that program wants it."""
+    """Return True if another program has the channel's init access: the driver then keeps that program's mode."""
     return bool(bus.permission_mask & bus.mask != bus.mask)
 
 
@@ -79,7 +81,7 @@ _TAKES_PART: Mapping[str, Callable[[Any], bool]] = {PCAN: _pcan_takes_part, VECT
 
 
 def fd_options(interface: str, bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
-    """Options for CAN FD; Unsupported where the driver has none, ValueError for rates that it cannot have."""
+    """Options for CAN FD; Unsupported if the driver has none, ValueError for rates that it does not support."""
     if interface not in _FD:
         raise Unsupported(f"python-can's driver {interface} has no CAN FD; use one of {', '.join(sorted(_FD))}, or "
                           "leave the data bit rate out for classic CAN.")
@@ -87,7 +89,7 @@ def fd_options(interface: str, bitrate_bps: int, data_bitrate_bps: int) -> dict[
 
 
 def _by_timing(bitrate_bps: int, data_bitrate_bps: int) -> dict[str, Any]:
-    """The driver's own names of rates leave out 5 Mbit/s, or have sample points at 70 %."""
+    """Return exact bit timing; the driver's named rates lack 5 Mbit/s or have sample points at 70 %."""
     return {"timing": can.BitTimingFd.from_sample_point(_FD_CLOCK_HZ, bitrate_bps, _SAMPLE_POINT_PERCENT,
                                                         data_bitrate_bps, _SAMPLE_POINT_PERCENT)}
 

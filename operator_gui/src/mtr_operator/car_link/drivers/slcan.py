@@ -1,12 +1,12 @@
-"""Serial-line CAN adapters (slcan) with the time stamps that python-can's own driver leaves unread.
+"""Serial-line CAN adapters (slcan) with the time stamps that python-can's own driver does not read.
 
-With Z1 such an adapter adds four hexadecimal digits to each frame: milliseconds, starting again each minute (Lawicel
+With Z1 such an adapter adds four hexadecimal digits to each frame: milliseconds that restart each minute (Lawicel
 CAN232 manual). The driver also reads byte by byte; at the frame rates of an accelerated simulation that costs a
-processor core, so whole blocks are read here.
+processor core, so this class reads whole blocks.
 
-To only listen is `L` by that manual. The firmware of the CANable (canable-fw, and cantact-fw before it) does not know
-it, answers to nothing but V, and listens when M1 came before O; an adapter by the manual refuses M1, for there M sets
-a filter of eight digits.
+Listen-only mode is `L` by that manual. The firmware of the CANable (canable-fw, and cantact-fw before it) lacks `L`,
+answers only V, and listens if M1 preceded O. An adapter by the manual rejects M1, because its M sets a filter of eight
+digits.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -21,25 +21,25 @@ import serial
 from can.exceptions import error_check
 from can.interfaces.slcan import slcanBus
 
-# What the CANable says to V: its version, and where its source lies.
+# Answer of the CANable to V: its version and the address of its source.
 _CANABLE = re.compile(r"can(able|tact)", re.IGNORECASE)
 _LINE_END = re.compile(rb"[\r\a]")
-# int() would also take signs, spaces and underscores for digits.
+# int() would also accept signs, spaces and underscores as digits.
 _DIGITS = re.compile(r"[0-9A-Fa-f]*")
 _REFUSED = "\a"
 _MAX_LINE = 512
 _SERIAL_TIMEOUT_S = 0.05
 _MAX_CLASSIC_DATA = 8
-# Bytes by the length code of a CAN FD frame, ISO 11898-1.
+# Data bytes by the length code of a CAN FD frame, ISO 11898-1.
 _FD_LENGTHS = (*range(9), 12, 16, 20, 24, 32, 48, 64)
 _STAMP_DIGITS = 4
 _STAMP_LIMIT_MS = 60_000
-# Characters before the data of each kind of frame line.
+# Characters before the data, for each kind of frame line.
 _HEAD = {"t": 5, "r": 5, "T": 10, "R": 10, "d": 5, "D": 10, "b": 5, "B": 10}
 _STANDARD_HEAD, _STANDARD_BITS, _EXTENDED_BITS = 5, 11, 29
 _WITH_DATA, _FD = "tTdDbB", "dDbB"
 
-# Bits of the answer to F; the first two are cleared by it.
+# Bits of the answer to F; it clears the first two.
 FLAG_RECEIVE_FULL = 0x01
 FLAG_DATA_OVERRUN = 0x08
 FLAG_ERROR_PASSIVE = 0x20
@@ -50,12 +50,12 @@ class StampedSlcanBus(slcanBus):
     """slcan adapter.
 
     Attributes:
-        stamp_ms: adapter's stamp of the frame that recv returned last, None when it has none.
+        stamp_ms: adapter's stamp of the frame that recv returned last, None without one.
         flags: newest answer to request_flags(), 0 before the first.
-        flags_answered: how often that was answered. answered: called then, in the thread that reads.
-        overruns: answers that told of lost frames.
-        answers: lines that make sense as slcan; malformed: lines that do not.
-        refuses: the adapter does not take the order to only listen.
+        flags_answered: number of these answers. answered: called at each, in the reading thread.
+        overruns: answers that reported lost frames.
+        answers: valid slcan lines; malformed: invalid lines.
+        refuses: the adapter does not accept listen-only mode.
     """
 
     def __init__(self, channel: str, data_bitrate: int | None = None, **options: Any):
@@ -68,12 +68,12 @@ class StampedSlcanBus(slcanBus):
         self.answers = 0
         self.malformed = 0
         self.refuses = False
-        # Of the order before: None when there was no answer.
+        # Result of the previous command: None without an answer.
         self._is_refused: bool | None = None
         super().__init__(channel, timeout=_SERIAL_TIMEOUT_S, **{"sleep_after_open": 0.0, **options})
 
     def set_bitrate(self, bitrate: int, data_bitrate: int | None = None) -> None:
-        """The first thing that the driver does; an adapter of another program is left alone."""
+        """Set the bit rate, the driver's first command; raise an error if another program uses the adapter."""
         try:
             self.serialPortOrig.exclusive = True
         except serial.SerialException:
@@ -81,17 +81,17 @@ class StampedSlcanBus(slcanBus):
         super().set_bitrate(bitrate, data_bitrate or self._data_bitrate)
 
     def open(self) -> None:
-        """Open the channel with time stamps; an adapter without them refuses Z1 and opens all the same."""
+        """Open the channel with time stamps; an adapter without them rejects Z1 and opens all the same."""
         self.close()
         self._write("Z1")
-        # An order of before lasts over opening and closing.
+        # The mode persists over closing and opening.
         self._write("M1" if self._listen_only else "M0")
         super().open()
         self._write("V")
 
     def request_flags(self) -> int:
-        """Ask for the controller's state, from any thread; the answer comes behind all frames of before. Gives the
-        number of answers by which this question is answered."""
+        """Request the controller's state, from any thread; the answer follows all previous frames. Return the number of
+        answers at which this request is answered."""
         with self._asking:
             self._flags_asked += 1
             self._write("F")
@@ -117,7 +117,7 @@ class StampedSlcanBus(slcanBus):
         line = self._read(timeout)
         if line is None:
             return None, False
-        # No line of digits has that letter; a version may begin as a frame does.
+        # No line of digits contains that letter; a version may begin like a frame.
         if "n" in line.lower() and _CANABLE.search(line):
             self._take_canable()
             return None, False
@@ -135,14 +135,14 @@ class StampedSlcanBus(slcanBus):
         return received
 
     def _take_canable(self) -> None:
-        """Without a word it has taken M1, and left L alone: now it may be opened."""
+        """Open the channel of a CANable: it accepted M1 silently and ignored L."""
         self.answers += 1
         if self._listen_only and self._is_refused is None:
             self._write("O")
         self._look_at_order()
 
     def _look_at_order(self) -> None:
-        """V is answered: what came last before it is the answer to the order to listen."""
+        """Evaluate the answer before the answer to V: it belongs to the listen-only command."""
         self.refuses = self._listen_only and self._is_refused is True
 
     def _take_answer(self, line: str) -> None:
@@ -162,7 +162,7 @@ class StampedSlcanBus(slcanBus):
 
 
 def _stamp_of(line: str) -> int | None:
-    """Stamp at the end of a frame's line, None without; ValueError when the line is no frame."""
+    """Stamp at the end of a frame's line, None without one; ValueError if the line is not a frame."""
     if not _DIGITS.fullmatch(line[1:-1]):
         raise ValueError(line)
     head = _HEAD[line[0]]
@@ -172,7 +172,7 @@ def _stamp_of(line: str) -> int | None:
     stamp = line[end:-1]
     if not is_fd and length > _MAX_CLASSIC_DATA or len(line) - 1 not in (end, end + _STAMP_DIGITS):
         raise ValueError(line)
-    # Eight digits hold more than the 29 bits of an identifier, three more than 11.
+    # Eight digits exceed the 29 bits of an identifier, three exceed 11.
     if int(line[1:head - 1], 16) >= 1 << (_STANDARD_BITS if head == _STANDARD_HEAD else _EXTENDED_BITS):
         raise ValueError(line)
     stamp_ms = int(stamp, 16) if stamp else None

@@ -1,2 +1,2 @@
-"""What a Car tells beside the state of its locks, in whichever messages and on whichever buses."""
+"""Signals of a Car in addition to its lock state, in any message on any bus."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Further buses of the Car: an adapter each, that only gives its frames."""
+"""Further buses of the Car, with one adapter each, used only for their frames."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 
 
 class FurtherBuses:
-    """Owns the adapters between start() and stop(). first: of the bus that tells the state. settings: by the name of
-    the bus."""
+    """Owner of the adapters between start() and stop(). first: of the bus of the state. settings: by the name of the
+    bus."""
 
     def __init__(self, first: AdapterSettings, settings: Mapping[str, AdapterSettings], clock: Callable[[], float]):
         self._first, self._settings = first, settings
@@ -27,7 +27,8 @@ class FurtherBuses:
         self._names: tuple[str, ...] = ()
 
     def start(self, profile: CarProfile, sink: FrameSink) -> None:
-        """Open an adapter for each bus that the profile names; BusRefused names the one for which that fails."""
+        """Open an adapter for each bus that the profile names; BusRefused names the bus whose adapter cannot be
+        opened."""
         self._names = profile.further.buses
         try:
             for name in self._names:
@@ -53,27 +54,27 @@ class FurtherBuses:
         self._open[name] = reader, bus
 
     def _taken(self) -> set[tuple[str, str]]:
-        """Interface and channel of each adapter that is open."""
+        """Return interface and channel of each open adapter."""
         used = (self._first, *(self._settings[name] for name in self._open))
         return {(settings.interface, settings.channel) for settings in used}
 
     @property
     def is_fd(self) -> bool:
-        """True when one of them may carry CAN FD frames."""
+        """True if one of the adapters may carry CAN FD frames."""
         return any(self._settings[name].data_bitrate_bps is not None for name in self._open)
 
     @property
     def record(self) -> dict[str, str]:
-        """How the adapter of each bus is opened, for the record of a test."""
+        """Settings of each bus' adapter, for the record of a test."""
         return {CAN_ADAPTER_OF_BUS.format(name): self._settings[name].text for name in self._open}
 
     def channel(self, name: str) -> int:
-        """Of a bus in a log; 0 is that of the state."""
+        """Return the channel of a bus in a log; 0 is the bus of the state."""
         return 1 + self._names.index(name)
 
     @property
     def problem(self) -> str:
-        """What is wrong with one of them; empty when nothing is."""
+        """Fault of one of the adapters; empty without one."""
         return next((bus.problem for _, bus in self._open.values() if bus.problem), "")
 
     def stop(self) -> None:
@@ -95,10 +96,10 @@ class _Bus(FrameSink):
         self._sink.frame(replace(frame, bus=self._name))
 
     def error_frame(self) -> None:
-        """See FrameSink: one alone takes nothing from what is told beside the state."""
+        """See FrameSink: a single error frame does not invalidate the further signals."""
 
     def frames_lost(self) -> None:
-        """See FrameSink: a cause that is missing is told with the change."""
+        """See FrameSink: a missing cause is reported with the change."""
 
     def fault(self, text: str) -> None:
         self.problem = f"Further bus {self._name}: {text}" if text else ""

@@ -1,4 +1,4 @@
-"""Follows what the Car tells beside the state of its locks, and says what of it belongs to a change."""
+"""Follows the further signals of the Car and assigns their values to the changes of its locks."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,13 +10,13 @@ from .counting import CountWatch
 from .declared import Further
 from .places import MessageKey, Place
 
-# Of each signal; older ones than a change waits for belong to nothing.
+# Stored values of each signal; a pending change needs none of the older ones.
 _KEPT = 512
 
 
 class Told(NamedTuple):
-    """What belongs to a change. source: as in CarEvent, empty when nothing named it. raw: of a value that the profile
-    does not list. key: number of the key, None when it is not told. doubt: why the change is not to be believed."""
+    """Facts that belong to a change. source: as in CarEvent, empty if unknown. raw: of a value that the profile does
+    not list. key: number of the key, None if not reported. doubt: reason why the change is not plausible."""
 
     source: str = ""
     raw: str = ""
@@ -25,7 +25,8 @@ class Told(NamedTuple):
 
 
 class Companions:
-    """Fed with every frame in the order of arrival, with local times of the clock that times the first bus."""
+    """History of the further signals, updated with every frame in the order of arrival. Local times are of the clock
+    that times the first bus."""
 
     def __init__(self, further: Further):
         self._further = further
@@ -40,12 +41,12 @@ class Companions:
         self._open: set[str] = set()
 
     def restart(self) -> None:
-        """The adapter was opened anew: what was before is no neighbour of what comes."""
+        """Restart after the adapter was reopened: earlier values do not belong to later changes."""
         for values in self._values.values():
             values.clear()
 
     def frame(self, key: MessageKey, data: bytes, local_s: float) -> list[str]:
-        """Take a frame; sentences on what is not to be believed from now on."""
+        """Add a frame; return sentences on values that are doubtful from now on."""
         readers = self._readers.get(key)
         if readers is None:
             return []
@@ -57,7 +58,7 @@ class Companions:
         return doubts
 
     def _steps(self, key: MessageKey, values: Mapping[str, int]) -> Iterator[str]:
-        """Counters that stand still or jump."""
+        """Yield a sentence for each counter that is stuck or jumps."""
         for place, is_alive in self._counters:
             kept = self._values[place.key, place.signal]
             if place.key != key or place.signal not in values or not kept:
@@ -80,7 +81,7 @@ class Companions:
                 yield f"The Car's bus tells that {door.name} is open; leave the Car's doors closed during the test."
 
     def told(self, change_s: float) -> Told:
-        """What belongs to a change at a local time; all of it is here settles_s later."""
+        """Return the facts of a change at a local time; they are complete settles_s later."""
         sources, raws = self._causes(change_s)
         key = self._key(change_s)
         return Told(next(iter(sources), ""), "" if sources else next(iter(raws), ""), key,
@@ -101,7 +102,7 @@ class Companions:
             yield f"The Car's locks moved while {', '.join(sorted(self._open))} was open."
 
     def _doubts_of(self, counter: Place, change_s: float) -> Iterator[str]:
-        """None where too little was seen before the change to say that it was not counted."""
+        """Yield a doubt if the counter missed the change; nothing if too few values precede the change."""
         kept, around = self._values[counter.key, counter.signal], self._around(counter, change_s)
         before = [value for time_s, value in kept if time_s < change_s - self._further.within_s]
         if not around:
@@ -111,7 +112,7 @@ class Companions:
             yield f"The Car's locks moved on its bus, and {counter.signal} counted nothing."
 
     def _causes(self, change_s: float) -> tuple[list[str], list[str]]:
-        """Causes that are listed, and values that are not."""
+        """Return the listed causes and the unlisted values."""
         sources: dict[str, None] = {}
         raws: dict[str, None] = {}
         for cause in self._further.causes:
@@ -129,11 +130,11 @@ class Companions:
         return values[-1] if values else None
 
     def _around(self, place: Place, change_s: float) -> list[int]:
-        """Values from before and behind a change: a counter may be told with either."""
+        """Return values before and after a change: a counter may be sent with either frame."""
         return self._about(place, change_s, self._further.within_s)
 
     def _about(self, place: Place, change_s: float, before_s: float) -> list[int]:
-        """Values of a signal from so long before a change to the end of the window behind it."""
+        """Return the values of a signal from before_s before a change to the end of the window after it."""
         return [value for time_s, value in self._values[place.key, place.signal]
                 if change_s - before_s <= time_s <= change_s + self._further.within_s]
 

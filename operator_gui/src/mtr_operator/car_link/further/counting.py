@@ -1,6 +1,7 @@
 """Counters in messages: their values, and their steps from frame to frame.
 
-Not every counter has a power of two of values: those of AUTOSAR's E2E profiles leave one out, others the zero.
+The number of values is not always a power of two: the counters of AUTOSAR's E2E profiles omit the highest value or
+zero.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -11,16 +12,16 @@ from typing import Any
 from ..database.car_database import is_finite
 from .entries import Entries, is_whole
 
-# The first wrap of a counter that is accepted leads to one of these.
+# The first accepted wrap of a counter leads to one of these.
 _FIRST_VALUES = (0, 1)
-# Values less than all of its bits that a counter of changes may leave out at its end.
+# Number of values at the end of its range that a change counter may omit.
 _LEFT_OUT = 1
 
 
 @dataclass(frozen=True)
 class CountRange:
-    """low, high: lowest and highest value; high wraps to low. length: bits. is_declared: by the profile, so that no
-    other value is right; else they are limits of the database or of its bits."""
+    """Range of a counter. low, high: lowest and highest value; high wraps to low. length: in bits. is_declared: by the
+    profile, so that any other value is wrong; else limits of the database or of the bits."""
 
     low: int
     high: int
@@ -37,9 +38,9 @@ class CountRange:
 
 
 def count_range(entries: Entries, key: str, values: Any, signal: Any) -> CountRange:
-    """Return the values of a counter (a signal of cantools).
+    """Return the range of a counter (a signal of cantools).
 
-    values: of the profile's entry key: lowest and highest, or their number from 0; None without one.
+    values: content of the profile's entry key: lowest and highest value, or their number from 0; None without one.
     """
     most = (1 << signal.length) - 1
     if values is None:
@@ -54,7 +55,7 @@ def count_range(entries: Entries, key: str, values: Any, signal: Any) -> CountRa
 
 
 def _of_database(signal: Any, most: int) -> CountRange:
-    """All values, where the database names no others that may be."""
+    """Return the database's range if it is usable, else all values of the bits."""
     limits = (signal.minimum, signal.maximum)
     if None in limits or not signal.scale or not all(map(is_finite, limits)):
         return CountRange(0, most, signal.length)
@@ -75,7 +76,7 @@ class CountWatch:
     def __init__(self, values: CountRange, may_learn: bool):
         self._values = values
         self._may_learn = may_learn
-        # The highest value that was reached by an increment.
+        # Highest value reached by an increment.
         self._highest = -1
         self._wrap: tuple[int, int] | None = None
         self._is_confirmed = False
@@ -109,7 +110,7 @@ class CountWatch:
     def _is_wrap(self, before: int, now: int) -> bool:
         decrease, most = (before, now), (1 << self._values.length) - 1
         is_known = decrease in ((most, 0), (self._values.high, self._values.low))
-        # Two frames in the wrong order are no wrap.
+        # Two frames in the wrong order are not a wrap.
         if not is_known and before - now <= 1:
             return False
         is_repeated = decrease in (self._wrap, self._newest_decrease)

@@ -1,4 +1,4 @@
-"""How often the messages of a profile come, beside what profile and database say."""
+"""Compares the cycle times of a profile's messages with profile and database."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from ..can_frame import CanFrame
 if TYPE_CHECKING:
     from ..profile import CarProfile
 
-# Times of frames scatter; their median over so many gaps does not.
+# Times of frames scatter; their median over this number of gaps is stable.
 _GAPS = 20
-# Cycles that are so far apart are two.
+# Cycles with at least this ratio count as different.
 _RATIO = 1.5
 _MS_PER_S = 1000.0
 
 
 class CycleCheck:
-    """Fed with every frame of the bus of the state. profile: none knows nothing."""
+    """Cycle check, updated with every frame of the bus of the state. profile: None checks nothing."""
 
     def __init__(self, profile: CarProfile | None = None):
         self._expected: dict[tuple[int, bool], tuple[str, float, str]] = {}
@@ -39,14 +39,14 @@ class CycleCheck:
         self._times_s = {key: collections.deque(maxlen=_GAPS + 1) for key in self._expected}
 
     def frame(self, frame: CanFrame, local_s: float) -> None:
-        """A frame of the bus, with its time by the clock that times the frames: simulated ones arrive faster."""
+        """Add a frame with its time by the clock that times the frames: simulated ones arrive faster."""
         times_s = self._times_s.get((frame.can_id, frame.is_extended))
         if times_s is not None:
             times_s.append(local_s)
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """A sentence for each message that comes otherwise."""
+        """Return a sentence for each message with an unexpected cycle."""
         return tuple(self._notices())
 
     def _notices(self) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""Signals beside the state of the locks, as a car's profile declares them: of any message, on any of its buses."""
+"""Further signals that a car's profile declares in addition to the lock state: of any message on any of its buses."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .stop_signals import KEY as STOP_KEY
 from .stop_signals import PLACE_KEYS, StopSignal, stop_signal, stop_tables
 
 SOURCES = (PASSIVE_ENTRY, KEY_BUTTON, HANDLE)
-# A body ECU tells a cause within some cycles of the change; a person who acts twice needs longer.
+# A body ECU reports a cause within some cycles of the change; a person needs longer for a second action.
 _WITHIN_S = 0.5
 _WITHIN_CYCLES = 2.0
 _MAX_WITHIN_S = 10.0
@@ -24,14 +24,14 @@ _KEY_KEYS = {"bus", "message", "signal", "under_test"}
 _COUNTER_KEYS = {"bus", "message", "signal", "values"}
 KEYS = ("buses", "causes", "cause_within_s", "cause_required", "doors", "key_number", STOP_KEY)
 
-# Entries of a profile with the values of its counters, by the entry with the counter.
+# Entry with the values of a counter, by the entry with the counter.
 VALUES_OF = {"alive_signal": "alive_values", "command_signal": "command_values"}
 
 
 @dataclass(frozen=True, eq=False)
 class CauseSignal:
-    """What made the locks move. sources: by raw value. idle: values that say nothing. stays: until the next change,
-    so that only what comes behind a change belongs to it; otherwise it is there for a moment about the change."""
+    """Signal with the cause of a lock change. sources: by raw value. idle: values without information. stays: the value
+    stays until the next change, so only values after a change belong to it; otherwise it is set briefly around it."""
 
     place: Place
     sources: dict[int, str]
@@ -41,7 +41,7 @@ class CauseSignal:
 
 @dataclass(frozen=True, eq=False)
 class DoorSignal:
-    """open: raw values of a door that is not closed."""
+    """Signal of a door. open: raw values of an open door."""
 
     name: str
     place: Place
@@ -50,12 +50,12 @@ class DoorSignal:
 
 @dataclass(frozen=True, eq=False)
 class Further:
-    """All of them.
+    """All further signals of a profile.
 
-    within_s: around a change, in which what belongs to it comes. is_required: a change whose cause is not listed counts
-    for nothing. key: number of the key that moved the locks; key_under_test: its value, None where any may be.
+    within_s: time before and after a change for the signals that belong to it. is_required: a change without a listed
+    cause is invalid. key: number of the key that moved the locks; key_under_test: its value, None for any key.
     counters: of changes or commands; alive: of the frames of their messages. buses: further ones, in the log's order.
-    stops: signals with which the robot must not move, next to the doors.
+    stops: signals that stop the robot, in addition to the doors.
     """
 
     causes: tuple[CauseSignal, ...] = ()
@@ -71,16 +71,16 @@ class Further:
 
     @property
     def sources(self) -> frozenset[str]:
-        """All causes that they can name."""
+        """All causes that the signals can name."""
         return frozenset(source for cause in self.causes for source in cause.sources.values())
 
     @property
     def settles_s(self) -> float:
-        """How long after a change all is known of it."""
+        """Time after a change until its facts are complete."""
         return self.within_s if self.causes or self.counters or self.key else 0.0
 
     def places(self) -> Iterator[Place]:
-        """All signals."""
+        """Yield all signals."""
         yield from (cause.place for cause in self.causes)
         yield from (door.place for door in self.doors)
         yield from (stop.place for stop in self.stops)
@@ -88,7 +88,7 @@ class Further:
 
 
 def read_further(entries: Entries, first_message: Any, cycle_s: float) -> Further:
-    """What a profile declares; first_message: that of the state. ConnectionFailed says what is wrong."""
+    """Read the further signals of a profile; ConnectionFailed states a fault. first_message: message of the state."""
     content, buses = entries.content, entries.buses
     reader = _Reader(entries, first_message)
     key = content.get("key_number")
@@ -104,7 +104,7 @@ def read_further(entries: Entries, first_message: Any, cycle_s: float) -> Furthe
 
 
 def is_elsewhere(entry: Any) -> bool:
-    """A signal of another message is a table, one of the state's message a name."""
+    """Return True for a signal of another message, which is a table; a signal of the state's message is a name."""
     return isinstance(entry, dict)
 
 
@@ -128,7 +128,7 @@ class _Reader:
         self._first = first_message
 
     def place(self, key: str, table: Any, allowed: set[str]) -> Place:
-        """A signal of the state's message, or of another one."""
+        """Return a signal of the state's message, or of another one."""
         if not isinstance(table, dict) or "signal" not in table or not set(table) <= allowed:
             raise self._entries.wrong(f"{key} must be a table of {', '.join(sorted(allowed))}.")
         bus = table.get("bus", FIRST_BUS)
@@ -140,7 +140,7 @@ class _Reader:
         return Place(bus, message, self._entries.signal(message, table["signal"], bus))
 
     def elsewhere(self, key: str) -> tuple[Place, ...]:
-        """Of a counter that is not in the state's message."""
+        """Return the signal of a counter outside the state's message; empty without one."""
         table = self._entries.content.get(key)
         if not isinstance(table, dict):
             return ()
@@ -149,7 +149,7 @@ class _Reader:
         return (replace(place, values=count_range(self._entries, VALUES_OF[key], values, place.declared)),)
 
     def cause(self, table: Any) -> CauseSignal:
-        """One of causes."""
+        """Return an item of the entry causes."""
         place = self.place("causes", table, _CAUSE_KEYS)
         sources = self._entries.decoded_words(
             "sources", self._entries.words("sources", table.get("sources"), SOURCES), (place.declared,))
@@ -157,17 +157,17 @@ class _Reader:
         return CauseSignal(place, sources, idle - set(sources), bool(table.get("stays", False)))
 
     def door(self, name: str, table: Any) -> DoorSignal:
-        """One of doors."""
+        """Return an item of the entry doors."""
         place = self.place("doors", table, _DOOR_KEYS)
         return DoorSignal(name, place, self._values("doors", table, "open", (1,), place))
 
     def stop(self, kind: str, table: dict[str, Any]) -> StopSignal:
-        """One of stop_signals."""
+        """Return an item of the entry stop_signals."""
         place = self.place(STOP_KEY, {name: table[name] for name in PLACE_KEYS & set(table)}, PLACE_KEYS)
         return stop_signal(self._entries, kind, table, place)
 
     def whole(self, key: str, table: dict[str, Any], name: str) -> int | None:
-        """A whole number, None when it is absent."""
+        """Return a whole number, None if absent."""
         value = table.get(name)
         if value is not None and not is_whole(value):
             raise self._entries.wrong(f"{key} has {name}: {value!r}; allowed is a whole number.")

@@ -1,4 +1,4 @@
-"""Entries of a car's profile: each is read with a sentence for whatever may be wrong with it."""
+"""Reads the entries of a car's profile; each fault is reported as a sentence."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,29 +15,30 @@ from ..database.codec import as_decoded
 from ..database.load import load_database
 
 Word = TypeVar("Word")
-# Of a text of a profile, which sentences quote: longer than any name, description or path to a database.
+# Maximum length of a profile's text, which sentences quote: longer than any name, description or path to a database.
 MAX_TEXT = 1000
 # The bus of the profile's own database; further ones have names.
 FIRST_BUS = ""
-# A state of some cars' signal: all but the driver's door are still locked.
+# State value of some cars: all doors but the driver's are locked.
 DRIVER_ONLY = "unlocked_driver"
 STATES = {**{state.value: state for state in LockState}, DRIVER_ONLY: LockState.UNLOCKED}
 
 
-# Folder in which databases are looked for that do not lie beside their profiles, for every command and the window.
+# Folder of databases that are not next to their profiles, for every command and the window.
 DATABASES_VARIABLE = "MTR_CAR_DATABASES"
-# Of the shipped profiles and their databases.
+# Folder of the shipped profiles and their databases.
 PROFILE_FOLDER = pathlib.Path(__file__).parent.parent / "profiles"
 
 
 def database_folders(profile_folder: pathlib.Path) -> tuple[pathlib.Path, ...]:
-    """Folders in which the databases of a profile in this folder may lie, in the order of the search."""
+    """Return the folders in which databases of a profile in this folder are searched, in this order."""
     elsewhere = os.environ.get(DATABASES_VARIABLE, "")
     return profile_folder, *((pathlib.Path(elsewhere),) if elsewhere else ()), PROFILE_FOLDER
 
 
 class Entries:
-    """content: of the YAML file at path. databases: folder of its databases, None for database_folders()."""
+    """Entries of a profile. content: of the YAML file at path. databases: folder of its databases, None for
+    database_folders()."""
 
     def __init__(self, path: pathlib.Path, content: Mapping[str, Any], databases: pathlib.Path | None = None):
         self.content = content
@@ -46,27 +47,27 @@ class Entries:
         self._databases: dict[str, CarDatabase] = {}
 
     def wrong(self, text: str) -> ConnectionFailed:
-        """What is wrong with the profile."""
+        """Return the exception that states a fault of the profile."""
         return ConnectionFailed(f"Car profile {self._path}: {text}")
 
     def states(self, table: Any) -> dict[int, LockState]:
-        """Lock state of each raw value; one for locked and one for unlocked at least."""
+        """Lock state of each raw value; at least one locked and one unlocked."""
         states = {raw: STATES[word] for raw, word in self.words("states", table, STATES).items()}
         if not _has_both(states):
             raise self.wrong("states must name a value for locked and one for unlocked.")
         return states
 
     def states_of(self, signals: Sequence[Any]) -> dict[int, LockState]:
-        """The entry states, with the raw values as they are decoded from the signals (cantools')."""
+        """Return the entry states, with the raw values as decoded from the signals (cantools')."""
         states = self.decoded_words("states", self.states(self.content["states"]), signals)
-        # Of the signals of several doors, some may have fewer values than the others.
+        # With one signal per door, some signals may have fewer values than others.
         if len(signals) == 1 and not _has_both(states):
             raise self.wrong(f"states names values for locked and unlocked that the signal {signals[0].name} of "
                              f"{signals[0].length} bits cannot carry.")
         return states
 
     def words(self, key: str, table: Any, allowed: Sequence[str] | Mapping[str, Any]) -> dict[int, str]:
-        """Word of each raw value that an entry lists."""
+        """Return the word of each raw value that an entry lists."""
         if not isinstance(table, dict):
             raise self.wrong(f"{key} must be a table from raw value to {_either(allowed)}.")
         for raw, word in table.items():
@@ -75,7 +76,7 @@ class Entries:
         return dict(table)
 
     def duration(self, key: str, limits_s: tuple[float, float], default_s: Any = None) -> Any:
-        """Time in s of an entry, the default when it is absent."""
+        """Return the time in s of an entry, or the default if it is absent."""
         if key not in self.content:
             return default_s
         time_s, (low_s, high_s) = self.content[key], limits_s
@@ -84,7 +85,7 @@ class Entries:
         return float(time_s)
 
     def flag(self, key: str) -> bool:
-        """An entry that is true or false, false when it is absent."""
+        """Return a boolean entry, False if absent."""
         return bool(self.content.get(key, False))
 
     @property
@@ -97,8 +98,8 @@ class Entries:
         return tuple(table)
 
     def database_path(self, bus: str = FIRST_BUS) -> pathlib.Path:
-        """Of a bus that is declared; ConnectionFailed for a name that leads out of the folders of databases: a profile
-        may come from somebody else, and its databases are copied into bundles."""
+        """Return the path of a declared bus' database. ConnectionFailed for a name outside the folders of databases,
+        because profiles may come from third parties and their databases are copied into bundles."""
         name = self.content["database"] if bus == FIRST_BUS else self.content["buses"][bus]
         try:
             paths = [below(folder, name) for folder in self._folders]
@@ -108,8 +109,8 @@ class Entries:
         return next((path for path in paths if is_file(path)), paths[0])
 
     def usable_databases(self) -> tuple[dict[str, pathlib.Path], dict[str, str]]:
-        """Databases of all buses, and why others are left out, by their names: only what can be read as a CAN database
-        is one, whatever the profile names."""
+        """Return the databases of all buses, and the reasons for omitting others, by their names. Only files that can
+        be read as CAN databases are included."""
         files: dict[str, pathlib.Path] = {}
         left_out: dict[str, str] = {}
         for bus in (*((FIRST_BUS,) if "database" in self.content else ()), *self.buses):
@@ -123,27 +124,27 @@ class Entries:
         return files, left_out
 
     def database(self, bus: str = FIRST_BUS) -> CarDatabase:
-        """Of CAN messages; for one of another kind an empty one, in which no message is found."""
+        """Return a bus' database of CAN messages; for a different kind an empty one, in which no message is found."""
         if bus not in self._databases:
             self._databases[bus] = load_database(self.database_path(bus))
         return self._databases[bus]
 
     def message(self, name: Any, bus: str = FIRST_BUS) -> Any:
-        """A message of a bus' database."""
+        """Return a message of a bus' database."""
         return self.database(bus).message(str(name))
 
     def signal(self, message: Any, name: Any, bus: str = FIRST_BUS) -> str:
-        """A signal of a message."""
+        """Return the name of a message's signal as in the database."""
         return self.database(bus).signal(message, str(name))
 
     @staticmethod
     def decoded(raw: int, signals: Iterable[Any]) -> frozenset[int]:
-        """A raw value that an entry lists, as it is decoded from signals (cantools'); empty when none can carry it."""
+        """Return a listed raw value as decoded from the signals (cantools'); empty if no signal can carry it."""
         values = (as_decoded(signal, raw) for signal in signals)
         return frozenset(value for value in values if value is not None)
 
     def decoded_words(self, key: str, words: Mapping[int, Word], signals: Sequence[Any]) -> dict[int, Word]:
-        """A table of raw values, as they are decoded from signals."""
+        """Return a table of raw values as decoded from the signals."""
         found: dict[int, Word] = {}
         for raw, word in words.items():
             for value in self.decoded(raw, signals):
@@ -157,7 +158,7 @@ def _has_both(states: Mapping[int, LockState]) -> bool:
 
 
 def is_file(path: pathlib.Path) -> bool:
-    """True for a file that is there; whatever the system cannot even look for is not."""
+    """Return True for an existing file; False also if the system cannot check the path."""
     try:
         return path.is_file()
     except OSError:
@@ -165,7 +166,7 @@ def is_file(path: pathlib.Path) -> bool:
 
 
 def has_long_text(value: Any) -> bool:
-    """True when a value of a profile has a text, in tables and lists too, that is longer than MAX_TEXT."""
+    """Return True if a value of a profile, or of its nested tables and lists, has a text longer than MAX_TEXT."""
     if isinstance(value, dict):
         return any(has_long_text(each) for pair in value.items() for each in pair)
     if isinstance(value, list):
@@ -174,7 +175,7 @@ def has_long_text(value: Any) -> bool:
 
 
 def is_whole(value: Any) -> bool:
-    """A number without a fraction, which YAML's yes and no are not."""
+    """Return True for a number without a fraction; YAML's yes and no are not numbers."""
     return isinstance(value, int) and not isinstance(value, bool)
 
 

@@ -21,7 +21,7 @@ class Place:
 
     @property
     def key(self) -> MessageKey:
-        """Which frames carry it."""
+        """Key of the frames that carry the signal."""
         return self.bus, self.message.frame_id, self.message.is_extended_frame
 
     @property
@@ -31,5 +31,5 @@ class Place:
 
     @property
     def counts(self) -> CountRange:
-        """Of a counter: the values that it counts through."""
+        """Range of a counter."""
         return self.values or CountRange(0, (1 << self.declared.length) - 1, self.declared.length)

@@ -1,4 +1,4 @@
-"""Frames of a Car as its profile describes them, for a simulated Car that speaks on a bus."""
+"""Frames of a simulated Car on a bus, built from its profile."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,28 +17,28 @@ from .declared import CauseSignal
 from .entries import FIRST_BUS
 from .places import MessageKey
 
-# For so long the flag of a change and a cause that does not stay are set: some cycles of every message.
+# Time for which the flag of a change and a temporary cause are set: some cycles of every message.
 _SHOWN_S = 0.1
 _FEWEST_FRAMES = 3
-# For so long a Car that tells its state only on change is locked again and again before a test.
+# Time for which a Car with a state only on change repeats locking before a test.
 _ANNOUNCED_S = 1.0
-# There is always something on a bus.
+# Background frames, because a real bus is never empty.
 BACKGROUND_ID = 0x001
 
 
 class SpokenFrame(NamedTuple):
-    """A frame, and the name of the bus that it is for."""
+    """A frame and the name of its bus."""
 
     bus: str
     message: can.Message
 
 
 class SpokenFrames:
-    """One cycle after the other; all signals that the profile does not name are 0.
+    """Generator of the frames, cycle by cycle; all signals that the profile does not name are 0.
 
     Attributes:
-        is_locked, source: what the next cycle says; source: as in CarEvent.
-        stops, open_doors: raw values of stop signals by kind, where they are not of a parked Car, and names of open
+        is_locked, source: content of the next cycle; source: as in CarEvent.
+        stops, open_doors: raw values of stop signals by kind, if different from a parked Car's, and names of open
             doors.
     """
 
@@ -52,18 +52,18 @@ class SpokenFrames:
         self._sent: collections.Counter[MessageKey] = collections.Counter()
         self._is_told = False
         self._distance_raw: int | None = None
-        # The state first: what belongs to a change comes with it or behind it.
+        # The state comes first: signals of a change are sent together with it or after it.
         self._messages: dict[MessageKey, Any] = {
             (FIRST_BUS, profile.message.frame_id, profile.message.is_extended_frame): profile.message}
         self._messages.update((place.key, place.message) for place in profile.further.places())
 
     @property
     def is_fd(self) -> bool:
-        """True when one of the messages needs CAN FD."""
+        """True if one of the messages needs CAN FD."""
         return any(message.is_fd or message.length > 8 for message in self._messages.values())
 
     def next(self) -> Iterator[SpokenFrame]:
-        """The frames of the next cycle."""
+        """Yield the frames of the next cycle."""
         self._cycles += 1
         self._shown = max(self._shown - 1, 0)
         if self.is_locked is not self._was_locked:
@@ -80,7 +80,7 @@ class SpokenFrames:
         self._is_told = self._profile.is_only_on_change and is_begun
 
     def _sign_of_life(self) -> Iterator[SpokenFrame]:
-        """Yield what is sent in each cycle next to a state that is sent only on change."""
+        """Yield the cyclic frames that accompany a state that is sent only on change."""
         message = self._profile.liveness
         if message is None:
             yield SpokenFrame(FIRST_BUS, can.Message(arbitration_id=BACKGROUND_ID, is_extended_id=False))
@@ -129,7 +129,7 @@ class SpokenFrames:
                 yield cause.place.signal, self._cause(cause)
 
     def _stops(self, message: Any) -> Iterator[tuple[str, int]]:
-        """Doors, and signals that stop the robot."""
+        """Yield the values of doors and of signals that stop the robot."""
         for door in self._profile.further.doors:
             if door.place.message is message:
                 yield door.place.signal, min(door.open) if door.name in self.open_doors else _other_than(door.open)
@@ -138,7 +138,7 @@ class SpokenFrames:
                 yield stop.place.signal, self.stops.get(stop.kind, min(stop.parked))
 
     def _state(self, sent: int) -> Iterator[tuple[str, int]]:
-        """sent: frames of the message, this one included."""
+        """Yield the values of the state's message. sent: frames of the message, including this one."""
         profile = self._profile
         raw = state_raw(profile, self.is_locked)
         yield from ((signal, raw) for signal in (profile.door_signals.values() or (profile.signal,)))
@@ -161,7 +161,7 @@ def _sent(message: Any, data: bytes) -> can.Message:
 
 
 def state_raw(profile: CarProfile, is_locked: bool) -> int:
-    """Value of a state; of all doors where there is one for the driver's alone."""
+    """Return the raw value of a state, of all doors if the driver's door has a separate value."""
     wanted = LockState.LOCKED if is_locked else LockState.UNLOCKED
     raws = [raw for raw, state in profile.states.items() if state is wanted]
     if not raws:

@@ -1,4 +1,4 @@
-"""Buses that carry the message of the state, and what is wrong when the profile expects it on another one."""
+"""Detects the buses that carry the message of the state, and reports if it is not on the expected one."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,24 +13,24 @@ if TYPE_CHECKING:
 
 
 class StateBuses:
-    """Fed with every frame. Watches the message of the state, and the one whose silence is reported in its place."""
+    """Watch of the state's message and its liveness substitute, updated with every frame."""
 
     def __init__(self, profile: CarProfile):
         self._profile = profile
-        # An ECU that is polled is asked on the first bus alone.
+        # A polled ECU is queried only on the first bus.
         watched = (profile.message, profile.liveness) if profile.poll is None else ()
         self._watched: dict[tuple[int, bool], Any] = {_key(each): each for each in watched if each is not None}
         self._seen: dict[tuple[int, bool], set[str]] = collections.defaultdict(set)
 
     def frame(self, frame: CanFrame) -> None:
-        """Note the bus of a frame."""
+        """Record the bus of a frame."""
         if (frame.can_id, frame.is_extended) in self._watched:
             self._seen[frame.can_id, frame.is_extended].add(frame.bus)
 
     def elsewhere(self, is_silent: bool) -> str:
-        """Return a sentence when a message comes, but only on another bus; empty otherwise.
+        """Return a sentence if a message arrives, but only on another bus; empty otherwise.
 
-        is_silent: a message that has to come again and again is missing on the first bus.
+        is_silent: a cyclic message is missing on the first bus.
         """
         for key, message in self._watched.items():
             is_missing = is_silent or (self._profile.is_only_on_change and message is self._profile.message)
@@ -51,7 +51,7 @@ class StateBuses:
 
     @property
     def notices(self) -> tuple[str, ...]:
-        """A sentence for each further bus with the message of the state, which the first bus carries, too."""
+        """Return a sentence for each further bus that carries the message of the state in addition to the first one."""
         message = self._profile.message
         names = sorted(self._others() & set(self._profile.further.buses))
         return tuple(f"Message {message.name} (id 0x{message.frame_id:X}) comes on the bus of the state and on the bus "
@@ -60,7 +60,8 @@ class StateBuses:
 
     @property
     def several_channels(self) -> str:
-        """A sentence on a log with the message of the state on channels that the profile does not name, or empty."""
+        """Return a sentence on a log with the message of the state on channels that the profile does not name, or
+        empty."""
         unnamed = sorted(self._others() - set(self._profile.further.buses))
         if not unnamed:
             return ""
@@ -70,7 +71,7 @@ class StateBuses:
                 "(buses).")
 
     def _others(self) -> set[str]:
-        """Further buses with the message of the state, if the first one carries it."""
+        """Return the further buses with the message of the state, if the first one carries it."""
         seen = self._seen.get(_key(self._profile.message), set()) if self._profile.poll is None else set()
         return seen - {FIRST_BUS} if FIRST_BUS in seen else set()
 

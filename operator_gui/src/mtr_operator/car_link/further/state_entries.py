@@ -1,4 +1,4 @@
-"""Entries of a profile on the message of the state: signals, counters, and the way it is sent."""
+"""Entries of a profile on the message of the state: signals, counters and transmission."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ WITNESSES = ("alive_signal", "command_signal", "changed_signal")
 ONLY_ON_CHANGE, LIVENESS = "sent_only_on_change", "liveness_message"
 _MIN_CYCLE_S = 0.001
 _MAX_CYCLE_S = 10.0
-# Of a bus whose state is sent only on change: such a time apart are the frames of any bus that is alive.
+# Expected frame interval of a live bus, if the state is sent only on change.
 _BUS_CYCLE_S = 0.1
 
 
 def witnesses(entries: Entries, message: Any) -> dict[str, Any]:
-    """Counters and flag of the state's own message, with the values of the counters."""
+    """Return counters and flag of the state's own message, with the ranges of the counters."""
     content = entries.content
     names = {key: entries.signal(message, content[key]) for key in WITNESSES
              if key in content and not is_elsewhere(content[key])}
@@ -42,12 +42,12 @@ def signal_names(entries: Entries, message: Any) -> dict[str, str]:
 
 
 def driver_only(content: Mapping[str, Any]) -> frozenset[int]:
-    """Raw values with which all but the driver's door are locked."""
+    """Return the raw values with which only the driver's door is unlocked."""
     return frozenset(raw for raw, word in content["states"].items() if word == DRIVER_ONLY)
 
 
 def sending(entries: Entries, message: Any) -> dict[str, Any]:
-    """Return the fields of CarProfile on how the message is sent."""
+    """Return the fields of CarProfile on the transmission of the message."""
     is_only_on_change = entries.flag(ONLY_ON_CHANGE)
     liveness = entries.content.get(LIVENESS)
     if liveness is not None and not is_only_on_change:

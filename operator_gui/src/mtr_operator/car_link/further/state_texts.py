@@ -15,7 +15,7 @@ _WORDS = {LockState.UNLOCKED: re.compile(r"(?i)(?<![a-z])(unlock|not?[ _-]?lock|
 
 
 def contradictions(profile: CarProfile) -> Iterator[str]:
-    """Sentences on values that the database describes as the opposite state: one of the two is wrong."""
+    """Yield sentences on values that the database describes as the opposite state: one of the two is wrong."""
     names = profile.door_signals.values() or [profile.signal]
     for signal in (each for each in profile.message.signals if each.name in names):
         for raw, text in (signal.choices or {}).items():

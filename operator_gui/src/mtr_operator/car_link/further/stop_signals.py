@@ -18,8 +18,8 @@ _KEYS = PLACE_KEYS | {"parked", "unknown"}
 
 @dataclass(frozen=True, eq=False)
 class StopSignal:
-    """kind: see domain.supervision.car_signals. parked: raw values of a parked Car, with which the robot may move.
-    unknown: values without information. Any other value stops the robot."""
+    """Signal that stops the robot. kind: see domain.supervision.car_signals. parked: raw values of a parked Car, with
+    which the robot may move. unknown: values without information. Any other value stops the robot."""
 
     kind: str
     place: Place
@@ -28,7 +28,7 @@ class StopSignal:
 
 
 def stop_tables(entries: Entries) -> dict[str, dict[str, Any]]:
-    """The entry stop_signals by kind; ConnectionFailed says what is wrong with it."""
+    """Return the entry stop_signals by kind; ConnectionFailed states a fault."""
     table = entries.content.get(KEY, {})
     if not isinstance(table, dict) or not set(table) <= set(KINDS):
         raise entries.wrong(f"{KEY} must be a table of {', '.join(KINDS)}.")
@@ -42,7 +42,7 @@ def stop_tables(entries: Entries) -> dict[str, dict[str, Any]]:
 
 
 def stop_signal(entries: Entries, kind: str, table: dict[str, Any], place: Place) -> StopSignal:
-    """One of them; values as they are decoded."""
+    """Return one signal, with the values as decoded."""
     parked, unknown = (_values(entries, kind, name, table.get(name, []), place) for name in ("parked", "unknown"))
     if not parked:
         raise entries.wrong(f"{kind} of {KEY} lists no parked value that the signal {place.signal} can carry.")

@@ -1,4 +1,4 @@
-"""Follows the signals that stop the robot: those of stop_signals, and the doors of a profile."""
+"""Follows the signals that stop the robot: stop_signals and doors of a profile."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..database.codec import SignalReader
 from .declared import Further
 from .places import MessageKey, Place
 
-# A message that was silent for so long, or for three of its own cycles, leaves a clear signal unknown.
+# After a silence of this long or three of its own cycles, a clear signal becomes unknown.
 SILENCE_LIMIT_S = 2.0
 _CYCLE_LIMIT = 3.0
 _MS_PER_S = 1000.0
@@ -21,7 +21,7 @@ _MS_PER_S = 1000.0
 
 @dataclass
 class _Followed:
-    """limit_s: silence after which a clear state is unknown."""
+    """State of one signal. limit_s: silence after which a clear state is unknown."""
 
     kind: str
     name: str
@@ -32,14 +32,15 @@ class _Followed:
     seen_s: float = -math.inf
 
     def now(self, local_s: float) -> CarSignal:
-        """An active state lasts until the signal takes it back, however silent it is."""
+        """Return the current state; an active state persists over silence until the signal clears it."""
         is_old = self.state is SignalState.CLEAR and not local_s - self.seen_s <= self.limit_s
         source = f"{self.place.signal} of {self.place.message.name}"
         return CarSignal(self.kind, source, SignalState.UNKNOWN if is_old else self.state, self.name)
 
 
 class StopWatch:
-    """Fed with every frame in the order of arrival, with local times of the clock that times the first bus."""
+    """States of all signals, updated with every frame in the order of arrival. Local times are of the clock that times
+    the first bus."""
 
     def __init__(self, further: Further):
         stops = [_Followed(each.kind, "", each.place, _judge(each.parked, each.unknown), _limit_s(each.place))
@@ -52,19 +53,19 @@ class StopWatch:
             self._readers[each.place.key].append((SignalReader(each.place.message, (each.place.signal,)), each))
 
     def restart(self) -> None:
-        """The adapter was reopened: nothing is known until the next frames."""
+        """Restart after the adapter was reopened: all states are unknown until the next frames."""
         for each in self._all:
             each.state, each.seen_s = SignalState.UNKNOWN, -math.inf
 
     def frame(self, key: MessageKey, data: bytes, local_s: float) -> None:
-        """Take a frame."""
+        """Add a frame."""
         for reader, followed in self._readers.get(key, ()):
             value = reader.values(data).get(followed.place.signal)
             if value is not None:
                 followed.state, followed.seen_s = followed.judge(value), local_s
 
     def signals(self, local_s: float) -> tuple[CarSignal, ...]:
-        """All of them as of a local time; NaN for a bus that has not sent a frame."""
+        """Return all signals at a local time; NaN for a bus without frames so far."""
         return tuple(each.now(local_s) for each in self._all)
 
 

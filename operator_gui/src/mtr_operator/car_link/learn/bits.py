@@ -1,4 +1,4 @@
-"""Which bits of a message stood still during each stay, and what they were then."""
+"""Constant bits of a message during each stay, and their values."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ class Held(NamedTuple):
 
 
 def held(message: Message, stays: Sequence[Stay]) -> list[Held]:
-    """For each stay. A message that is sent only when something changes is taken as it was last, and as zeros before it
-    came first."""
+    """Return the data of each stay. For a message that is sent only on change the last data applies, and zeros before
+    its first frame."""
     times_s = [sample.time_s for sample in message.samples]
     everything = (1 << BITS_PER_BYTE * message.length) - 1
     found = []
@@ -39,7 +39,7 @@ def held(message: Message, stays: Sequence[Stay]) -> list[Held]:
 
 
 def still_bits(parts: Sequence[Held]) -> int:
-    """Mask of the bits that stood still in every stay."""
+    """Return the mask of the bits that were constant in every stay."""
     mask = -1
     for part in parts:
         mask &= part.still
@@ -47,7 +47,7 @@ def still_bits(parts: Sequence[Held]) -> int:
 
 
 def ones(mask: int) -> Iterator[int]:
-    """Numbers of the bits that are set."""
+    """Yield the numbers of the set bits."""
     bit = 0
     while mask >> bit:
         if mask >> bit & 1:
@@ -56,12 +56,12 @@ def ones(mask: int) -> Iterator[int]:
 
 
 def field_of(value: int, start: int, width: int) -> int:
-    """Value of some bits."""
+    """Return the value of some bits."""
     return value >> start & (1 << width) - 1
 
 
 def changes(samples: Sequence[Sample], start: int, width: int) -> list[tuple[float, int]]:
-    """When some bits became another value, and which; the first one is what they began with."""
+    """Return times and values of the changes of some bits; the first item is the initial value."""
     found: list[tuple[float, int]] = []
     for sample in samples:
         value = field_of(sample.value, start, width)

@@ -1,4 +1,4 @@
-"""The command that learns a new Car's profile: it asks a person to lock and unlock the Car, and listens to its bus."""
+"""Command that learns a new Car's profile: it prompts a person to lock and unlock the Car, and records its bus."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def learn(options: argparse.Namespace) -> None:
 
 def learn_by(listen: Listen, options: argparse.Namespace, stdin: TextIO | None = None,
              clock: Callable[[], float] = time.monotonic, wait: Callable[[float], None] = time.sleep) -> None:
-    """Learn, print what was found and write the profile; stdin, clock, wait: of the process by default."""
+    """Learn, print the findings and write the profile; stdin, clock, wait: of the process by default."""
     names = DatabaseNames(options.database) if options.database else None
     check_name(options.out, has_database=names is not None)
     learning = Learning(listen, options.prompts, clock)
@@ -56,7 +56,7 @@ def learn_by(listen: Listen, options: argparse.Namespace, stdin: TextIO | None =
 
 
 def _listen(learning: Learning, stdin: TextIO, wait: Callable[[float], None]) -> None:
-    """Ask until all is recorded; Enter is the answer to a question."""
+    """Prompt until the recording is complete; Enter answers a prompt."""
     session, before = learning.session, Stage.OPENING
     learning.start()
     while (stage := learning.tick()) is not Stage.COMPLETE:

@@ -13,40 +13,40 @@ from .recording import Message
 _MIN_WIDTH = 2
 # Lost frames make a counter jump.
 _MIN_SHARE = 0.9
-# Times that the same decrease repeats before it counts as the wrap.
+# Repetitions of the same decrease before it counts as the wrap.
 _MIN_WRAPS = 2
-# Frames of which the rest was seen before, so that the same check sum had to follow.
+# Minimum number of frames whose other bytes repeat, so that the same check sum must follow.
 _MIN_REPEATS = 16
-# More of them say nothing new, and take time.
+# Maximum number of frames: more add no information and cost time.
 _MIN_FRAMES, _MAX_FRAMES = 32, 2000
 
 
 class Field(NamedTuple):
-    """Some neighbouring bits of one byte; start: number of the lowest one, from 0 in the first byte."""
+    """Neighbouring bits of one byte; start: number of the lowest one, from 0 in the first byte."""
 
     start: int
     width: int
 
     @property
     def byte(self) -> int:
-        """In which byte, from 0."""
+        """Number of the byte, from 0."""
         return self.start // BITS_PER_BYTE
 
     def holds(self, bit: int) -> bool:
-        """True when that bit is one of them."""
+        """Return True if the field contains this bit."""
         return self.start <= bit < self.start + self.width
 
 
 class FrameCounter(NamedTuple):
-    """field: the bits. values: lowest and highest, of a counter that leaves out values of its bits; None for any
-    other."""
+    """Frame counter. field: its bits. values: lowest and highest value of a counter that omits values of its bits; None
+    for any other."""
 
     field: Field
     values: tuple[int, int] | None = None
 
 
 def frame_counter(message: Message) -> FrameCounter | None:
-    """The bits that count the frames of a message; None when none do."""
+    """Return the bits that count the frames of a message; None without any."""
     values = [sample.value for sample in message.samples[:_MAX_FRAMES]]
     if len(values) < _MIN_FRAMES or not message.length:
         return None
@@ -56,15 +56,15 @@ def frame_counter(message: Message) -> FrameCounter | None:
 
 
 def change_counter(parts: Sequence[Held], length: int) -> Field | None:
-    """The bits that stand still, and go on by one from each stay to the next; the widest; None when none do."""
+    """Return the widest field that is constant in each stay and increments from stay to stay; None without one."""
     found = [field for field in _fields(length) if _counts_stays(parts, field)]
     return max(found, key=lambda field: field.width) if found else None
 
 
 def check_sum(message: Message, counter: Field | None) -> int | None:
-    """Number of the byte that changes with each count, and is always the same with the same rest; None when none is.
+    """Return the number of the byte that changes with the counter and repeats with the other bytes; None without one.
 
-    counter: what counts the frames; without one nothing that changes is told from a measured value.
+    counter: of the frames; without one a check sum cannot be distinguished from a measured value.
     """
     if counter is None:
         return None
@@ -73,21 +73,21 @@ def check_sum(message: Message, counter: Field | None) -> int | None:
 
 
 def _fields(length: int) -> list[Field]:
-    """All places for a counter."""
+    """Return all candidate fields for a counter."""
     return [Field(byte * BITS_PER_BYTE + low, width) for byte in range(length)
             for low in range(BITS_PER_BYTE - _MIN_WIDTH + 1) for width in range(_MIN_WIDTH, BITS_PER_BYTE - low + 1)]
 
 
 def _checked(message: Message, found: FrameCounter) -> FrameCounter | None:
-    """The counter as a test would follow it over the whole recording, without values when they do not fit; None when
-    most of its frames would not be understood either way."""
+    """Return the counter as a test would follow it over the whole recording, without a range if the range does not fit.
+    None if a test would not understand most of its frames either way."""
     parts = [field_of(sample.value, *found.field) for sample in message.samples]
     return next((each for each in (found, FrameCounter(found.field)) if _share_of_steps(parts, each) >= _MIN_SHARE),
                 None)
 
 
 def _share_of_steps(parts: Sequence[int], counter: FrameCounter) -> float:
-    """Part of the steps that are increments or wraps for CountWatch."""
+    """Return the share of the steps that CountWatch accepts as increments or wraps."""
     width = counter.field.width
     low, high = counter.values or (0, (1 << width) - 1)
     watch = CountWatch(CountRange(low, high, width, counter.values is not None), may_learn=True)
@@ -95,14 +95,14 @@ def _share_of_steps(parts: Sequence[int], counter: FrameCounter) -> float:
 
 
 def _shares(values: Sequence[int], field: Field) -> Iterator[tuple[float, int, bool, FrameCounter]]:
-    """Part of the steps that are increments or wraps, width, whether through all values, and counter."""
+    """Yield the share of increments and wraps, the width, True for a full range, and the counter."""
     parts = [field_of(value, field.start, field.width) for value in values]
     steps = collections.Counter(zip(parts, parts[1:]))
     counted = sum(number for (before, now), number in steps.items() if now == before + 1)
     most = (1 << field.width) - 1
     yield (counted + steps[most, 0]) / (len(parts) - 1), field.width, True, FrameCounter(field)
     decreases = ((number, before, now) for (before, now), number in steps.items() if now < before)
-    # The most frequent decrease, so that a single unusual value does not count as an end.
+    # The most frequent decrease is used, so that a single unusual value does not count as an end.
     wraps, high, low = max(decreases, default=(0, 0, 0))
     # The highest bit changes, so it belongs to the counter.
     if (low, high) != (0, most) and low <= most >> 1 < high and wraps >= _MIN_WRAPS:

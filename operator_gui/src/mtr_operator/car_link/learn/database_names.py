@@ -1,4 +1,4 @@
-"""What a CAN database calls the bits that followed the locks, so that a profile can name its message and signal."""
+"""Names of the bits that followed the locks in a CAN database, so that a profile can use its message and signal."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Named(NamedTuple):
 
 
 class DatabaseNames:
-    """path: of the database, of any kind that cantools reads; ConnectionFailed says what is wrong with it."""
+    """Names in a database. path: of any kind that cantools reads; ConnectionFailed states a fault."""
 
     def __init__(self, path: pathlib.Path):
         self.path = path
@@ -31,7 +31,7 @@ class DatabaseNames:
         self._messages = {(each.frame_id, each.is_extended_frame): each for each in self._database.messages}
 
     def named(self, candidate: Candidate) -> Named | None:
-        """The signal that holds most of a candidate's bits, and was one value in each state; None without one."""
+        """Return the signal with most of a candidate's bits and one value in each state; None without one."""
         message = self._messages.get(candidate.id)
         if message is None:
             return None
@@ -45,7 +45,7 @@ class DatabaseNames:
         return Named(message.name, name, values)
 
     def counter(self, candidate: Candidate, least: Field | None, most: Field | None) -> str:
-        """Name of the signal of the candidate's message that is the first of these bits at least, and the others at
+        """Return the name of the signal of the candidate's message that contains the bits of least and lies within
         most; empty without one."""
         if least is None or most is None:
             return ""
@@ -56,11 +56,11 @@ class DatabaseNames:
 
 
 def bits_of(signal: Any) -> set[int]:
-    """Numbers of a signal's (cantools') bits, from 0 in the lowest bit of the first byte, as in Field."""
+    """Return the numbers of a signal's (cantools') bits, from 0 in the lowest bit of the first byte, as in Field."""
     if signal.byte_order == "little_endian":
         return set(range(signal.start, signal.start + signal.length))
     found, bit = set(), signal.start
-    # From the highest bit down, and on in the highest of the next byte, as in the format DBC.
+    # The order descends from the highest bit and continues at the highest bit of the next byte, as in the DBC format.
     for _ in range(signal.length):
         found.add(bit)
         bit += -1 if bit % BITS_PER_BYTE else 2 * BITS_PER_BYTE - 1
@@ -72,7 +72,7 @@ def _bits(field: Field) -> set[int]:
 
 
 def _values(message: Any, name: str, candidate: Candidate) -> dict[LockState, int] | None:
-    """Of a signal, raw; None when it was several values in a state, or the same in both."""
+    """Return the raw values of a signal; None if it had several values in a state, or the same in both."""
     reader, found = SignalReader(message, (name,)), dict[LockState, set[int]]()
     for state, data in candidate.data:
         raw = reader.values(data).get(name)

@@ -1,5 +1,5 @@
-"""Ranks what follows the locks: which bits of which messages were one way while the Car was locked, and the other way
-while it was unlocked."""
+"""Ranks the bits of messages that follow the locks: one value while the Car was locked, the other while it was
+unlocked."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from .bits import BITS_PER_BYTE, Held, changes, field_of, held, ones, still_bits
 from .counters import Field, change_counter, check_sum, frame_counter
 from .recording import Message, Recording, Stay
 
-# Further ones are more likely mirrors, lights and counters than the locks.
+# Lower-ranked bits are more likely mirrors, lights and counters than the locks.
 MAX_SHOWN = 20
-# A profile needs a message that comes again and again, see profile.py.
+# A profile needs a cyclic message, see profile.py.
 _MAX_CYCLE_S = 10.0
-# Frames between the cyclic ones, by this part of the cycle, are sent because of the change.
+# Frames that precede the next cyclic one by this part of the cycle are sent because of the change.
 _EARLY = 0.25
 
 
@@ -30,12 +30,12 @@ class Candidate:
     """Bits that followed the locks.
 
     id: of the message. field: the bits. values: of the field, by the state of the locks. cycle_s: of the message.
-    followed: stays in which they were as in all others of that state. extra: further changes between the stays.
-    lag_s: after the earliest candidate's change, middle of all prompts; None when it cannot be told.
-    is_cyclic: the message comes often enough for a profile. on_change: it is also sent at once.
-    counter_values: lowest and highest value of counter, None for all that its bits have.
-    counter, changes_counter: bits of the same message that count its frames, and the changes; None when none do.
-    sum_byte: number of the byte that is a check sum, None when none is. data: of the message at the end of each stay.
+    followed: stays with the value of the other stays in that state. extra: further changes between the stays. lag_s:
+    after the earliest candidate's change, median of all prompts; None if unknown.
+    is_cyclic: the message is frequent enough for a profile. on_change: it is also sent at once.
+    counter_values: lowest and highest value of counter, None for the full range of its bits.
+    counter, changes_counter: bits of the same message that count its frames, and the changes; None without any.
+    sum_byte: number of the check sum byte, None without one. data: of the message at the end of each stay.
     """
 
     id: MessageId
@@ -56,10 +56,11 @@ class Candidate:
 
 
 class Findings(NamedTuple):
-    """candidates: the most likely one first. stays: how many there were. messages, frames: what came in all.
+    """Result of a recording. candidates: the most likely one first. stays: their number. messages, frames: numbers of
+    received ones.
 
-    by_chance: how many bits would be expected to follow every prompt if those that stand still between the prompts were
-    coins.
+    by_chance: expected number of bits that would follow every prompt if the bits that are constant between prompts were
+    random.
     """
 
     candidates: tuple[Candidate, ...]
@@ -70,12 +71,12 @@ class Findings(NamedTuple):
 
     @property
     def best(self) -> Candidate | None:
-        """What a profile can be made of; None when nothing followed every prompt in a message that comes often."""
+        """Candidate for a profile; None if no bit followed every prompt in a frequent message."""
         return next((each for each in self.candidates if each.followed == self.stays and each.is_cyclic), None)
 
     @property
     def proposal(self) -> Candidate:
-        """The best one; NothingLearned says why there is none."""
+        """Best candidate; NothingLearned states why there is none."""
         if self.frames == 0:
             raise NothingLearned("Nothing came over the bus; check bit rate, plug and whether the Car is awake.")
         if self.best is None:
@@ -85,7 +86,7 @@ class Findings(NamedTuple):
 
 
 def findings_of(recording: Recording) -> Findings:
-    """What a complete recording shows."""
+    """Evaluate a complete recording."""
     messages, stays = recording.messages(), tuple(recording.stays)
     found: list[Candidate] = []
     coins = 0
@@ -105,7 +106,7 @@ def _rank(candidate: Candidate) -> tuple[object, ...]:
 
 
 def _coins(parts: Sequence[Held]) -> int:
-    """Bits that stood still in every stay, and were not the same in all."""
+    """Return the number of bits that were constant in every stay, but not the same in all."""
     moved = 0
     for part in parts[1:]:
         moved |= part.value ^ parts[0].value
@@ -113,7 +114,7 @@ def _coins(parts: Sequence[Held]) -> int:
 
 
 def _candidates(message: Message, parts: Sequence[Held], stays: Sequence[Stay]) -> Iterator[Candidate]:
-    """Bits of a message that followed all prompts but one at most; neighbours that followed all are one field."""
+    """Yield bits of a message that followed all prompts but at most one; neighbours that followed all are one field."""
     still = still_bits(parts)
     counting = change_counter(parts, message.length)
     scores = {bit: _followed(parts, stays, bit) for bit in ones(still)
@@ -137,7 +138,7 @@ def _candidates(message: Message, parts: Sequence[Held], stays: Sequence[Stay]) 
 
 
 def _ends(message: Message, stays: Sequence[Stay]) -> Iterator[tuple[LockState, bytes]]:
-    """State and newest data at the end of each stay; nothing of one before the message came first."""
+    """Yield the state and the newest data at the end of each stay; stays before the first frame are skipped."""
     times_s = [sample.time_s for sample in message.samples]
     for stay in stays:
         end = bisect.bisect_right(times_s, stay.end_s)
@@ -147,19 +148,19 @@ def _ends(message: Message, stays: Sequence[Stay]) -> Iterator[tuple[LockState, 
 
 
 def _values(parts: Sequence[Held], stays: Sequence[Stay], field: Field) -> dict[LockState, int]:
-    """What a field mostly was in each state."""
+    """Return the most frequent value of a field in each state."""
     return {state: statistics.mode(field_of(part.value, *field) for part, stay in zip(parts, stays)
                                    if stay.state is state) for state in dict.fromkeys(stay.state for stay in stays)}
 
 
 def _followed(parts: Sequence[Held], stays: Sequence[Stay], bit: int) -> int:
-    """In how many stays a bit was as it mostly is in stays of that state; 0 for one that never changed."""
+    """Return the number of stays in which a bit had the usual value of that state; 0 for a bit that never changed."""
     is_one = [bool(part.value >> bit & 1) is (stay.state is LockState.UNLOCKED) for part, stay in zip(parts, stays)]
     return 0 if len({part.value >> bit & 1 for part in parts}) == 1 else max(sum(is_one), len(parts) - sum(is_one))
 
 
 def _joined(bits: Sequence[int]) -> list[Field]:
-    """Neighbours within a byte as one field."""
+    """Join neighbours within a byte to one field."""
     fields: list[Field] = []
     for bit in bits:
         last = fields[-1] if fields else None
@@ -171,19 +172,20 @@ def _joined(bits: Sequence[int]) -> list[Field]:
 
 
 def _cycle(message: Message) -> float:
-    """The middle one of all times between two frames, in s; infinite when there are none."""
+    """Return the median time between two frames, in s; infinite without any."""
     times_s = [sample.time_s for sample in message.samples]
     gaps_s = [after - before for before, after in zip(times_s, times_s[1:])]
     return statistics.median(gaps_s) if gaps_s else float("inf")
 
 
 def _is_in_each(message: Message, stays: Sequence[Stay]) -> bool:
-    """A message that comes only with a change would be missed by a profile, which takes its silence for trouble."""
+    """Return True if the message is sent in each stay. One that is sent only on change would count as silent in a
+    test."""
     return all(any(stay.begin_s <= sample.time_s <= stay.end_s for sample in message.samples) for stay in stays)
 
 
 def _is_sent_on_change(message: Message, moves: Sequence[tuple[float, int]], cycle_s: float) -> bool:
-    """Frames that bring a change come earlier than the next cyclic one would."""
+    """Return True if frames with a change precede the next cyclic one."""
     if len(moves) < 2 or not 0.0 < cycle_s <= _MAX_CYCLE_S:
         return False
     before_s = {after.time_s: before.time_s for before, after in zip(message.samples, message.samples[1:])}
@@ -192,7 +194,7 @@ def _is_sent_on_change(message: Message, moves: Sequence[tuple[float, int]], cyc
 
 
 def _with_lags(found: Sequence[Candidate], messages: Sequence[Message], stays: Sequence[Stay]) -> list[Candidate]:
-    """Each with the time by which it changed later than the earliest of them that followed every prompt."""
+    """Return the candidates with their delay after the earliest candidate that followed every prompt."""
     by_id = {message.id: message for message in messages}
     answers = [_answers(by_id[each.id], each, stays) for each in found]
     firsts = [min((answer[index] for each, answer in zip(found, answers)
@@ -203,7 +205,8 @@ def _with_lags(found: Sequence[Candidate], messages: Sequence[Message], stays: S
 
 
 def _answers(message: Message, candidate: Candidate, stays: Sequence[Stay]) -> dict[int, float]:
-    """When the field became what it was in a stay, by the number of the stay; only where it changed for it."""
+    """Return the times at which the field got its value in a stay, by the number of the stay; only stays with a
+    change."""
     moves = changes(message.samples, *candidate.field)
     answers = {}
     for index, stay in enumerate(stays):

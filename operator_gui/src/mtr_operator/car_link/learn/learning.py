@@ -1,4 +1,5 @@
-"""A Car's profile learned by window or command line: an adapter that is listened to, and the course of the prompts."""
+"""Learning of a Car's profile for window and command line: an adapter in listen-only mode, and the sequence of
+prompts."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,14 +14,14 @@ from .findings import Findings, findings_of
 from .listener import Listener
 from .session import DEFAULT_PROMPTS, REST_S, LearnSession, Stage
 
-# Makes what listens; it is given what takes each frame.
+# Factory of the listener; its argument receives each frame.
 Listen = Callable[[Callable[[CanFrame], None]], Listener]
 
 
 class Learning:
-    """Owns the adapter from start() to close(). listen: see Listen. clock: the laptop's, monotonic, in s.
+    """Owner of the adapter from start() to close(). listen: see Listen. clock: the laptop's, monotonic, in s.
 
-    Attributes: session: where it is. found: what the recording shows, None before look_through() has ended.
+    Attributes: session: current stage and prompt. found: findings, None before look_through() has ended.
     """
 
     def __init__(self, listen: Listen, prompts: int = DEFAULT_PROMPTS,
@@ -33,12 +34,12 @@ class Learning:
         self._opening = threading.Thread(target=self._open, name="learn-open", daemon=True)
 
     def start(self) -> None:
-        """Open the adapter in a thread: some take a second."""
+        """Open the adapter in a thread, because some need a second."""
         self._opening.start()
 
     def tick(self) -> Stage:
-        """Time has passed; the stage at hand. ConnectionFailed when the adapter cannot be used, or not any more;
-        NothingLearned when not one frame has come while the Car was left alone."""
+        """Advance the time and return the current stage. ConnectionFailed if the adapter cannot be used or was lost;
+        NothingLearned if no frame arrived while the Car was left alone."""
         if self._failure is not None:
             raise self._failure
         if self._listener.problem:
@@ -50,20 +51,20 @@ class Learning:
         return stage
 
     def done(self) -> None:
-        """The person says that the Car is as it was asked for."""
+        """Record that the person has brought the Car to the requested state."""
         self.session.done(self._clock())
 
     def findings(self) -> Findings:
-        """What a complete recording shows; takes up to some seconds after a long one of a full bus."""
+        """Evaluate a complete recording; lasts up to some seconds after a long one of a full bus."""
         self.found = findings_of(self.session.recording)
         return self.found
 
     def look_through(self) -> None:
-        """The same in a thread; `found` has it afterwards."""
+        """Evaluate in a thread; `found` has the result afterwards."""
         threading.Thread(target=self.findings, name="learn-look", daemon=True).start()
 
     def close(self) -> None:
-        """Let the adapter go; safe to call twice."""
+        """Close the adapter; safe to call twice."""
         if self._opening.is_alive():
             self._opening.join()
         self._listener.stop()

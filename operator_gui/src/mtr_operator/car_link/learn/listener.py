@@ -1,4 +1,4 @@
-"""Listens to the Car's bus without a profile; nothing is ever sent."""
+"""Receives the frames of the Car's bus without a profile; it never sends."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..reader import CanReader, FrameSink
 
 
 class Listener(FrameSink):
-    """Owns the adapter between start() and stop(). heard: called in its thread with each data frame. clock: the
+    """Owner of the adapter between start() and stop(). heard: called in its thread with each data frame. clock: the
     laptop's, monotonic, in s."""
 
     def __init__(self, settings: AdapterSettings, heard: Callable[[CanFrame], None],
@@ -23,7 +23,7 @@ class Listener(FrameSink):
         self._reader = CanReader(lambda: open_adapter(settings), self, settings.interface, clock)
 
     def start(self) -> None:
-        """Open the adapter and listen; ConnectionFailed when that is not possible."""
+        """Open the adapter and start to receive; ConnectionFailed if that is not possible."""
         self._reader.start()
 
     def stop(self) -> None:
@@ -32,7 +32,7 @@ class Listener(FrameSink):
 
     @property
     def problem(self) -> str:
-        """What is wrong with the adapter now, one sentence; empty when nothing is."""
+        """Current fault of the adapter as one sentence; empty without one."""
         return self._fault or self._trouble.no_frame
 
     def frame(self, frame: CanFrame) -> None:
@@ -40,11 +40,11 @@ class Listener(FrameSink):
         self._heard(frame)
 
     def error_frame(self) -> None:
-        """See FrameSink: some alone say nothing, and many without a frame are a wrong bit rate."""
+        """See FrameSink: a few error frames are ignored; many without a data frame indicate a wrong bit rate."""
         self._trouble.error_frame()
 
     def frames_lost(self) -> None:
-        """See FrameSink: what follows the locks is seen in the frames that came."""
+        """See FrameSink: the received frames suffice to find what follows the locks."""
 
     def fault(self, text: str) -> None:
         self._fault = text

@@ -1,4 +1,4 @@
-"""What came over the bus while a person locked and unlocked the Car; bounded, whatever a bus carries."""
+"""Frames of the bus while a person locked and unlocked the Car; of bounded size."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ MAX_FRAMES = 1_000_000
 
 
 class Sample(NamedTuple):
-    """One frame of a message: arrival on the laptop's monotonic clock in s, and its data as a number whose lowest byte
-    is the first one; length: bytes of it."""
+    """Frame of a message: arrival on the laptop's monotonic clock in s, and its data as a number whose lowest byte is
+    the first one; length: in bytes."""
 
     time_s: float
     value: int
@@ -25,8 +25,8 @@ class Sample(NamedTuple):
 
 
 class Stay(NamedTuple):
-    """A time, on the laptop's monotonic clock in s, during which the Car was in one state; asked_s: when the person was
-    asked to bring it there."""
+    """Interval on the laptop's monotonic clock in s during which the Car was in one state. asked_s: time of the prompt
+    for that state."""
 
     state: LockState
     asked_s: float
@@ -44,7 +44,7 @@ class Message:
 
 
 class Recording:
-    """Thread-safe. Attributes: stays: what the person did, in the order of time."""
+    """Recording, thread-safe. Attributes: stays: states of the Car, in the order of time."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -55,16 +55,16 @@ class Recording:
 
     @property
     def count(self) -> int:
-        """Frames that came, also those for which there was no room."""
+        """Number of received frames, including those beyond the limit."""
         return self._count
 
     @property
     def is_full(self) -> bool:
-        """True when frames came for which there was no room."""
+        """True if frames beyond the limit were dropped."""
         return self._count > MAX_FRAMES
 
     def frame(self, frame: CanFrame) -> None:
-        """A data frame arrived."""
+        """Add a data frame."""
         key = (frame.can_id, frame.is_extended)
         with self._lock:
             self._count += 1
@@ -75,7 +75,7 @@ class Recording:
                 frame.arrival_s, int.from_bytes(frame.data, "little"), len(frame.data)))
 
     def messages(self) -> tuple[Message, ...]:
-        """All messages by their identifiers."""
+        """Return all messages in the order of their identifiers."""
         with self._lock:
             lengths: Mapping[MessageId, int] = dict(self._lengths)
             return tuple(Message(key, lengths[key], tuple(samples)) for key, samples in sorted(self._samples.items()))

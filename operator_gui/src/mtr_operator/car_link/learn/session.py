@@ -1,4 +1,4 @@
-"""The course of learning: a while of rest, then the Car is locked and unlocked in turn, as the person is asked."""
+"""Sequence of learning: a time of rest, then the person is prompted to lock and unlock the Car in turn."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from mtr_operator.domain.ports import LockState
 
 from .recording import Recording, Stay
 
-# What moves by itself shows within this time.
+# Signals that change by themselves do so within this time.
 REST_S = 5.0
-# Doors need some tenths of a second, and slow messages another second to tell it.
+# Doors need some tenths of a second, and slow messages another second to report the state.
 SETTLE_S = 0.7
 STAY_S = 2.0
 DEFAULT_PROMPTS, MIN_PROMPTS, MAX_PROMPTS = 10, 4, 40
 
 
 class Stage(enum.Enum):
-    """What happens now: the adapter is opened; nothing is touched; the person shall act; the Car is left alone; all is
-    recorded."""
+    """Stages: the adapter is being opened; the Car is at rest; the person is prompted; the Car is left alone; the
+    recording is complete."""
 
     OPENING = "opening"
     REST = "rest"
@@ -29,11 +29,11 @@ class Stage(enum.Enum):
 
 
 class LearnSession:
-    """Fed with times of the laptop's monotonic clock in s.
+    """Sequence of the prompts. Times are of the laptop's monotonic clock in s.
 
-    prompts: how often the person acts; an even number, for each state counts as much.
+    prompts: number of prompts; even, so that both states have the same weight.
 
-    Attributes: recording: what comes over the bus. stage. number: of the prompt at hand, from 1.
+    Attributes: recording: frames of the bus. stage. number: of the current prompt, from 1.
     """
 
     def __init__(self, prompts: int = DEFAULT_PROMPTS):
@@ -47,20 +47,20 @@ class LearnSession:
         self._next_s = self._asked_s = 0.0
 
     def begin(self, now_s: float) -> None:
-        """The adapter is open."""
+        """Start when the adapter is open."""
         self.stage, self._next_s = Stage.REST, now_s + REST_S
 
     @property
     def wanted(self) -> LockState:
-        """The state to which the person is asked to bring the Car; locked first."""
+        """State that the person is asked to produce; locked first."""
         return LockState.LOCKED if self.number % 2 else LockState.UNLOCKED
 
     def left_s(self, now_s: float) -> float:
-        """Time until the stage at hand ends by itself; 0 in stages that do not."""
+        """Return the time until the current stage ends by itself; 0 in stages that do not."""
         return max(self._next_s - now_s, 0.0) if self.stage in (Stage.REST, Stage.STAY) else 0.0
 
     def tick(self, now_s: float) -> Stage:
-        """Time has passed; the stage at hand."""
+        """Advance the time and return the current stage."""
         if self.stage in (Stage.REST, Stage.STAY) and now_s >= self._next_s:
             if self.stage is Stage.STAY:
                 begin_s = self._next_s - STAY_S
@@ -71,6 +71,6 @@ class LearnSession:
         return self.stage
 
     def done(self, now_s: float) -> None:
-        """The person says that the Car is as it was asked for; without a question it says nothing."""
+        """Record that the Car is in the requested state; without a prompt it has no effect."""
         if self.stage is Stage.ASKED:
             self.stage, self._next_s = Stage.STAY, now_s + SETTLE_S + STAY_S

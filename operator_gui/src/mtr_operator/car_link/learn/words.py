@@ -1,4 +1,4 @@
-"""What was learned, in sentences; English, as all sentences below the window."""
+"""Sentences on the findings; in English, as all sentences outside the window."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .database_names import DatabaseNames
 from .findings import Candidate, Findings
 
 HEADINGS = ("identifier", "bits", "locked", "unlocked", "followed", "later by", "cycle", "besides")
-# More than this many bits that follow by chance make a proposal a guess.
+# With more bits than this following by chance, a proposal is a guess.
 MAX_BY_CHANCE = 0.1
 _MS_PER_S = 1000.0
 
 
 def cells(candidate: Candidate, stays: int, names: DatabaseNames | None = None) -> tuple[str, ...]:
-    """One row of the table, see HEADINGS. names: by which it has its name in the last one."""
+    """Return one row of the table, see HEADINGS. names: supply the name in the last cell."""
     can_id, is_extended = candidate.id
     lag = "-" if candidate.lag_s is None else f"{candidate.lag_s * _MS_PER_S:.0f} ms"
     cycle = f"{candidate.cycle_s * _MS_PER_S:.0f} ms" if candidate.is_cyclic else "-"
@@ -28,13 +28,13 @@ def cells(candidate: Candidate, stays: int, names: DatabaseNames | None = None) 
 
 
 def place(field: Field) -> str:
-    """Such as 0.4 or 0.4-6: the byte, and its bits."""
+    """Return byte and bits, such as 0.4 or 0.4-6."""
     low = field.start % BITS_PER_BYTE
     return f"{field.byte}.{low}" if field.width == 1 else f"{field.byte}.{low}-{low + field.width - 1}"
 
 
 def besides(candidate: Candidate, names: DatabaseNames | None = None) -> Iterator[str]:
-    """Its name in a database, and what else the message holds."""
+    """Yield the name in a database, and the other contents of the message."""
     named = None if names is None else names.named(candidate)
     if named is not None:
         yield f"{named.message} {named.signal}"
@@ -51,14 +51,14 @@ def besides(candidate: Candidate, names: DatabaseNames | None = None) -> Iterato
 
 
 def unnamed(findings: Findings, names: DatabaseNames | None) -> str:
-    """A sentence when a database does not know what is proposed; empty else."""
+    """Return a sentence if a database lacks the proposed bits; else empty."""
     if names is None or findings.best is None or names.named(findings.best) is not None:
         return ""
     return f"The CAN database {names.path} has no signal where it was found; the profile gets a database of its own."
 
 
 def doubts(findings: Findings) -> tuple[str, ...]:
-    """Why the proposal may be wrong, in sentences; empty when nothing speaks against it."""
+    """Return sentences on doubts about the proposal; empty without any."""
     told = []
     sure = [each for each in findings.candidates if each.followed == findings.stays]
     others = {each.id for each in sure} - {sure[0].id} if sure else set()

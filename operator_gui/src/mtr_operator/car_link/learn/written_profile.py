@@ -1,4 +1,4 @@
-"""Writes what was learned as a profile of the Car: a YAML file, and a database unless there is one already."""
+"""Writes the findings as a profile of the Car: a YAML file, and a database unless one exists."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -27,8 +27,10 @@ _SIGNAL, _ALIVE, _CHANGES = "LockState", "AliveCounter", "ChangeCounter"
 
 
 def check_name(path: pathlib.Path, has_database: bool = False) -> None:
-    """Raise InvalidParameter for a path that is no NAME.yaml, OutputError when it or its database is there already.
-    has_database: the profile gets none of its own."""
+    """Raise InvalidParameter for a path that is not NAME.yaml, OutputError if it or its database exists.
+
+    has_database: the profile uses an existing one.
+    """
     if not _NAME.fullmatch(path.name):
         raise InvalidParameter(f"The profile is called {path.name}; allowed are letters, digits, - and _, and .yaml at "
                                "the end.")
@@ -40,7 +42,7 @@ def check_name(path: pathlib.Path, has_database: bool = False) -> None:
 def write_profile(path: pathlib.Path, findings: Findings, names: DatabaseNames | None = None) -> None:
     """Write NAME.yaml, and NAME.dbc unless names knows the signal; read them back as a test would.
 
-    OutputError when they cannot be written, see check_name; NothingLearned when nothing followed the locks.
+    OutputError if they cannot be written, see check_name; NothingLearned if no bit followed the locks.
     """
     best, database = findings.proposal, path.with_suffix(".dbc")
     named = None if names is None else names.named(best)
@@ -55,7 +57,7 @@ def write_profile(path: pathlib.Path, findings: Findings, names: DatabaseNames |
 
 
 def _check(profile: CarProfile, best: Candidate) -> None:
-    """NothingLearned when a test would not understand the frames from which the profile was learned."""
+    """Raise NothingLearned if a test would not understand the frames from which the profile was learned."""
     decode = profile.decoder()
     readings = [(state, decode(*best.id, data)) for state, data in best.data]
     wrong = sum(reading is None or reading.state is not state for state, reading in readings)
@@ -65,7 +67,7 @@ def _check(profile: CarProfile, best: Candidate) -> None:
 
 
 def message_name(candidate: Candidate) -> str:
-    """Such as Message_320: what the identifier of an unknown message is called."""
+    """Return the name of an unknown message by its identifier, such as Message_320."""
     return f"Message_{candidate.id[0]:X}"
 
 
@@ -87,7 +89,7 @@ def _signal(name: str, field: Field, values: tuple[int, int] | None) -> str:
 
 
 def _moving(best: Candidate) -> Field | None:
-    """The counter of changes without its highest bits that never changed: they may be no part of it."""
+    """Return the counter of changes without the highest bits that never changed: they may not belong to it."""
     field = best.changes_counter
     if field is None:
         return None
@@ -97,7 +99,7 @@ def _moving(best: Candidate) -> Field | None:
 
 
 def _profile(entries: Sequence[str], best: Candidate, findings: Findings) -> str:
-    """Lines of the profile; what was not seen is left out, and holds by default."""
+    """Return the lines of the profile; properties that were not observed are omitted and keep their defaults."""
     return "\n".join([
         f"# Learned from {findings.frames} frames: followed {best.followed} of {findings.stays} prompts.",
         "# Try it with the Car's live view before a test, and add what the Car tells beyond this.",
@@ -113,7 +115,8 @@ def _own_entries(database: str, best: Candidate) -> list[str]:
 
 
 def _named_entries(folder: pathlib.Path, names: DatabaseNames, named: Named, best: Candidate) -> list[str]:
-    """Of a database that is there already; a name may be a word that YAML takes for something else."""
+    """Return the entries for an existing database. Names are quoted, because YAML may read a word as a different
+    type."""
     lines = [f"database: {json.dumps(_name_for(folder, names.path), ensure_ascii=False)}",
              f"message: {json.dumps(named.message)}", f"signal: {json.dumps(named.signal)}", *_states(named.values)]
     moving = _moving(best)
@@ -132,8 +135,8 @@ def _states(values: Mapping[LockState, int]) -> list[str]:
 
 
 def _name_for(folder: pathlib.Path, path: pathlib.Path) -> str:
-    """Name of a database in a profile in the folder. A database outside the folders of databases is copied beside the
-    profile; OutputError when another file of that name is there."""
+    """Return the name of a database in a profile in the folder. A database outside the folders of databases is copied
+    next to the profile; OutputError if another file of that name exists."""
     for place in database_folders(folder):
         with contextlib.suppress(ValueError):
             return path.resolve().relative_to(place.resolve()).as_posix()

@@ -1,4 +1,4 @@
-"""Vector's binary logs (BLF): read with bounded memory, whatever the file states, and with the place of a damage."""
+"""Vector's binary logs (BLF), read with bounded memory whatever the file states; reports the position of damage."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -28,21 +28,21 @@ from .text.lines import Damaged
 MAX_CONTAINER_BYTES = 16 * 1024 ** 2
 # The header has 144 bytes; later versions may extend it.
 _MAX_HEADER_BYTES = 4096
-# Each object begins with this word, the length and version of its header, its own length, and its kind.
+# Each object begins with this signature, then length and version of its header, its total length and its kind.
 _OBJECT, _LENGTH_AT, _HEADER = b"LOBJ", 8, OBJ_HEADER_BASE_STRUCT.size
 _LENGTH_AND_KIND = struct.Struct("<LL")
 # Vector's programs write restore points between the containers; they contain no frames.
 _RESTORE_POINTS = 115
-# The most bytes of padding and signature between two objects.
+# Maximum bytes of padding and signature between two objects.
 _PADDED = 8
 # Classic frames with their whole header; a shorter object would contain bytes of the next one.
 _MIN_BYTES = {CAN_MESSAGE: 48, CAN_MESSAGE2: 48}
 
 
 class BlfLog(BLFReader):
-    """Iterator over its messages; raises Damaged with the reason at the first damage.
+    """Iterator over the messages; raises Damaged with the reason at the first damage.
 
-    A container with a wrong check sum is not used at all, because the place of the damage in it is unknown.
+    A container with a wrong check sum is discarded, because the position of the damage in it is unknown.
     """
 
     def __init__(self, path: pathlib.Path):
@@ -55,7 +55,7 @@ class BlfLog(BLFReader):
 
     @property
     def is_cut_off(self) -> bool:
-        """True when it is shorter than its header states, or its program was killed: then the header states nothing."""
+        """True if the file is shorter than its header states, or its program was killed before it wrote the length."""
         return (self._ends_early or self._is_incomplete or self._size < self.file_size
                 or self.file_size == FILE_HEADER_SIZE < self._size)
 
@@ -121,7 +121,7 @@ class BlfLog(BLFReader):
             raise Damaged(f"in the container at byte {place}, {fault}")
 
     def _whole_objects(self) -> tuple[int, str]:
-        """Return where the last complete object ends, and what is wrong with the next one."""
+        """Return the end of the last complete object, and the fault of the next one."""
         rest, end = self._rest, 0
         self._wanted = 0
         while end + _HEADER <= len(rest):
@@ -144,7 +144,7 @@ _AT_MOST = f"and at most {MAX_CONTAINER_BYTES // 1024 ** 2} MiB are read"
 
 
 def _check_header(path: pathlib.Path) -> None:
-    """Check the length of the header, because the library allocates what it states."""
+    """Check the length of the header, because the library allocates this number of bytes."""
     with path.open("rb") as file:
         begin = file.read(FILE_HEADER_STRUCT.size)
     if len(begin) < FILE_HEADER_STRUCT.size:

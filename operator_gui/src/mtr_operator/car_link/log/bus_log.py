@@ -1,7 +1,7 @@
-"""Writes the whole bus into a log, by python-can's own writers, in a thread of its own: no frame waits for the disk.
+"""Writes the whole bus to a log with python-can's own writers, in a separate thread: frames do not wait for the disk.
 
-Times in the log are those of the clock that times the frames, moved so that the first one has the time of day. Behind
-an adapter that was opened anew they go on with the time of day again.
+Times in the log are of the clock that times the frames, shifted so that the first one has the time of day. After the
+adapter was reopened, they continue with the time of day again.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -21,23 +21,23 @@ from mtr_operator.domain.errors import OutputError
 from ..can_frame import CanFrame
 
 FORMATS = ("blf", "asc", "trc", "mf4")
-# The library writes no CAN FD frame into these.
+# The library cannot write CAN FD frames to these formats.
 _CLASSIC_ONLY = (".trc",)
 _NO_FD = "A CAN log of the format {} holds no CAN FD frame; choose blf or asc (--can-log-format)."
-# Of an hour at 500 kbit/s and full load BLF takes some 300 MB.
+# One hour at 500 kbit/s and full load gives about 300 MB of BLF.
 DEFAULT_LIMIT_BYTES = 2 * 1024 ** 3
-# What a killed application loses is at most this much of a BLF, some hundred frames.
+# A killed application loses at most this much of a BLF, some hundred frames.
 _BLF_CONTAINER_BYTES = 16 * 1024
-# Frames between two looks at the size of the file.
+# Frames between two checks of the file size.
 _SIZE_LOOK = 1000
 
 
 class BusLog:
-    """Open from its constructor on; OutputError says why it cannot be.
+    """Log that is open from its constructor on; OutputError states why it cannot be opened.
 
     Attributes:
         frames: data frames so far. origin_s: time of the first one by its own clock, NaN before it.
-        problem: why the log ends before the test does; empty while it goes on.
+        problem: reason why the log ends before the test; empty while it continues.
     """
 
     def __init__(self, path: pathlib.Path, limit_bytes: int = DEFAULT_LIMIT_BYTES, is_fd: bool = False):
@@ -57,7 +57,7 @@ class BusLog:
         self._thread.start()
 
     def frame(self, frame: CanFrame, local_s: float, channel: int = 0) -> None:
-        """A data frame with its time by the clock that times it. channel: 0 for the bus of the state."""
+        """Write a data frame with its time by the clock that times it. channel: 0 for the bus of the state."""
         if self._shift_s is None:
             self._shift_s = time.time() - local_s
             self.origin_s = local_s if math.isnan(self.origin_s) else self.origin_s
@@ -67,15 +67,15 @@ class BusLog:
             data=frame.data, is_fd=frame.is_fd, channel=channel, check=False))
 
     def error_frame(self) -> None:
-        """The adapter told of an error on the bus."""
+        """Write an error frame."""
         self._queue.put(can.Message(timestamp=time.time(), is_error_frame=True, channel=0))
 
     def restart(self) -> None:
-        """The adapter was opened anew: its clock begins anew."""
+        """Restart after the adapter was reopened, with a new clock."""
         self._shift_s = None
 
     def close(self) -> None:
-        """Write what waits; safe to call twice."""
+        """Write the queue and close; safe to call twice."""
         if self._thread.is_alive():
             self._queue.put(None)
             self._thread.join()
@@ -85,7 +85,7 @@ class BusLog:
             while (message := self._queue.get()) is not None:
                 self._write(message)
             self._stop()
-        # A full disk ends the log, and no test; writers of other formats raise what they like.
+        # A full disk ends the log, but not the test; writers of other formats raise various exceptions.
         except Exception as error:
             self.problem = f"The CAN log {self.path} ends before the test: {getattr(error, 'strerror', '') or error}."
             self._stop()

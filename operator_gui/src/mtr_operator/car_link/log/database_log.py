@@ -1,4 +1,4 @@
-"""python-can's logs in a database (SQLite): only rows that are stored in the file are read, and nothing is written."""
+"""python-can's logs in a database (SQLite): only stored rows are read, and nothing is written."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _COLUMNS = f"PRAGMA table_xinfo({_TABLE})"
 _ROWS = f"SELECT ts, arbitration_id, extended, remote, error, dlc, data FROM {_TABLE}"
 # A function or a recursion in the file's own schema could return any amount of data.
 _ALLOWED = (sqlite3.SQLITE_READ, sqlite3.SQLITE_SELECT, sqlite3.SQLITE_PRAGMA)
-# Characters of a value in a sentence.
+# Maximum characters of a value in a sentence.
 _SHOWN = 20
 
 
 class DatabaseLog:
-    """Iterator over its data frames; Damaged, whose text is the reason, when it is none or at the first damage."""
+    """Iterator over the data frames; Damaged states the reason if it is not such a log, or at the first damage."""
 
     def __init__(self, path: pathlib.Path):
         self._address = f"{path.resolve().as_uri()}?mode=ro"
@@ -42,11 +42,11 @@ def _authorize(action: int, *_: Any) -> int:
 
 
 def _check_schema(database: sqlite3.Connection) -> None:
-    """Accept only a table whose rows are stored: a view or a computed column could be of any size."""
+    """Accept only a table with stored rows: a view or a computed column could have any size."""
     found = database.execute(_SCHEMA).fetchall()
     if not found:
         raise Damaged(f"it has no table {_TABLE}, as python-can writes it")
-    # A view and a virtual table have no page, and a computed column is hidden, by its last value.
+    # A view and a virtual table have no page; a computed column is marked as hidden by its last value.
     is_stored = all(kind == "table" and page for kind, page in found)
     if not is_stored or any(column[-1] for column in database.execute(_COLUMNS)):
         raise Damaged(f"its table {_TABLE} computes values that it does not store")

@@ -1,4 +1,4 @@
-"""The log that a test keeps of the bus, and how far it had come with the newest Status."""
+"""Log of the bus during a test, and its position at the newest Status."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from .bus_log import BusLog
 
 
 class KeptLog:
-    """No log until one is given. Called from the reader's thread and the test's, under the lock of the link to the Car.
+    """Holder of the current log, if any. Called from the reader's thread and the test's, under the lock of the link to
+    the Car.
 
     Attributes:
         mark: of the newest Status; None before the first one, and without a log.
@@ -21,7 +22,7 @@ class KeptLog:
         self._restarts = 0
 
     def change(self, log: BusLog | None) -> BusLog | None:
-        """Go on in another log, or in none; the one of before, which is to be closed without the lock."""
+        """Switch to another log, or to none; return the previous one, which must be closed without the lock."""
         former, self._log, self.mark, self._restarts = self._log, log, None, 0
         return former
 
@@ -32,12 +33,12 @@ class KeptLog:
 
     @property
     def problem(self) -> str:
-        """Why the log ends before the test does; empty while it goes on."""
+        """Reason why the log ends before the test; empty while it continues."""
         log = self._log
         return "" if log is None else log.problem
 
     def status(self, frames: int, arrival_s: float, told_s: float, stamps: str) -> None:
-        """A Status was observed: it came when the log had so many frames; the rest as BusMark has it."""
+        """Record a Status, which arrived after this number of frames of the log; the other arguments as in BusMark."""
         if self._log is not None:
             self.mark = BusMark(frames, self._log.frames, arrival_s, told_s, self._log.origin_s, stamps,
                                 self._restarts)
@@ -53,7 +54,7 @@ class KeptLog:
             self._log.error_frame()
 
     def restart(self) -> None:
-        """The adapter was opened anew."""
+        """Restart after the adapter was reopened."""
         if self._log is not None:
             self._log.restart()
             self._restarts += 1

@@ -6,20 +6,20 @@ from ..further.entries import FIRST_BUS
 from ..profile import CarProfile
 from .text.lines import LoggedFrame
 
-# Channels that a profile does not name, of which one more carries the message of the state.
+# Name of channels that the profile does not name, but that also carry the message of the state.
 OTHER_CHANNEL = "channel {}"
 
 
 class LogBuses:
-    """profile: names the further buses, in the order of the channels from 1 on."""
+    """Assignment of channels to buses. profile: names the further buses, in the order of the channels from 1."""
 
     def __init__(self, profile: CarProfile):
         self._profile = profile
         self._state_channel: int | None = 0 if profile.further.buses else None
 
     def bus_of(self, frame: LoggedFrame) -> str:
-        """Name of a frame's bus; a channel that the profile does not name belongs to the bus of the state, but for a
-        second one with the state's message."""
+        """Return the name of a frame's bus. A channel that the profile does not name belongs to the bus of the state,
+        except a second channel with the state's message."""
         names, channel = self._profile.further.buses, frame.channel
         if 0 < channel <= len(names):
             return names[channel - 1]

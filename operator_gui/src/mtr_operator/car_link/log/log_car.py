@@ -1,4 +1,4 @@
-"""A log of a Car's bus in place of the bus: played at the speed of the robot's clock, from the first Status on."""
+"""Log of a Car's bus that replaces the bus: played at the speed of the robot's clock, from the first Status on."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -22,29 +22,29 @@ from .log_buses import LogBuses
 from .read_log import ReadLog
 from .text.lines import LoggedFrame
 
-# For so long a jump of the log's time is told, and the end of a gap: longer than a Status takes to be looked at.
+# Time for which a jump of the log's time, or the end of a gap, is reported: longer than the evaluation of a Status.
 _TOLD_S = 1.0
 _PLAYED = "none: the log {} was played"
 _NOT_CONNECTED = "The CAN log is not open."
 
 
 def played_log(session: Mapping[str, str]) -> str:
-    """Name of the log that a test played in place of a bus, by its record; empty when it played none."""
+    """Return the name of the log that a test played instead of a bus, from its record; empty for a real bus."""
     begin, end = _PLAYED.split("{}")
     adapter = session.get(CAN_ADAPTER, "")
     return adapter[len(begin):-len(end)] if adapter.startswith(begin) and adapter.endswith(end) else ""
 
 
 def played_frame(frame: LoggedFrame, begin_s: float, bus: str) -> CanFrame:
-    """A frame of a log whose times begin at begin_s of the robot's clock, which times frames and Statuses alike."""
+    """Return a frame of a log whose times begin at begin_s of the robot's clock, which times frames and Statuses."""
     return CanFrame(frame.can_id, frame.is_extended, frame.data, begin_s + frame.time_s, kind=StampKind.ARRIVAL,
                     is_fd=frame.is_fd, bus=bus)
 
 
 class LogCarLink(CarLink, BusMonitor):
-    """path: a log of any kind, see read_log. profile: see CanCarLink.
+    """Link to a Car that is replayed from a log. path: a log of any kind, see read_log. profile: see CanCarLink.
 
-    What the Car does is that of the log, whatever the robot does: the log's first frame is at the first Status.
+    The log determines the Car's behaviour, regardless of the robot: its first frame is at the first Status.
     """
 
     def __init__(self, path: pathlib.Path, profile: str):
@@ -60,7 +60,7 @@ class LogCarLink(CarLink, BusMonitor):
         self._noted, self._noted_until_s = "", -math.inf
 
     def connect(self) -> None:
-        """See CarLink; ConnectionFailed when the log holds no frame."""
+        """See CarLink; ConnectionFailed if the log contains no frame."""
         self._profile = profile = load_profile(self._profile_name)
         self._watch, self._buses = LockWatch(profile), LogBuses(profile)
         self._log = ReadLog(self._path, profile.identifiers)
@@ -84,9 +84,9 @@ class LogCarLink(CarLink, BusMonitor):
         return watch.release(status.stamp_s)
 
     def _look_at_log(self) -> None:
-        """A gap or jump is a trouble where it is, not before and not at the end of the log."""
+        """Report a gap or jump at its position, not before it and not at the end of the log."""
         if self._log is not None and self._log.newest != self._noted:
-            # The frame behind a gap comes when the gap is over.
+            # The frame after a gap arrives at the end of the gap.
             next_s = -math.inf if self._next is None else self._begin_s + self._next.time_s
             self._noted, self._noted_until_s = self._log.newest, max(self._stamp_s, next_s) + _TOLD_S
 
@@ -104,7 +104,7 @@ class LogCarLink(CarLink, BusMonitor):
 
     @property
     def notices(self) -> Sequence[str]:
-        """See BusMonitor: what is wrong with the log, as far as it has been read."""
+        """See BusMonitor: faults of the log, as far as it has been read."""
         notice = "" if self._log is None else self._log.notice
         watched = () if self._watch is None else self._watch.notices
         return (*((notice,) if notice else ()), *watched)

@@ -1,6 +1,6 @@
 """Program that writes the data frames of an MF4 log to its standard output, for Mf4Log.
 
-Usage: mf4_frames.py LOG. It imports nothing of the application, and ends with FAILED when asammdf refuses the log.
+Usage: mf4_frames.py LOG. It imports nothing of the application, and exits with FAILED if asammdf rejects the log.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -13,13 +13,13 @@ import sys
 
 import can
 
-# Time stamp, identifier, whether it is extended, whether it is CAN FD, bus, and data after its length. A longer frame
-# than CAN FD has is refused by the reader of logs.
+# Time stamp, identifier, is_extended, is_fd, bus, and data after its length. The log reader rejects frames that are
+# longer than CAN FD frames.
 RECORD = struct.Struct("<dI??iB255s")
 FAILED = 3
 # Time limit for the package to return the next frames; it loads a log of 1 GB in half a minute.
 _PATIENCE_S, _FRAMES_PER_CHECK = 300.0, 10_000
-# Address space beyond that of the loaded packages: the package makes several copies of a log.
+# Address space in addition to the loaded packages: the package makes several copies of a log.
 _MEMORY_BYTES, _MEMORY_PER_BYTE = 2 * 1024 ** 3, 16
 
 
@@ -31,7 +31,7 @@ def message(record: bytes) -> can.Message:
 
 
 def main(path: str) -> int:
-    """Write all frames; the exit status is FAILED when the package raises, whatever it is."""
+    """Write all frames; the exit status is FAILED if the package raises any exception."""
     _bound_memory(_MEMORY_BYTES + _MEMORY_PER_BYTE * os.path.getsize(path))
     records: list[bytes] = []
     # The limit does not include the time of writing: a log may be played at the speed of its bus.
@@ -43,7 +43,7 @@ def main(path: str) -> int:
             if len(records) >= _FRAMES_PER_CHECK:
                 _write(records)
                 faulthandler.dump_traceback_later(_PATIENCE_S, exit=True)
-    # It depends on the damage what the package raises.
+    # The type of the exception depends on the damage.
     except Exception:
         return FAILED
     finally:
@@ -65,7 +65,7 @@ def _write(records: list[bytes]) -> None:
 
 
 def _bound_memory(more_bytes: int) -> None:
-    # Only Linux states the present size in this file; other systems read without a limit.
+    # Only Linux reports the current size in this file; other systems read without a limit.
     with contextlib.suppress(ImportError, OSError):
         import resource
         with open("/proc/self/statm", encoding="ascii") as file:

@@ -1,4 +1,4 @@
-"""MF4 logs: compressed blocks are checked, then asammdf reads the log in a process of its own, which it may crash."""
+"""MF4 logs: compressed blocks are checked, then asammdf reads the log in a separate process, which may crash."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _HEADER = struct.Struct("<4s4xQQ2sBxLQQ")
 
 
 class Mf4Log:
-    """Iterator over its messages; raises Damaged where asammdf fails. NotImplementedError without that package."""
+    """Iterator over the messages; raises Damaged if asammdf fails. NotImplementedError without that package."""
 
     def __init__(self, path: pathlib.Path):
         check_blocks(path)
@@ -50,7 +50,7 @@ class Mf4Log:
 
 
 def check_blocks(path: pathlib.Path) -> None:
-    """Raise Damaged when a compressed block inflates to more than any program writes, whatever its header states."""
+    """Raise Damaged if a compressed block inflates to more than any program writes, whatever its header states."""
     with path.open("rb") as file, mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as whole:
         for place in _places(whole):
             if _is_too_large(whole, place):
@@ -66,7 +66,7 @@ def _places(whole: mmap.mmap) -> Iterator[int]:
 
 
 def _is_too_large(whole: mmap.mmap, place: int) -> bool:
-    """Return False for a signature that is data, which does not inflate."""
+    """Return True for an oversized block; False for data that resembles a signature, which does not inflate."""
     begin = place + _HEADER.size
     if begin > len(whole):
         return False

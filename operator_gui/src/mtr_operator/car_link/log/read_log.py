@@ -1,4 +1,4 @@
-"""Reads logs of a CAN bus, of whatever kind, frame by frame: the kind is told by the content."""
+"""Reads logs of a CAN bus frame by frame; the kind of the log is detected by its content."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,32 +17,32 @@ from .text.lines import Damaged, LoggedFrame, Names, checked
 from .text.opened import packed_kind
 from .text.text_log import TextLog
 
-# Kinds that are no text, by how their files begin.
+# Binary kinds, by the first bytes of their files.
 _MAGIC = {".blf": b"LOGG", ".mf4": b"MDF ", ".db": b"SQLite format 3\0"}
 BLF_SUFFIX = ".blf"
 SUFFIXES = (*_MAGIC, ".asc", ".trc", ".log", ".csv", ".crtd", ".txt", ".gz")
-# A live bus that is silent for half of it is a trouble; frames of several channels may be a little out of their order.
+# Half of this silence is a fault of a live bus; frames of several channels may be slightly out of order.
 _GAP_S, _DISORDER_S = 1.0, 0.1
-# So many frames may be out of their order without a word: those of several channels are.
+# Number of frames that may be out of order without a notice, as in logs of several channels.
 _FEW = 2
-# Of a log with many gaps the first ones suffice.
+# Maximum number of reported gaps of a log.
 _MAX_NOTES = 3
 _CANNOT = "The CAN log {} cannot be read: {}."
 _DAMAGED = "it is damaged or of another format"
 _NO_FRAME = {"is cut off": "it is cut off before its first frame"}
-# Of different messages of a log, so that any log takes little memory.
+# Maximum number of different messages of a log, which bounds the memory.
 _MAX_MESSAGES = 4096
 
 
 class ReadLog:
-    """Iterator over the data frames of a log, in its order. ConnectionFailed when it is none.
+    """Iterator over the data frames of a log, in its order. ConnectionFailed if it is not a log.
 
-    names: identifier and whether it is an extended one, by the name of a message, for logs that have names.
+    names: identifier and is_extended by the name of a message, for logs with names.
 
     Attributes:
         count: frames so far.
-        newest: the newest gap or jump of its time, or why it ended too early. ending: why it ended too early; empty
-            when it did not, or has not ended yet.
+        newest: newest gap or jump of the time, or the reason of an early end. ending: reason of an early end; empty
+            without one, or before the end.
     """
 
     def __init__(self, path: pathlib.Path, names: Names | None = None):
@@ -62,13 +62,13 @@ class ReadLog:
             raise
         except Damaged as error:
             raise ConnectionFailed(_CANNOT.format(path, error)) from None
-        # The library's readers raise whatever a damaged file leads them to.
+        # The library's readers raise various exceptions for a damaged file.
         except Exception:
             raise ConnectionFailed(_CANNOT.format(path, _DAMAGED)) from None
 
     @property
     def notice(self) -> str:
-        """Sentences when the log is not whole, in its order; empty when it is."""
+        """Return sentences if the log is incomplete, in its order; empty if it is complete."""
         told = [f"The CAN log {self._path} {each}." for each in (self._left_out(), *self._times.told) if each]
         return " ".join([*self._notes[:_MAX_NOTES], *told])
 
@@ -124,7 +124,8 @@ class ReadLog:
 
 
 class _Times:
-    """Frames whose times cannot be: earlier than the one before, or the same as that of the same message."""
+    """Counter of frames with impossible times: earlier than the previous frame, or equal to the previous time of the
+    same message."""
 
     def __init__(self) -> None:
         self._backward = self._same = 0
@@ -133,12 +134,12 @@ class _Times:
         self._of_message: dict[tuple[int, bool, int], float] = {}
 
     def frame(self, frame: LoggedFrame) -> None:
-        """The next one."""
+        """Check the next frame."""
         key = (frame.can_id, frame.is_extended, frame.channel)
         if frame.time_s < self._last_s:
             self._backward += 1
             self._worst_s = max(self._worst_s, self._last_s - frame.time_s)
-        # Those of further buses are placed at the newest frame of the first, see LockWatch.
+        # Frames of further buses get the time of the newest frame of the first, see LockWatch.
         self._same += not frame.channel and frame.time_s == self._of_message.get(key)
         self._last_s = frame.time_s
         if len(self._of_message) < _MAX_MESSAGES or key in self._of_message:
@@ -146,7 +147,7 @@ class _Times:
 
     @property
     def told(self) -> Iterator[str]:
-        """What is said of the log."""
+        """Yield the notices on the log."""
         if self._backward > _FEW:
             yield (f"has {self._backward} frames with an earlier time than the frame before, by up to "
                    f"{self._worst_s:.3f} s")
@@ -179,7 +180,7 @@ def _reader(path: pathlib.Path, names: Names) -> Any:
 
 
 def _frames(reader: Iterable[Any]) -> Iterator[LoggedFrame]:
-    """Data frames; those of the library count buses from 0."""
+    """Yield the data frames; the library's frames count buses from 0."""
     for each in reader:
         if isinstance(each, LoggedFrame):
             yield each

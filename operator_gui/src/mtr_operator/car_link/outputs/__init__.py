@@ -1,2 +1,2 @@
-"""What the application switches at the Car by messages on its bus: its handle, an extender."""
+"""Outputs that the application switches at the Car by messages on its bus: the handle actuator and an extender."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Outputs as a profile declares them: a message for somebody beside the Car, its signal, the values of both states."""
+"""Outputs of a profile: a message to a device at the Car, its signal, and the values of both states."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from ..database.codec import encode
 from ..further.entries import Entries, is_whole
 
 HANDLE_KEY, EXTENDER_KEY = "handle_request", "extender_switch"
-# Names of the two values, that of the active state first.
+# Names of the two values; the active state is first.
 _VALUES = {HANDLE_KEY: ("taken", "released"), EXTENDER_KEY: ("switched_on", "switched_off")}
 
 
 @dataclass(frozen=True, eq=False)
 class DeclaredOutput:
-    """active, idle: data of the message that a profile declares."""
+    """Message of an output. active, idle: its data in both states."""
 
     can_id: int
     is_extended: bool
@@ -27,13 +27,13 @@ class DeclaredOutput:
     idle: bytes
 
     def frame(self, is_active: bool) -> can.Message:
-        """As it is sent."""
+        """Return the frame to send."""
         return can.Message(arbitration_id=self.can_id, is_extended_id=self.is_extended,
                            data=self.active if is_active else self.idle)
 
 
 def read_output(entries: Entries, key: str) -> DeclaredOutput | None:
-    """Of HANDLE_KEY or EXTENDER_KEY; None when the profile declares none, ConnectionFailed says what is wrong."""
+    """Read the entry HANDLE_KEY or EXTENDER_KEY; None if the profile lacks it, ConnectionFailed states a fault."""
     if key not in entries.content:
         return None
     table, (active, idle) = entries.content[key], _VALUES[key]
@@ -50,7 +50,7 @@ def read_output(entries: Entries, key: str) -> DeclaredOutput | None:
 
 
 def _output(message: Any, signal: str, active: int, idle: int) -> DeclaredOutput:
-    """All other signals of the message are 0; ConnectionFailed when the signal has no such values."""
+    """Return an output whose other signals are 0; ConnectionFailed if the signal does not have these values."""
     return DeclaredOutput(message.frame_id, message.is_extended_frame, _data(message, signal, active),
                           _data(message, signal, idle))
 

@@ -1,4 +1,4 @@
-"""The output that switches an extender: a message on the Car's bus that a switch in its supply listens to."""
+"""Output for an extender: a message on the Car's bus to a switch in its supply."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .switch import OutputSwitch
 
 
 class BusExtender(ExtenderPort):
-    """send, refusal: see OutputSwitch."""
+    """Extender on the bus. send, refusal: see OutputSwitch."""
 
     by = OUTPUT
 
@@ -38,6 +38,6 @@ class BusExtender(ExtenderPort):
         self._switch.reopened()
 
     def close(self) -> None:
-        """Leave no extender on behind; safe to call twice."""
+        """Switch the extender off if it is on; safe to call twice."""
         if self._switch.is_active:
             self._switch.switch(False)

@@ -1,4 +1,4 @@
-"""The output that takes the Car's handle: a message on its bus that an actuator at the handle listens to."""
+"""Output that pulls the Car's handle: a message on its bus to an actuator at the handle."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .switch import OutputSwitch
 
 
 class BusHandle(HandlePort):
-    """send, refusal: see OutputSwitch."""
+    """Handle actuator on the bus. send, refusal: see OutputSwitch."""
 
     by = OUTPUT
 

@@ -18,10 +18,8 @@ _EXTENDER_IDLE = ("The car's profile names an output that switches the extender,
 
 
 class Outputs:
-    """Attributes: handle, extender: None where the profile declares none, and on an adapter that only listens.
-
-    notices: sentences on those that only listening leaves idle.
-    """
+    """Outputs of a profile. Attributes: handle, extender: None if the profile declares none, and on an adapter that
+    only listens. notices: sentences on outputs that stay idle because of listen-only mode."""
 
     def __init__(self, profile: CarProfile, is_listening: bool, send: Callable[[can.Message], threading.Event],
                  refusal: Callable[[], str] = lambda: ""):
@@ -33,13 +31,13 @@ class Outputs:
         self.notices = tuple(notice for output, notice in declared if output is not None and is_listening)
 
     def reopened(self) -> None:
-        """The adapter is back after a failure, see OutputSwitch."""
+        """Handle that the adapter recovered from a failure, see OutputSwitch."""
         for output in (self.handle, self.extender):
             if output is not None:
                 output.reopened()
 
     def close(self) -> None:
-        """Let go of the handle and switch the extender off; safe to call twice."""
+        """Release the handle and switch the extender off; safe to call twice."""
         if self.handle is not None:
             self.handle.release()
         if self.extender is not None:

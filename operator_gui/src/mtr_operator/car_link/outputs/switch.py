@@ -1,4 +1,4 @@
-"""An output that is switched through an adapter which may fail and come back."""
+"""Output that is switched through an adapter, which may fail and recover."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from .declared import DeclaredOutput
 
 
 class OutputSwitch:
-    """Keeps that an idle output is idle, however often the adapter fails; an active one it never makes late.
+    """Switch that restores idle outputs after adapter failures, but never activates an output late.
 
-    send: gives a frame to the adapter; the event that it returns is set when the frame has left. refusal: why no output
-    may be made active now, empty when one may.
+    send: passes a frame to the adapter; the returned event is set when the frame has left. refusal: reason why no
+    output may be activated now, empty if one may.
     """
 
     def __init__(self, output: DeclaredOutput, send: Callable[[can.Message], threading.Event],
@@ -29,7 +29,7 @@ class OutputSwitch:
         self.is_active = False
 
     def switch(self, is_active: bool) -> None:
-        """Have it switched. Does not wait. RobotFailed when it must not be made active now."""
+        """Start switching without waiting. RobotFailed if the output must not be activated now."""
         refusal = self._refusal() if is_active else ""
         if refusal:
             raise RobotFailed(refusal)
@@ -38,14 +38,15 @@ class OutputSwitch:
             self._left = self._send(self._output.frame(is_active))
 
     def is_done(self) -> bool:
-        """True when the frame of the last switch() has left."""
+        """True if the frame of the last switch() has left."""
         with self._lock:
             return self._left is not None and self._left.is_set()
 
     def reopened(self) -> None:
-        """The adapter is back after a failure: make idle what could not be made idle meanwhile, for it is active still.
+        """Handle that the adapter recovered from a failure: deactivate outputs whose deactivation failed, as they are
+        still active.
 
-        What could not be made active is not made good: it would come when nobody expects it any more.
+        A failed activation is not repeated, because it would be unexpected by then.
         """
         with self._lock:
             if self._left is not None and not self._left.is_set() and not self.is_active:

@@ -1,4 +1,4 @@
-"""Where a feed of a phone's distance is, in one word: tcp:HOST:PORT, serial:DEVICE:BAUD or simulated."""
+"""Address of a feed of a phone's distance, in one word: tcp:HOST:PORT, serial:DEVICE:BAUD or simulated."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class FeedAddress:
 
 
 def feed_address(text: str) -> FeedAddress:
-    """What a person has given; InvalidParameter says what is allowed."""
+    """Parse an address that a person entered; InvalidParameter states the allowed forms."""
     kind, _, rest = text.partition(":")
     if kind == SIMULATED:
         return FeedAddress(SIMULATED, model=phone_model(rest))
@@ -34,7 +34,7 @@ def feed_address(text: str) -> FeedAddress:
     if kind not in (TCP, SERIAL) or not place or not number.isdecimal():
         raise InvalidParameter(f"The feed of the phone's distance is {text[:80]!r}; allowed is {_ALLOWED}.")
     low, high = (1, _MAX_PORT) if kind == TCP else (_MIN_BAUD, _MAX_BAUD)
-    # More digits than Python reads are beyond the limit, too.
+    # More digits than Python reads exceed the limit as well.
     if len(number) > len(str(high)) or not low <= int(number) <= high:
         what = "port" if kind == TCP else "baud rate"
         raise InvalidParameter(f"The {what} of the phone's feed is {number[:20]}; allowed is {low} to {high}.")
@@ -42,7 +42,7 @@ def feed_address(text: str) -> FeedAddress:
 
 
 def feed_at(address: FeedAddress, seed: int = 1) -> DistanceFeed:
-    """A feed that is not connected yet; seed: of a simulated one."""
+    """Return a feed that is not connected yet; seed: of a simulated one."""
     if address.kind == SIMULATED:
         return SimulatedPhone(seed, address.model)
     from .line_feed import LineFeed

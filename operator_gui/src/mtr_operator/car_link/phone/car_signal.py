@@ -1,4 +1,4 @@
-"""The distance of a phone in a signal of the Car's bus."""
+"""Distance of a phone in a signal of the Car's bus."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .address import SERIAL, TCP, FeedAddress, feed_address, feed_at
 
 KEY = "phone_distance"
 _SIGNAL_KEYS = {"bus", "message", "signal", "unit", "no_distance"}
-# Metres of one of each.
+# Length of each unit in metres.
 _UNITS = {"m": 1.0, "dm": 0.1, "cm": 0.01, "mm": 0.001}
 _MAX_WAITING = 6000
 _NAME = "signal {} of the Car's message {}"
@@ -25,7 +25,8 @@ _NAME = "signal {} of the Car's message {}"
 
 @dataclass(frozen=True, eq=False)
 class PhoneSignal:
-    """metres: of one of the signal's unit. no_distance: raw values with which the Car says that it knows none."""
+    """Signal with the distance. metres: length of the signal's unit. no_distance: raw values for an unknown
+    distance."""
 
     place: Place
     metres: float
@@ -33,8 +34,8 @@ class PhoneSignal:
 
 
 def read_phone(entries: Entries) -> PhoneSignal | FeedAddress | None:
-    """What a profile declares; None without it. ConnectionFailed, or InvalidParameter for an address, says what is
-    wrong."""
+    """Return the source that a profile declares; None without one. ConnectionFailed, or InvalidParameter for an
+    address, states a fault."""
     table = entries.content.get(KEY)
     if table is None:
         return None
@@ -71,20 +72,20 @@ def _address(entries: Entries, text: str) -> FeedAddress:
 
 
 def feed_of(declared: PhoneSignal | FeedAddress | None) -> DistanceFeed | None:
-    """Of what a profile declares, not connected yet."""
+    """Return the feed that a profile declares, not connected yet."""
     if declared is None:
         return None
     return CarSignalFeed(declared) if isinstance(declared, PhoneSignal) else feed_at(declared)
 
 
 def is_bus_feed(name: str) -> bool:
-    """True for the name of a CarSignalFeed, as it stands in the record of a test."""
+    """Return True for the name of a CarSignalFeed, as in the record of a test."""
     head, _, _ = _NAME.partition("{}")
     return name.startswith(head)
 
 
 class CarSignalFeed(DistanceFeed):
-    """Fed with every frame of all buses by the link to the Car, under its lock."""
+    """Feed that the link to the Car updates with every frame of all buses, under its lock."""
 
     def __init__(self, signal: PhoneSignal):
         self._signal = signal
@@ -97,15 +98,15 @@ class CarSignalFeed(DistanceFeed):
         return _NAME.format(self._signal.place.signal, self._signal.place.message.name)
 
     def connect(self) -> None:
-        """See DistanceFeed: with the link to the Car."""
+        """See DistanceFeed: connected together with the link to the Car."""
 
     def frame(self, frame: CanFrame) -> None:
-        """A frame arrived."""
+        """Add a frame."""
         place = self._signal.place
         if (frame.bus, frame.can_id, frame.is_extended) != place.key:
             return
         raw = self._reader.values(frame.data).get(place.signal)
-        # Too short, or another page of a multiplexed message.
+        # The frame is too short, or another page of a multiplexed message.
         if raw is None or raw in self._signal.no_distance:
             return
         distance_m = float(place.declared.conversion.raw_to_scaled(raw, decode_choices=False)) * self._signal.metres
@@ -118,14 +119,14 @@ class CarSignalFeed(DistanceFeed):
     def observe(self, status: RobotStatus) -> list[Reported]:
         """See DistanceFeed; the link to the Car has waited until its bus had caught up with this Status."""
         told = []
-        # One frame more may come from the reader's thread meanwhile.
+        # The reader's thread may add another frame meanwhile.
         while self._waiting:
             told.append(Reported(status.stamp_s, self._waiting.popleft()))
         return told
 
     @property
     def problem(self) -> str:
-        """See DistanceFeed: a trouble of the bus is one of the link to the Car."""
+        """See DistanceFeed: the link to the Car reports faults of the bus."""
         return ""
 
     @property

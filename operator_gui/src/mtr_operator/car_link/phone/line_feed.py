@@ -1,4 +1,4 @@
-"""A feed of lines from a source of bytes, read in a thread, with a sentence for whatever is wrong with it."""
+"""Feed of lines from a source of bytes, read in a thread; each fault is reported as a sentence."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,31 +15,30 @@ from mtr_operator.domain.robot_status import RobotStatus
 
 from .lines import LineReader, Told
 
-# Wall times: of one look for bytes, between attempts to connect anew, and after which a feed that has never told a
-# distance is told of.
+# Wall times: of one read, between attempts to reconnect, and until a feed without any distance is reported.
 READ_S = 0.1
 REOPEN_S = 1.0
 SILENCE_S = 5.0
-# More are dropped, the oldest first: nobody has asked for them for half a minute.
+# Further distances replace the oldest, which have been waiting for half a minute.
 _MAX_WAITING = 6000
 
 
 class SourceLost(Exception):
-    """Nothing comes from the source any more; the text says why, without the source's name and without a full stop."""
+    """The connection to the source is lost; the text is the reason, without the source's name and without a full stop."""
 
 
 class Source(ABC):
-    """Attributes: name: such as "TCP 127.0.0.1:7070"."""
+    """Source of bytes. Attributes: name: such as "TCP 127.0.0.1:7070"."""
 
     name: str
 
     @abstractmethod
     def open(self) -> None:
-        """Open it; SourceLost says why it cannot be."""
+        """Open it; SourceLost states why it cannot be opened."""
 
     @abstractmethod
     def read(self) -> bytes:
-        """What has come, after READ_S at most; SourceLost when nothing can come any more."""
+        """Return the available bytes, after at most READ_S; SourceLost if the source cannot deliver further ones."""
 
     @abstractmethod
     def close(self) -> None:
@@ -47,7 +46,7 @@ class Source(ABC):
 
 
 class LineFeed(DistanceFeed):
-    """Opens its source anew when it is lost. clock: the laptop's, monotonic, in s."""
+    """Feed that reopens its source after a loss. clock: the laptop's, monotonic, in s."""
 
     def __init__(self, source: Source, clock: Callable[[], float] = time.monotonic):
         self._source = source
@@ -124,7 +123,7 @@ class LineFeed(DistanceFeed):
             self._has_told = self._has_told or bool(told)
 
     def _reopen(self, reason: str) -> None:
-        """Until it is open again."""
+        """Try until the source is open again."""
         with self._lock:
             self._lost = reason
         self._source.close()

@@ -1,4 +1,4 @@
-"""Lines of text as distances: a figure in m, or a JSON object with it."""
+"""Parses lines of text as distances: a number in m, or a JSON object with it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from mtr_operator.domain.distance_feed import REPORTED
 from mtr_operator.domain.limits import Limit
 from mtr_operator.domain.results.refused import Refused
 
-# The object of one distance has some fifty letters; a line without an end would fill the memory.
+# The object of one distance has about fifty characters; an endless line would fill the memory.
 MAX_LINE_BYTES = 512
-# The fastest ranging known takes some ms a figure; a stream that is read as fast as it is sent would fill the memory.
+# The fastest known ranging needs some ms per distance; an unlimited stream would fill the memory.
 MAX_LINES_PER_S = 200
 DISTANCE, CLOCK, AGE = "distance_m", "time_s", "age_s"
 _NUMBERS = {DISTANCE: REPORTED, CLOCK: Limit(CLOCK, -1e12, 1e12, "s"), AGE: Limit(AGE, 0.0, 1e6, "s")}
-# float() would also take underscores, "1_5" for 15, and the digits of other scripts.
+# float() would also accept underscores, "1_5" as 15, and digits of other scripts.
 _NUMBER = re.compile(r"\s*[+-]?(([0-9]+\.?[0-9]*|\.[0-9]+)(e[+-]?[0-9]+)?|nan|inf(inity)?)\s*", re.IGNORECASE)
 _SHOWN = 60
 
@@ -31,10 +31,10 @@ class Told(NamedTuple):
 
 
 class LineReader:
-    """Takes bytes as they come, gives what they tell.
+    """Parser of a stream of bytes.
 
     Attributes:
-        refused: lines that told no distance.
+        refused: rejected lines.
     """
 
     def __init__(self) -> None:
@@ -44,11 +44,11 @@ class LineReader:
         self._second, self._lines = -math.inf, 0
 
     def restart(self) -> None:
-        """The connection is a new one: what was begun has no end."""
+        """Start with a new connection: an incomplete line is discarded."""
         self._rest, self._is_too_long = b"", False
 
     def take(self, data: bytes, now_s: float) -> list[Told]:
-        """now_s: of any monotonic clock."""
+        """Add bytes and return the distances. now_s: of any monotonic clock."""
         *lines, self._rest = (self._rest + data).split(b"\n")
         found = [told for line in lines if (told := self._line(line, now_s)) is not None]
         if len(self._rest) > MAX_LINE_BYTES:
@@ -78,7 +78,7 @@ class LineReader:
 
 
 def _told(text: str) -> Told:
-    """ValueError says what is wrong."""
+    """Parse one line; ValueError states a fault."""
     values = _object(text) if text.startswith("{") else {DISTANCE: text}
     if DISTANCE not in values:
         raise ValueError(f"The line {text[:_SHOWN]!r} has no {DISTANCE}.")

@@ -1,4 +1,4 @@
-"""Bytes from a serial line to what tells the phone's distance; nothing is sent on it."""
+"""Serial line of a device that reports the phone's distance; nothing is sent on it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _CHUNK = 4096
 
 
 class SerialSource(Source):
-    """device: such as /dev/ttyUSB0 or COM5."""
+    """Serial line. device: such as /dev/ttyUSB0 or COM5."""
 
     def __init__(self, device: str, baud: int):
         self.name = f"serial line {device}, {baud} baud"
@@ -21,7 +21,7 @@ class SerialSource(Source):
         """See Source."""
         try:
             self._port = serial.Serial(self._device, self._baud, timeout=READ_S)
-        # pyserial hands on what the system raises for numbers that it does not take.
+        # pyserial passes on the system's exceptions for values that the system rejects.
         except (OSError, ValueError) as error:
             raise SourceLost(_text(error)) from None
 
@@ -31,7 +31,7 @@ class SerialSource(Source):
             raise SourceLost("it is not open")
         try:
             return bytes(self._port.read(min(max(self._port.in_waiting, 1), _CHUNK)))
-        # pyserial raises TypeError when the line is pulled out in the middle of a read.
+        # pyserial raises TypeError if the device is unplugged during a read.
         except (OSError, TypeError) as error:
             raise SourceLost(_text(error)) from None
 
@@ -43,5 +43,5 @@ class SerialSource(Source):
 
 
 def _text(error: Exception) -> str:
-    """One line of it."""
+    """Return the error on one line."""
     return " ".join(str(error).split()).rstrip(".")

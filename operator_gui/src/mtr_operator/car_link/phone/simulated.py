@@ -1,6 +1,6 @@
-"""A phone inside the application, for the first try: it knows where it is, and tells it with errors of a given kind.
+"""Simulated phone inside the application, for the first try: it reports its distance with a given error.
 
-It is no model of a radio: a bias, noise, figures that are missing, and a shadow behind the Car.
+It is not a radio model: it has a bias, noise, random dropouts and a shadow behind the Car.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -20,16 +20,16 @@ _LIMITS = {
     "bias_m": Limit("bias_m", -5.0, 5.0, "m"), "scatter_m": Limit("scatter_m", 0.0, 5.0, "m"),
     "body_m": Limit("body_m", -5.0, 5.0, "m"), "dropouts": Limit("dropouts", 0.0, 1.0),
     "range_m": Limit("range_m", 0.0, 500.0, "m"), "shadow_m": Limit("shadow_m", 0.0, 500.0, "m")}
-# The shadow's half angle, from the Car's rear.
+# Half angle of the shadow, from the Car's rear.
 _SHADOW_RAD = math.radians(30.0)
 _STEP_DIGITS = 2
 
 
 @dataclass(frozen=True)
 class PhoneModel:
-    """bias_m: at all places. body_m: more behind the Car, where its body is in the way. scatter_m: 1 sigma of a figure.
-    dropouts: share of figures that are missing. range_m, shadow_m: from the Car's outline, beyond which nothing is
-    told, around it and behind it."""
+    """Errors of the phone. bias_m: everywhere. body_m: in addition behind the Car, whose body blocks the path.
+    scatter_m: 1 sigma of a distance. dropouts: share of missing distances. range_m, shadow_m: largest reported distance
+    from the Car's outline, around it and behind it."""
 
     bias_m: float = 0.10
     body_m: float = 0.20
@@ -43,7 +43,8 @@ USUAL_PHONE = PhoneModel()
 
 
 def phone_model(text: str) -> PhoneModel:
-    """From "bias_m=0.2,scatter_m=0.05"; InvalidParameter says what is wrong. Nothing gives the usual one."""
+    """Parse a model such as "bias_m=0.2,scatter_m=0.05"; InvalidParameter states a fault. An empty text is the default.
+    """
     values: dict[str, float] = {}
     for entry in filter(None, text.split(",")):
         name, _, value = entry.partition("=")
@@ -60,7 +61,7 @@ def phone_model(text: str) -> PhoneModel:
 
 
 class SimulatedPhone(DistanceFeed):
-    """One figure at each Status. The same seed and the same Statuses give the same figures."""
+    """Feed with one distance per Status. The same seed and the same Statuses give the same distances."""
 
     def __init__(self, seed: int = 1, model: PhoneModel = USUAL_PHONE):
         self._chance = random.Random(seed)

@@ -1,4 +1,4 @@
-"""Bytes from a TCP connection to what tells the phone's distance; nothing is sent on it."""
+"""TCP connection to a device that reports the phone's distance; nothing is sent on it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _CHUNK = 4096
 
 
 class TcpSource(Source):
-    """host: loopback, or whatever address the person gives."""
+    """TCP client. host: loopback, or any address that the person enters."""
 
     def __init__(self, host: str, port: int):
         self.name = f"TCP {host}:{port}"
@@ -50,6 +50,6 @@ class TcpSource(Source):
 
 
 def _text(error: Exception) -> str:
-    """In the system's words, which begin with a capital letter."""
+    """Return the error as the system describes it, which begins with a capital letter."""
     text = str(getattr(error, "strerror", None) or error).rstrip(".")
     return f"{text[:1].lower()}{text[1:]}"

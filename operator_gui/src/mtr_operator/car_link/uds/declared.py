@@ -1,4 +1,4 @@
-"""How a car's profile has the state of the locks asked for: which data identifier of which ECU, and where in it."""
+"""Entry of a car's profile that polls the lock state: ECU, data identifier and position in the data."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ Reading = TypeVar("Reading")
 _KEYS = {"request_id", "response_id", "is_extended", "data_identifier", "byte", "mask", "every_s"}
 _REQUIRED_KEYS = {"request_id", "response_id", "data_identifier"}
 _MAX_STANDARD, _MAX_EXTENDED, _MAX_IDENTIFIER, _MAX_BYTE, _MAX_MASK = 0x7FF, 0x1FFF_FFFF, 0xFFFF, 4094, 0xFF
-# Often enough for a distance, seldom enough for an ECU's diagnostics, which are served beside its work.
+# Frequent enough for a distance, rare enough for the diagnostics of an ECU, which have low priority there.
 _EVERY_S, _MIN_EVERY_S, _MAX_EVERY_S = 0.2, 0.05, 10.0
 _BYTES = 8
 
 
 @dataclass(frozen=True)
 class UdsPoll:
-    """ReadDataByIdentifier, ISO 14229-1: data_identifier of addresses, every every_s; the state is what mask leaves of
-    a byte of its data, shifted to the right by the mask's zeros."""
+    """ReadDataByIdentifier, ISO 14229-1: data_identifier of addresses, every every_s. The state is a byte of its data,
+    masked by mask and shifted right by the mask's trailing zeros."""
 
     addresses: Addresses
     data_identifier: int
@@ -33,12 +33,11 @@ class UdsPoll:
 
     @property
     def name(self) -> str:
-        """What stands for a signal's name."""
+        """Substitute of a signal's name."""
         return f"DID 0x{self.data_identifier:04X}"
 
     def decoder(self, reading: Callable[[int], Reading]) -> Callable[[int, bool, bytes], Reading | None]:
-        """What frames in their order say; reading: of a raw value."""
-        # Needs packages that no other profile needs.
+        """Return a decoder of frames in their order. reading: of a raw value."""
         from .transport import AnsweredValues
         values = AnsweredValues(self.addresses, self.data_identifier)
 
@@ -48,19 +47,19 @@ class UdsPoll:
         return decode
 
     def raw(self, value: bytes) -> int:
-        """The state in the data of the identifier."""
+        """Return the state in the data of the identifier."""
         return (value[self.byte] & self.mask) // (self.mask & -self.mask)
 
 
 def response_message(poll: UdsPoll) -> Message:
-    """Stands for the message of a Car that sends its state."""
+    """Return a substitute for the message of a Car that sends its state."""
     addresses = poll.addresses
     return Message(addresses.response_id, f"answer to {poll.name}", _BYTES, [],
                    is_extended_frame=addresses.is_extended)
 
 
 def read_poll(entries: Entries) -> UdsPoll:
-    """The entry uds_poll of a profile; ConnectionFailed says what is wrong."""
+    """Read the entry uds_poll of a profile; ConnectionFailed states a fault."""
     table = entries.content["uds_poll"]
     if not isinstance(table, dict) or not _REQUIRED_KEYS <= set(table) <= _KEYS:
         raise entries.wrong(f"uds_poll must be a table of {', '.join(sorted(_KEYS))}; needed are "

@@ -1,4 +1,4 @@
-"""Asks the Car for the state of its locks, again and again."""
+"""Polls the Car's lock state periodically."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _EARLY_S = 1e-6
 
 
 class StatePoller:
-    """send: gives a frame to the adapter. Times are of the laptop's monotonic clock."""
+    """Periodic requests. send: passes a frame to the adapter. Times are of the laptop's monotonic clock."""
 
     def __init__(self, poll: UdsPoll, send: Callable[[can.Message], object]):
         self._poll = poll
@@ -25,17 +25,17 @@ class StatePoller:
         self._asked_s = -math.inf
 
     def tick(self, now_s: float) -> None:
-        """Ask when it is time."""
+        """Send a request when it is due."""
         if now_s < self._asked_s + self._poll.every_s - _EARLY_S:
             return
-        # Evenly, unless the adapter was away meanwhile.
+        # The period is kept, unless the adapter was lost meanwhile.
         is_even = now_s < self._asked_s + 2.0 * self._poll.every_s
         self._asked_s = self._asked_s + self._poll.every_s if is_even else now_s
         self._values.ask()
         self._flush()
 
     def frame(self, frame: CanFrame) -> None:
-        """Take a frame: an answer in several frames has to be let go on."""
+        """Process a frame: an answer in several frames needs flow control."""
         self._values.frame(frame.can_id, frame.is_extended, frame.data)
         self._flush()
 

@@ -1,4 +1,4 @@
-"""An ECU that answers when it is asked for the state of the locks, for a simulated Car that speaks on a bus."""
+"""ECU that answers requests for the lock state, for a simulated Car on a bus."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _REQUEST_OUT_OF_RANGE = 0x31
 
 
 class SpokenEcu:
-    """Attributes: raw: value of the state in its answers."""
+    """Simulated ECU. Attributes: raw: value of the state in its answers."""
 
     def __init__(self, poll: UdsPoll, bus: can.BusABC):
         self.raw = 0
@@ -31,14 +31,15 @@ class SpokenEcu:
             params={"blocking_send": False})
 
     def answer(self, patience_s: float) -> int:
-        """Wait for a request and answer it whole; how many frames that were, none when nobody asks in time."""
+        """Wait for a request and answer it completely; return the number of sent frames, 0 without a request in
+        time."""
         before = self._sent
         while self._take(self._bus.recv(patience_s)) and (self._sent == before or self._layer.transmitting()):
             pass
         return self._sent - before
 
     def _take(self, message: can.Message | None) -> bool:
-        """False for no frame, or one that is none of the tester's."""
+        """Return False without a frame, or for a frame that is not from the tester."""
         if message is None or message.arbitration_id != self._poll.addresses.request_id:
             return False
         self._incoming.append(isotp.CanMessage(arbitration_id=message.arbitration_id,

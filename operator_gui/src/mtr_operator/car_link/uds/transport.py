@@ -1,4 +1,4 @@
-"""Requests and answers of UDS over ISO-TP, frame by frame and without threads: by can-isotp and udsoncan."""
+"""UDS requests and answers over ISO-TP, frame by frame and without threads: by can-isotp and udsoncan."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ from udsoncan.services import ReadDataByIdentifier
 
 from .addresses import Addresses
 
-# Its warnings are for programmers: an answer that is not whole is none.
+# Its warnings are for programmers: an incomplete answer is discarded.
 logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).addHandler(logging.NullHandler())
 logging.getLogger(isotp.TransportLayerLogic.LOGGER_NAME).propagate = False
-# What the libraries count, the poller notices by itself: an answer that does not come.
+# The poller itself detects the missing answers that the libraries count.
 _PARAMETERS = {"blocking_send": False}
 _IDENTIFIER_BYTES = 2
 
 
 class AnsweredValues:
-    """Takes frames, and gives the data of an identifier when an answer with it is complete.
+    """Decoder of frames that returns the data of an identifier when an answer with it is complete.
 
     Attributes:
-        outgoing: data of frames that have to be sent to the ECU, such as flow control; who only listens leaves them.
+        outgoing: frame data to be sent to the ECU, such as flow control; ignored in listen-only mode.
     """
 
     def __init__(self, addresses: Addresses, data_identifier: int):
@@ -40,13 +40,13 @@ class AnsweredValues:
             error_handler=lambda _: None, params=_PARAMETERS)
 
     def ask(self) -> None:
-        """Put a request into outgoing."""
+        """Append a request to outgoing."""
         request = udsoncan.Request(ReadDataByIdentifier, data=self._data_identifier.to_bytes(_IDENTIFIER_BYTES, "big"))
         self._layer.send(request.get_payload())
         self._layer.process(rx_timeout=0.0)
 
     def frame(self, can_id: int, is_extended: bool, data: bytes) -> bytes | None:
-        """Data of the identifier when this frame completes an answer with it."""
+        """Return the data of the identifier if this frame completes an answer with it."""
         if can_id != self._addresses.response_id or is_extended != self._addresses.is_extended:
             return None
         self._incoming.append(isotp.CanMessage(arbitration_id=can_id, extended_id=is_extended, data=data))
@@ -55,7 +55,7 @@ class AnsweredValues:
         return None if payload is None else self._value(bytes(payload))
 
     def _value(self, payload: bytes) -> bytes | None:
-        """None for a refusal, for an answer to somebody else, and for what is none."""
+        """Return the data; None for a rejection, for an answer to another request, and for an invalid answer."""
         response = None
         with contextlib.suppress(ValueError, udsoncan.exceptions.InvalidResponseException):
             response = udsoncan.Response.from_payload(payload)

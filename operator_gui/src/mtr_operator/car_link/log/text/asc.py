@@ -1,4 +1,4 @@
-"""Logs of Vector's tools and of those that write the same lines (ASC)."""
+"""Logs of Vector's tools and of others that write the same lines (ASC)."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _EVENT = re.compile(r"(start of measurement|log trigger event|statistic:|.*chip 
 _TIMED = re.compile(r"(\d+[.,]\d+)\s+(.*)")
 _CLASSIC = re.compile(r"(\d+)\s+(\S+)\s+(Rx|Tx|TxRq)\s+([dr])\b\s*(.*)", re.IGNORECASE)
 _FD = re.compile(r"CANFD\s+(\d+)\s+(Rx|Tx|TxRq)\s+(\S+)\s+(.*)", re.IGNORECASE)
-# Bits BRS and ESI, data length code and length, behind a name that is written or not: no name begins with a digit.
+# Bits BRS and ESI, data length code and length, after an optional name: no name begins with a digit.
 _FD_VALUES = re.compile(r"(?:[^\s\d]\S*\s+)?([01])\s+([01])\s+([0-9a-fA-F])\s+(\d{1,2})\b\s*(.*)")
-# Identifier or name, by its place.
+# Identifier or name, by its position.
 _PLACE = re.compile(r"\d+[.,]\d+\s+(?:CANFD\s+\d+\s+(?:Rx|Tx|TxRq)|\d+)\s+(\S+)", re.IGNORECASE)
 _NUMBER = re.compile(r"([0-9A-Fa-f]+)([xX]?)")
-# Behind the data, such as: Length = 244000 BitCount = 125 ID = 801
+# Identifier after the data, such as: Length = 244000 BitCount = 125 ID = 801
 _WRITTEN_ID = re.compile(r"\bID = (\d+)(x?)")
 _DATA_END = re.compile(r"\s(Length|BitCount|ID)\s*=")
 _HEX, _DEC = 16, 10
@@ -28,7 +28,7 @@ _MAX = {False: 0x7FF, True: 0x1FFF_FFFF}
 
 
 class Asc(LineReader):
-    """names: of messages, for a log that has names in place of identifiers."""
+    """Reader of ASC lines. names: of messages, for a log with names instead of identifiers."""
 
     name = "ASC"
 
@@ -40,7 +40,7 @@ class Asc(LineReader):
         self._time_s = 0.0
 
     def prepare(self, lines: Sequence[str]) -> None:
-        """See LineReader: BC is an identifier, or in a log with names in place of identifiers the message BC."""
+        """See LineReader: BC is an identifier, or the message BC in a log with names instead of identifiers."""
         texts = (match[1] for match in map(_PLACE.match, lines) if match is not None)
         self._has_names = any(text in self._names and not _NUMBER.fullmatch(text) for text in texts)
 
@@ -108,7 +108,7 @@ class Asc(LineReader):
         return number
 
     def _number(self, text: str) -> tuple[int, bool] | None:
-        """Return what the text is as a number; None for a name, of which one may be too large a number."""
+        """Return the text as a number; None for a name, which includes numbers that are too large."""
         match = _NUMBER.fullmatch(text)
         if match is None:
             return None

@@ -1,4 +1,4 @@
-"""Logs of candump (can-utils): as it writes files, and as it shows frames on a console."""
+"""Logs of candump (can-utils): its files, and its console output."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ _CONSOLE = re.compile(r"(?:\(([^()]*)\)\s+)?([A-Za-z][\w.-]*)\s+(?:[RT]X\s+[B-]\
                       r"[\[{](\d{1,2})[\]}]\s*(.*)")
 # Bytes of candump -i.
 _BINARY = re.compile(r"[01]{8}")
-# Both steps from frame to frame and times since the first frame begin with 0. Times of an interface do not fall, and
-# those of the second half are later than those of the first.
+# Intervals between frames and times since the first frame both begin with 0. Times of an interface do not decrease, and
+# the times of the second half are later than the times of the first.
 _MIN_FRAMES, _FALLING_SHARE, _GROWING_SHARE = 4, 0.2, 0.75
 
 
 class CandumpLog(LineReader):
-    """candump -l and -L."""
+    """Reader of the output of candump -l and -L."""
 
     name = "candump"
 
@@ -53,14 +53,14 @@ class CandumpLog(LineReader):
         is_fd = rest.startswith("#")
         if rest[:1] in ("R", "r"):
             return Line.NO_DATA
-        # A digit of flags before the data of CAN FD; a data length code above 8 behind those of classic CAN.
+        # CAN FD has a digit of flags before the data; classic CAN may have a data length code above 8 after the data.
         data = hex_bytes((rest[2:] if is_fd else rest).split("_")[0].replace(".", ""))
         return frame(seconds(time_text), can_id & _ID_MASK, is_extended, data, is_fd=is_fd,
                      channel=self._channels.number(name))
 
 
 class CandumpConsole(LineReader):
-    """candump with times (-t a, A, d or z), kept as a file."""
+    """Reader of candump's console output with times (-t a, A, d or z) in a file."""
 
     name = "candump on a console"
 
@@ -70,7 +70,7 @@ class CandumpConsole(LineReader):
         self._sum_s = 0.0
 
     def prepare(self, lines: Sequence[str]) -> None:
-        """See LineReader: -t d and -t z look alike."""
+        """See LineReader: -t d and -t z are distinguished by several lines."""
         matches = [match for match in map(_CONSOLE.fullmatch, lines) if match and match[1]]
         stamps = [(match[2], _time_or_nan(match[1])) for match in matches]
         self._are_steps = _are_steps([(name, time_s) for name, time_s in stamps if math.isfinite(time_s)])
@@ -98,7 +98,7 @@ class CandumpConsole(LineReader):
 
 
 def _are_steps(stamps: Sequence[tuple[str, float]]) -> bool:
-    """Return whether times are those since the frame before; stamps: interface and time."""
+    """Return True if the times are intervals since the previous frame. stamps: interface and time."""
     times_s = [time_s for _, time_s in stamps]
     if len(times_s) < _MIN_FRAMES or times_s[0] != 0.0:
         return False

@@ -1,4 +1,4 @@
-"""Cells of a table of frames, as the words that different tools write into them."""
+"""Cells of a table of frames, in the notations of different tools."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .lines import (
 )
 
 _BYTE_DIGITS = 2
-# Characters of a cell in a sentence.
+# Maximum characters of a cell in a sentence.
 _QUOTED = 30
 # Data length codes of more than eight bytes.
 _LONG_CODES = range(9, 16)
@@ -41,7 +41,7 @@ def cell_time(text: str, unit_s: float) -> float:
 
 
 def cell_id(text: str) -> int:
-    """Return an identifier; ValueError for a text that is no hexadecimal number."""
+    """Return an identifier; ValueError for a text that is not a hexadecimal number."""
     try:
         return hex_id(text)
     except WrongShape:
@@ -49,18 +49,18 @@ def cell_id(text: str) -> int:
 
 
 def is_set(word: str, column: str) -> bool:
-    """Return whether a column of yes and no says yes; an empty one says no. ValueError for any other word."""
+    """Return the value of a yes/no column; an empty one is False. ValueError for any other word."""
     return bool(word) and _choice(word, column, _YES, _NO)
 
 
 def is_extended(word: str, can_id: int) -> bool:
-    """Return whether an identifier is an extended one; where the word is empty, its value decides. ValueError for a
-    word that names neither format."""
+    """Return True for an extended identifier; without a word, its value decides. ValueError for a word that names
+    neither format."""
     return _choice(word, "extended", _EXTENDED, _STANDARD) if word else can_id > MAX_STANDARD
 
 
 def cell_data(words: Sequence[str], length: str) -> bytes:
-    """Return the data of one column: a word for each byte, or bytes without blanks. length: empty when not stated."""
+    """Return the data of one column: a word for each byte, or bytes without blanks. length: empty if not stated."""
     if length:
         is_whole = len(words) == 1 and not _is_byte(words[0])
         present = len(words[0]) // _BYTE_DIGITS if is_whole else sum(map(_is_byte, words))
@@ -74,8 +74,8 @@ def cell_data(words: Sequence[str], length: str) -> bytes:
 
 
 def data_length(text: str, present: int) -> int:
-    """Return the length of data: from 9 on it may be a data length code. present: bytes in the line. ValueError when
-    they are of neither length; those that fill up the columns of a classic frame are no contradiction."""
+    """Return the length of the data: from 9 on it may be a data length code. present: bytes in the line. ValueError if
+    neither length matches; padding to the columns of a classic frame is not a contradiction."""
     count = int(text)
     if count not in _LONG_CODES or present == count:
         return count

@@ -17,17 +17,17 @@ _MAX_CHANNEL = 0xFFFF
 # End of the year 9999 in UNIX time: no clock of a log shows more, whatever its origin.
 _LATEST_S = 253_402_300_799.0
 _DATE = re.compile(r"(\d{4}-\d\d-\d\d)[ T](\d\d:\d\d:\d\d)([.,]\d+)?(?: ?(Z|[+-]\d\d:?\d\d))?")
-# A byte by the base of its digits. More digits than a byte needs are of another base: candump -i writes binary ones.
+# Byte by the base of its digits. More digits than a byte needs are of another base: candump -i writes binary ones.
 _BYTES = {base: re.compile(pattern) for base, pattern in (
     (2, "[01]{8}"), (10, r"\d{1,3}"), (16, "(?:0[xX])?[0-9A-Fa-f]{1,2}"))}
 
-# Identifier and whether it is an extended one, by the name of a message.
+# Identifier and is_extended, by the name of a message.
 Names = Mapping[str, "tuple[int, bool]"]
 
 
 class LoggedFrame(NamedTuple):
-    """time_s: by the log's clock, from any origin; a log says nothing of which clock that is. channel: number of the
-    bus, from 0; a log without channels has 0."""
+    """Frame of a log. time_s: by the log's clock, whose kind and origin are unknown. channel: number of the bus, from
+    0; 0 in a log without channels."""
 
     time_s: float
     can_id: int
@@ -38,28 +38,29 @@ class LoggedFrame(NamedTuple):
 
 
 class Line(Enum):
-    """NOTHING: a comment, a header or an event. NO_DATA: a remote frame or an error frame."""
+    """Lines without a data frame. NOTHING: a comment, a header or an event. NO_DATA: a remote frame or an error
+    frame."""
 
     NOTHING = "nothing"
     NO_DATA = "no data"
 
 
 class WrongShape(ValueError):
-    """A line of another kind than those that the reader knows."""
+    """The line has a different format than the reader supports."""
 
     def __init__(self) -> None:
         super().__init__("is not understood")
 
 
 class Damaged(Exception):
-    """A log ends before a frame that no bus has carried, or before a part that is corrupt; the text is the reason."""
+    """The log ends before a frame that is impossible on a bus, or before a corrupt part; the text is the reason."""
 
     def __init__(self, reason: str = "holds what no bus has carried"):
         super().__init__(reason)
 
 
 class Ambiguous(Exception):
-    """Buses that cannot be numbered by their names. Attributes: names: of these buses."""
+    """Names of buses that do not identify their numbers. Attributes: names: of these buses."""
 
     def __init__(self, names: Sequence[str]):
         self.names = " and ".join(names)
@@ -70,9 +71,9 @@ Read = Union[LoggedFrame, Line]
 
 
 class LineReader(ABC):
-    """Reads one kind of log, line by line in its order.
+    """Reader of one kind of log, line by line in its order.
 
-    Attributes: name: of the kind, for sentences. is_recognized: its header was seen.
+    Attributes: name: of the kind, for sentences. is_recognized: its header was found.
     """
 
     name = ""
@@ -80,10 +81,11 @@ class LineReader(ABC):
 
     @abstractmethod
     def read(self, line: str) -> Read:
-        """Read a line that is not empty; ValueError, whose text is the reason, for a line to leave out."""
+        """Read a line that is not empty; ValueError states why a line is skipped."""
 
     def prepare(self, lines: Sequence[str]) -> None:  # noqa: B027, most kinds say in their header what they mean
-        """The first lines, before they are read, for a kind that does not say which unit or origin its times have."""
+        """Inspect the first lines before they are read, for kinds that do not declare the unit or origin of their
+        times."""
 
 
 class Channels:
@@ -94,7 +96,7 @@ class Channels:
         self._is_unnumbered = False
 
     def number(self, name: str) -> int:
-        """Return the number of an interface; Ambiguous when it cannot be distinguished from another one."""
+        """Return the number of an interface; Ambiguous if it cannot be distinguished from another one."""
         known = self._numbers.get(name)
         if known is not None:
             return known
@@ -109,12 +111,12 @@ class Channels:
 
 def frame(time_s: float, can_id: int, is_extended: bool, data: bytes, *, is_fd: bool = False,
           channel: int = 0) -> LoggedFrame:
-    """Return a frame; one of more than eight bytes is CAN FD. Damaged: see checked."""
+    """Return a frame; one with more than eight bytes is CAN FD. Damaged: see checked."""
     return checked(LoggedFrame(time_s, can_id, is_extended, data, is_fd or len(data) > CLASSIC_BYTES, channel))
 
 
 def checked(read: LoggedFrame) -> LoggedFrame:
-    """Return the frame; Damaged for what no bus has carried, because the readers accept any number."""
+    """Return the frame; Damaged if it is impossible on a bus, because the readers accept any number."""
     if not abs(read.time_s) <= _LATEST_S:
         raise Damaged(f"has the time {read.time_s:.3g} s, which no clock shows")
     limit = _MAX_EXTENDED if read.is_extended else MAX_STANDARD
@@ -124,7 +126,7 @@ def checked(read: LoggedFrame) -> LoggedFrame:
 
 
 def seconds(text: str) -> float:
-    """A time, with a decimal point or comma."""
+    """Return a time, with a decimal point or comma."""
     try:
         return float(text.replace(",", "."))
     except ValueError:
@@ -132,7 +134,7 @@ def seconds(text: str) -> float:
 
 
 def moment(text: str) -> float:
-    """A time in seconds, or a date with a time of day (ISO 8601) in UNIX time; UTC when it names no zone."""
+    """Return a time in seconds, or a date with a time of day (ISO 8601) in UNIX time; UTC without a zone."""
     match = _DATE.fullmatch(text.strip())
     if match is None:
         return seconds(text)
@@ -146,14 +148,14 @@ def moment(text: str) -> float:
 
 
 def hex_id(text: str) -> int:
-    """An identifier in hexadecimal, with or without 0x."""
+    """Return an identifier in hexadecimal, with or without 0x."""
     if not re.fullmatch(r"(?:0[xX])?[0-9A-Fa-f]+", text):
         raise WrongShape
     return int(text, 16)
 
 
 def hex_bytes(text: str) -> bytes:
-    """Data in hexadecimal, with blanks between the bytes or none."""
+    """Return data in hexadecimal, with or without blanks between the bytes."""
     try:
         return bytes.fromhex(text)
     except ValueError:
@@ -161,7 +163,7 @@ def hex_bytes(text: str) -> bytes:
 
 
 def some_bytes(words: Sequence[str], count: int, base: int = 16) -> bytes:
-    """The first words as data; what follows them is another column."""
+    """Return the first words as data; the following words are another column."""
     if len(words) < count:
         raise ValueError(f"has {len(words)} bytes of data, and says {count}")
     if not all(map(_BYTES[base].fullmatch, words[:count])):
@@ -173,7 +175,7 @@ def some_bytes(words: Sequence[str], count: int, base: int = 16) -> bytes:
 
 
 def fd_length(code: int) -> int:
-    """Bytes of a data length code."""
+    """Return the number of bytes of a data length code."""
     if not 0 <= code < len(_FD_LENGTHS):
         raise ValueError(f"has the data length code {code}")
     return int(_FD_LENGTHS[code])

@@ -1,4 +1,4 @@
-"""Opens a textual log in whatever encoding, packed with gzip or not, and reads its lines in little memory."""
+"""Opens a textual log in any encoding, with or without gzip, and reads its lines in bounded memory."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from typing import IO, Iterator, Mapping
 
 from .lines import Damaged
 
-# Characters of the longest line.
+# Maximum characters of a line.
 _LONGEST = 4096
 _GZIP = b"\x1f\x8b"
 _MARKS = {codecs.BOM_UTF8: "utf-8-sig", codecs.BOM_UTF16_LE: "utf-16", codecs.BOM_UTF16_BE: "utf-16"}
 
 
 def opened(path: pathlib.Path) -> IO[str]:
-    """Return the text of a log; Damaged when it is packed and its beginning cannot be unpacked."""
+    """Return the text of a log; Damaged if its beginning cannot be decompressed."""
     with path.open("rb") as file:
         is_packed = file.read(len(_GZIP)) == _GZIP
     if not is_packed:
@@ -29,7 +29,7 @@ def opened(path: pathlib.Path) -> IO[str]:
 
 
 def packed_kind(path: pathlib.Path, magic: Mapping[str, bytes]) -> str:
-    """Return the suffix of a binary kind that is packed with gzip; magic: how the files of each kind begin."""
+    """Return the suffix of a binary kind that is compressed with gzip; magic: first bytes of each kind."""
     with path.open("rb") as file:
         if file.read(len(_GZIP)) != _GZIP:
             return ""
@@ -49,17 +49,17 @@ def _encoding(begin: bytes) -> str:
     marked = next((name for mark, name in _MARKS.items() if begin.startswith(mark)), "")
     if marked:
         return marked
-    # A letter of UTF-16 without its mark has a zero next to it.
+    # In UTF-16 without a byte order mark, a letter is next to a zero byte.
     return "utf-16-le" if begin[1:2] == b"\0" else "utf-16-be" if begin[:1] == b"\0" and len(begin) > 1 else "utf-8"
 
 
 def whole_lines(file: IO[str]) -> Iterator[tuple[str, bool]]:
-    """Lines, and whether each has its end; Damaged where packed data ends too early."""
+    """Yield each line, and True if it is complete; Damaged if compressed data ends too early."""
     try:
         while line := file.readline(_LONGEST):
             yield line, line.endswith("\n")
     except EOFError:
         raise Damaged("its packed data is cut off") from None
     except (zlib.error, gzip.BadGzipFile):
-        # The check comes after the data.
+        # The check sum follows the data.
         raise Damaged("its packed data is corrupt there or before") from None

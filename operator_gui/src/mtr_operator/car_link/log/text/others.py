@@ -58,7 +58,7 @@ class Busmaster(LineReader):
         if self._are_steps:
             self._time_s += time_s
             return
-        # The time of day begins again at midnight.
+        # The time of day restarts at midnight.
         if time_s + self._added_s < self._time_s - _DAY_S / 2:
             self._added_s += _DAY_S
         self._time_s = time_s + self._added_s

@@ -1,4 +1,4 @@
-"""Tables of frames with commas, semicolons or tabs: those of SavvyCAN (GVRET), of python-can, and similar ones."""
+"""Tables of frames with commas, semicolons or tabs: SavvyCAN (GVRET), python-can and similar ones."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .lines import (
 
 _TIME, _ID, _EXTENDED, _DIRECTION, _BUS, _LENGTH, _DATA = "time", "id", "extended", "dir", "bus", "length", "data"
 _REMOTE, _ERROR, _UNKNOWN = "remote", "error", ""
-# Names of columns in small letters, without what is no letter or digit.
+# Names of columns in lower case, without characters other than letters and digits.
 _COLUMNS = {
     _TIME: ("timestamp", "time", "timeus", "timems", "times", "timestampus", "timestampms", "timestamps", "timeoffset",
             "timeoffsetms", "timestampmicroseconds", "timestampmilliseconds", "timestampseconds", "abstime"),
@@ -33,7 +33,7 @@ _COLUMNS = {
     _DATA: ("data", "databytes", "payload", "datahex"),
     _REMOTE: ("remote", "rtr", "isremote", "isrtr", "remoteframe", "isremoteframe"),
     _ERROR: ("error", "err", "iserror", "iserr", "errorframe", "iserrorframe")}
-# Micro sign, Greek letter mu, and what is left of either in a file of another encoding.
+# Micro sign, Greek letter mu, and the remainder of either in a file of another encoding.
 _MICRO = str.maketrans(dict.fromkeys("\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}\N{REPLACEMENT CHARACTER}", "u"))
 # Columns of one byte each.
 _FIRST_BYTE, _BYTE = (re.compile(rf"(?:d|b|data|byte|databyte){number}") for number in ("0?[01]", r"\d\d?"))
@@ -41,12 +41,12 @@ _UNITS_S = {"us": 1e-6, "microseconds": 1e-6, "ms": 1e-3, "milliseconds": 1e-3, 
 # Tables without a header, by their number of columns before the data.
 _WITHOUT_HEADER = ((_TIME, _ID, _EXTENDED, _DIRECTION, _BUS, _LENGTH), (_TIME, _ID, _EXTENDED, _BUS, _LENGTH))
 _BASE64 = ["timestamp", "arbitration_id", "extended", "remote", "error", "dlc", "data"]
-# No message of a car comes more often.
+# No message of a car has a shorter cycle.
 _SHORTEST_CYCLE_S = 0.0005
 
 
 class Table(LineReader):
-    """With a header, or with SavvyCAN's columns without one."""
+    """Table with a header, or with SavvyCAN's columns without one."""
 
     name = "table of SavvyCAN or python-can"
 
@@ -59,7 +59,7 @@ class Table(LineReader):
         self._head = ""
 
     def prepare(self, lines: Sequence[str]) -> None:
-        """See LineReader: whole numbers are microseconds, unless no bus could carry so many frames in them."""
+        """See LineReader: integers are microseconds, unless the frames would exceed the capacity of a bus."""
         self._head = next((line for line in lines if self._header(line)), "")
         if not self._head:
             self._guess(lines)
@@ -136,20 +136,20 @@ class Table(LineReader):
 
 
 def _columns(names: Sequence[str]) -> list[str]:
-    """Return what the columns with these names hold; each column of one byte holds data."""
+    """Return the contents of the columns with these names; each column of one byte holds data."""
     columns = [next((key for key, known in _COLUMNS.items() if name in known), _UNKNOWN) for name in names]
     first = next((at for at, name in enumerate(names) if _FIRST_BYTE.fullmatch(name)), None)
     if first is None:
         return columns
     behind = next((at for at in range(first, len(names)) if not _BYTE.fullmatch(names[at])), len(names))
-    # Rows may have more bytes than the header, unless another column is behind them.
+    # Rows may have more bytes than the header, unless another column follows them.
     count = behind - first if behind < len(names) else 1
     others = [_UNKNOWN if column == _DATA else column for column in columns]
     return [*others[:first], *[_DATA] * count, *others[behind:]]
 
 
 def _base64(text: str, length: str) -> bytes:
-    """Return the data of python-can, whose length has to agree: most hexadecimal texts are base64, too."""
+    """Return the data of python-can, whose length must match: most hexadecimal texts are also base64."""
     try:
         data = base64.b64decode(text, validate=True)
     except (binascii.Error, ValueError):
@@ -164,8 +164,8 @@ def _is_header_again(line: str) -> bool:
 
 
 def unit_s(times: Mapping[str, Sequence[float]]) -> float:
-    """Seconds of whole numbers that do not say what they count: microseconds, or milliseconds when messages would come
-    more often than any does. times: of each message."""
+    """Return the unit in s of integer times without a unit: microseconds, or milliseconds if a message would be more
+    frequent than any real one. times: of each message."""
     steps = [statistics.median(abs(after - before) for before, after in zip(each, each[1:]))
              for each in times.values() if len(each) > 1]
     cycle = statistics.median(steps) if steps else 0.0

@@ -1,4 +1,4 @@
-"""Frames of a textual log of whatever kind, by its content; what is left out is counted."""
+"""Frames of a textual log; its kind is detected by its content, and skipped lines are counted."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -27,8 +27,9 @@ Numbered = Tuple[int, str]
 
 
 class _Trial(NamedTuple):
-    """score: frames first. place: of the reader. first: what is wrong with the first line that is not read, of a reader
-    that knows other lines. is_known: the reader knows some line. ambiguity: names of buses that cannot be numbered."""
+    """Result of one reader. score: frames first. place: of the reader. first: fault of the first unread line, of a
+    reader that understands others. is_known: it understands some line. ambiguity: names of buses that cannot be
+    numbered."""
 
     score: tuple[int, int, bool, bool, int]
     place: int
@@ -43,18 +44,18 @@ def _readers(names: Names) -> list[LineReader]:
 
 
 def kinds() -> str:
-    """All that are read, for sentences."""
+    """Return the names of all kinds, for sentences."""
     return ", ".join(reader.name for reader in _readers({}))
 
 
 class TextLog:
-    """Iterator over its frames. ConnectionFailed, or OSError, when it is none; Damaged where it ends early.
+    """Iterator over the frames. ConnectionFailed or OSError if it is not a log; Damaged if it ends early.
 
     names: see Asc.
 
     Attributes:
-        kind: of the log. left_out: lines that are not understood; first: what is wrong with the first of them.
-        without_data: remote and error frames.
+        kind: of the log. left_out: lines that are not understood; first: fault of the first of them. without_data:
+        remote and error frames.
     """
 
     def __init__(self, path: pathlib.Path, names: Names):
@@ -152,7 +153,7 @@ def _refusal(path: pathlib.Path, head: Sequence[Numbered], best: _Trial) -> str:
 
 
 def _head(file: IO[str]) -> Iterator[Numbered]:
-    """The first lines that are not empty; of a damaged log those before the damage, but at least one."""
+    """Yield the first lines that are not empty; of a damaged log the lines before the damage, but at least one."""
     count = 0
     try:
         for number, (text, _) in enumerate(itertools.islice(whole_lines(file), _HEAD), 1):

@@ -22,14 +22,14 @@ _MS_PER_S = 1000.0
 _STANDARD_DIGITS = 4
 _NUMBERED, _BRACKETED = re.compile(r"\d+\)?\s"), re.compile(r"\d+\)\s")
 _DIRECTIONS = ("Rx", "Tx")
-# Columns of the versions that do not name them; those of 2.x are in the file.
+# Columns of the versions that do not name them; files of 2.x do.
 _COLUMNS = {"1.0": "N O I L D", "1.1": "N O d I L D", "1.2": "N O B d I L D", "1.3": "N O B d I R L D"}
 _DATA_TYPES, _FD_TYPES = {"DT", "FD", "FB", "FE", "BI"}, {"FD", "FB", "FE", "BI"}
 _HACKER = re.compile(r"(\d+[.,]\d+)\s+([0-9A-Fa-f]{1,8})\s+([0-8])\b((?:\s+[0-9A-Fa-f]{2})*)\s*(.*)")
 
 
 class PcanTrace(LineReader):
-    """Versions 1.0 to 2.1; buses count from 1."""
+    """Reader of versions 1.0 to 2.1; buses count from 1."""
 
     name = "PCAN trace"
 
@@ -42,7 +42,7 @@ class PcanTrace(LineReader):
         if line.startswith(";"):
             self._header(line)
             return Line.NOTHING
-        # CanHacker's times look like numbers of frames, which have a bracket in versions that name no columns.
+        # CanHacker's times resemble frame numbers, which have a bracket in versions that name no columns.
         if not (_NUMBERED if self._are_named else _BRACKETED).match(line):
             raise WrongShape
         values = dict(zip(self._columns, line.split(maxsplit=len(self._columns) - 1)))
@@ -77,7 +77,7 @@ class PcanTrace(LineReader):
 
 
 class CanHackerTrace(LineReader):
-    """Time in s, identifier, length and data; its decimal sign is that of the computer."""
+    """Reader of time in s, identifier, length and data; the decimal sign depends on the computer's locale."""
 
     name = "CanHacker trace"
 
