@@ -1,4 +1,4 @@
-"""Where the robot listens: host and the two ports, validated once."""
+"""Address of the robot: host and the two ports, validated once."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 

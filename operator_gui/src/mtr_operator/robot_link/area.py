@@ -12,18 +12,18 @@ from mtr_proto import robot_link_pb2 as pb
 
 
 def area_message(order: AreaOrder) -> pb.TestArea:
-    """An order for the robot."""
+    """Return an order as a message to the robot."""
     return pb.TestArea(id=order.id, origin_id=order.origin_id, x=[x for x, _ in order.corners],
                        y=[y for _, y in order.corners])
 
 
 def area_order_from(message: pb.TestArea) -> AreaOrder:
-    """The order in a Command."""
+    """Return the order in a Command."""
     return AreaOrder(message.id, message.origin_id, tuple(zip(message.x, message.y)))
 
 
 def area_state_from(message: pb.TestAreaState, problems: tuple[Problem, ...]) -> AreaState:
-    """What a robot reports; an area or pose that is not finite counts as none."""
+    """Return the reported state; an area or pose that is not finite is omitted."""
     corners = tuple(zip(message.area.x, message.area.y))
     is_finite = all(math.isfinite(value) for corner in corners for value in corner)
     return AreaState(message.required, message.fixed, message.area.id, message.area.origin_id,

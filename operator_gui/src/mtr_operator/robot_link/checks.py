@@ -16,7 +16,7 @@ _STATUS_TIMEOUT_S = 2.0
 
 @dataclass(frozen=True)
 class HeightCheck:
-    """What is asked of the key's lift; times on the robot's clock."""
+    """Requested height of the key's lift; times on the robot's clock."""
 
     height_m: float
     tolerance: float = 0.1
@@ -25,12 +25,12 @@ class HeightCheck:
     wall_limit_s: float = 60.0
 
     def is_near(self, height_m: float) -> bool:
-        """Within the tolerance, which is a part of the height."""
+        """Return True within the tolerance, which is relative to the height."""
         return abs(height_m - self.height_m) <= self.tolerance * self.height_m
 
 
 def reach_and_hold_height(link: RobotLink, check: HeightCheck) -> str:
-    """Move the Remote key to a height and watch it there; empty when it gets there and stays, else what went wrong."""
+    """Move the Remote key to a height and check that it stays there; return the fault, empty without one."""
     desired = DesiredState(key_height_m=check.height_m)
     first_s = reached_s = math.nan
     for status in _answered(link, desired, check.wall_limit_s):
@@ -53,7 +53,7 @@ def reach_and_hold_height(link: RobotLink, check: HeightCheck) -> str:
 
 
 def _answered(link: RobotLink, desired: DesiredState, wall_limit_s: float) -> Iterator[RobotStatus]:
-    """Statuses of the link, each answered with the desired state, until silence or the limit."""
+    """Yield the Statuses of the link, each answered with the desired state, until silence or the limit."""
     deadline = time.monotonic() + wall_limit_s
     while time.monotonic() < deadline:
         status = link.next_status(_STATUS_TIMEOUT_S)

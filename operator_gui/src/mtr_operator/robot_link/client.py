@@ -27,26 +27,27 @@ from .sockets import KeyRefused, LinkSockets, connect
 if TYPE_CHECKING:
     from .sockets import Socket
 
-# Wall time for which closing waits at most until the goodbye has left.
+# Longest wall time for which closing waits until the goodbye has left.
 _GOODBYE_LINGER_MS = 300
 _SESSION_BITS = 63
-# Statuses in a row, about 2 s, in which the robot that we controlled says that nobody does.
+# Consecutive Statuses, about 2 s, in which the robot that we controlled reports that it has no controller.
 MAX_FREE_STATUSES = 20
-# Severity 3: no test begins with it.
+# Severity 3 prevents the start of a test.
 VIEWER_NOTICE = Notification("viewer", 3, "This laptop is paired as a viewer: it sees the robot and cannot move it.")
 
 
 class ZmqRobotLink(RobotLink):
-    """Talks to the robot, or to anything that speaks the same two ports.
+    """Link to a robot, or to any program with the same two ports.
 
     Attributes:
-        session_id: random per instance and never 0, so that ids of an earlier start are never mistaken for ours.
-        statistics: counts since the connection was made.
+        session_id: random per instance and never 0, so that ids of an earlier start cannot be confused with ours.
+        statistics: counts since the connection was established.
     """
 
     def __init__(self, host: str, subscriber_port: int = SUBSCRIBER_PORT, publisher_port: int = PUBLISHER_PORT,
                  connect_timeout_s: float = 2.0, *, is_unencrypted: bool = False, chain: KeyChain | None = None):
-        """is_unencrypted: the person does without encryption. chain: keys of this laptop, None for the system's."""
+        """is_unencrypted: the person chose a connection without encryption. chain: keys of this laptop, None for the
+        system's."""
         self._is_unencrypted, self._chain = is_unencrypted, chain or KeyChain()
         self._ip = ""
         self.address = RobotAddress(host, subscriber_port, publisher_port)
@@ -54,7 +55,7 @@ class ZmqRobotLink(RobotLink):
         self.statistics = LinkStatistics()
         self._timeout_s = connect_timeout_s
         self._sockets: LinkSockets | None = None
-        # A stop is sent by another thread than the one that takes Statuses.
+        # The thread that sends a stop differs from the thread that receives Statuses.
         self._lock = threading.RLock()
         self._inbox = Inbox(self.statistics)
         self._desired: DesiredState | None = None
@@ -84,7 +85,7 @@ class ZmqRobotLink(RobotLink):
             self._sockets = self._connected()
 
     def _connected(self) -> LinkSockets:
-        """With the first of the keys that fits; the first refusal when none does."""
+        """Return the sockets with the first matching keys; raise the first refusal if none match."""
         ways = ways_to(self.address.host, self._ip, self._is_unencrypted, self._chain)
         refusals = []
         for credentials in ways:
@@ -113,7 +114,7 @@ class ZmqRobotLink(RobotLink):
                 return None
 
     def send(self, desired: DesiredState) -> None:
-        """See RobotLink; RobotFailed when this laptop may only look, and wants more."""
+        """See RobotLink; RobotFailed if this laptop is a viewer and the state requests motion."""
         if self._is_viewer:
             if moves(desired):
                 raise RobotFailed(VIEWER_NOTICE.text)
@@ -126,7 +127,7 @@ class ZmqRobotLink(RobotLink):
 
     def _answer(self, desired: DesiredState, *, watches: bool) -> None:
         with self._lock:
-            # Also for one that watches: an earlier robot takes it for an order.
+            # This includes a state that only watches: older robots treat it as an order.
             if desired != self._desired:
                 self._command_id += 1
                 self._desired = desired
@@ -143,7 +144,7 @@ class ZmqRobotLink(RobotLink):
             return
         with self._lock:
             self._command_id += 1
-            # Who has sent nothing has no session to end: an application that only looks sends nothing at all.
+            # A session begins with its first Command: a read-only application sends nothing and has none to end.
             if self._desired is not None and not self._is_viewer:
                 self._publish(DesiredState(stop=True), end_session=True)
             self._sockets = None
@@ -152,10 +153,10 @@ class ZmqRobotLink(RobotLink):
         sockets.context.term()
 
     def _check_control(self, status: RobotStatus) -> None:
-        """Go on where somebody has sent in our name; LinkLost when the robot takes this session for ended."""
+        """Continue the ids if this session's name was used elsewhere; LinkLost if the robot has ended this session."""
         if status.session_id == self.session_id:
             self._controls, self._free_count = True, 0
-            # So that the next Command, the same content even, is newer than what the robot has taken.
+            # The next Command, even with equal content, must be newer than the robot's last one.
             with self._lock:
                 if status.command_id > self._command_id:
                     self._command_id = status.command_id + 1
@@ -167,9 +168,9 @@ class ZmqRobotLink(RobotLink):
                                "go on with a continued test.")
 
     def _own_view(self, status: RobotStatus) -> RobotStatus:
-        """The Status without confirmations that are another session's: its ids count from 1 as ours do."""
+        """Return the Status without confirmations of another session, whose ids count from 1 as well."""
         if status.controller_name and not self.is_secret:
-            # Nobody vouches for a name on such a link.
+            # A name on an unencrypted link is not authenticated.
             status = dataclasses.replace(status, controller_name="")
         if self._is_viewer:
             status = dataclasses.replace(status, notifications=(*status.notifications, VIEWER_NOTICE))
@@ -187,7 +188,7 @@ class ZmqRobotLink(RobotLink):
             except zmq.Again:
                 return
             repeated = self._inbox.put(parts)
-            # The robot repeats a Status whose answer it misses; one that the runner still thinks about has none yet.
+            # The robot repeats an unanswered Status; one that the runner is still processing has no answer yet.
             with self._lock:
                 if repeated and self._desired is not None and self._answered is self._seen:
                     self._publish(self._desired)
@@ -206,7 +207,7 @@ class ZmqRobotLink(RobotLink):
 
 
 def moves(desired: DesiredState) -> bool:
-    """True when it asks for anything that moves."""
+    """Return True if the state requests any motion."""
     return any((desired.waypoint, desired.press, desired.map_car_id, desired.check_car_id,
                 desired.key_height_m is not None))
 

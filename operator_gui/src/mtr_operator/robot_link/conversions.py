@@ -1,4 +1,4 @@
-"""Messages of the link to and from the types of the domain's ports."""
+"""Converts messages of the link to and from the types of the domain's ports."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ _CHECK_FIGURES = ("difference_m", "difference_rad", "limit_m", "limit_rad")
 
 
 class UndecodableMessage(ValueError):
-    """Bytes that are no message of the link."""
+    """Bytes that are not a message of the link."""
 
 
 class ImplausibleMessage(UndecodableMessage):
-    """A message with a number that cannot be true."""
+    """Message with an implausible number."""
 
 
 @dataclass(frozen=True)
 class CommandHeader:
-    """What a Command carries beside the desired state; see the proto for the meaning of the fields."""
+    """Fields of a Command in addition to the desired state; the proto describes them."""
 
     session_id: int
     id: int
@@ -47,7 +47,7 @@ class CommandHeader:
 
 
 def command_from_desired(desired: requests.DesiredState, header: CommandHeader) -> pb.Command:
-    """Command with this header; None is an absent field."""
+    """Return a Command with this header; None is an absent field."""
     command = pb.Command(session_id=header.session_id, id=header.id, sent_time_s=header.sent_time_s,
                          stop=desired.stop, map_car_id=desired.map_car_id, check_car_id=desired.check_car_id,
                          resume_hold_id=desired.resume_hold_id, enter_service=desired.enters_service,
@@ -74,7 +74,7 @@ def command_from_desired(desired: requests.DesiredState, header: CommandHeader) 
 
 
 def desired_from_command(command: pb.Command) -> requests.DesiredState:
-    """Content of a Command; absent fields are None."""
+    """Return the content of a Command; absent fields are None."""
     waypoint = press = None
     if command.HasField("waypoint"):
         sent = command.waypoint
@@ -92,12 +92,12 @@ def desired_from_command(command: pb.Command) -> requests.DesiredState:
 
 
 def decode_command(payload: bytes) -> pb.Command:
-    """Command in one ZeroMQ frame, or UndecodableMessage."""
+    """Return the Command in one ZeroMQ frame, or raise UndecodableMessage."""
     return _decode(payload, pb.Command(), ("session_id", "id"))
 
 
 def decode_status(payload: bytes) -> robot_status.RobotStatus:
-    """Status in one ZeroMQ frame; UndecodableMessage for other bytes and for numbers that cannot be true."""
+    """Return the Status in one ZeroMQ frame; UndecodableMessage for other bytes and for implausible numbers."""
     message = _decode(payload, pb.Status(), ("id", "robot_session_id", "sent_time_s"))
     status = plausible(robot_status_from(message))
     violation = violation_of(status) or not_finite(message)
@@ -118,10 +118,10 @@ def _decode(payload: bytes, message: Any, required: tuple[str, ...]) -> Any:
 
 
 def robot_status_from(message: pb.Status) -> robot_status.RobotStatus:
-    """Status as the domain knows it.
+    """Return the Status as a type of the domain.
 
-    stamp_s is the time of the pose while the pose is valid, else the time of sending: robot time goes on when the robot
-    is lost.
+    stamp_s is the time of the pose while the pose is valid, else the time of sending: robot time continues while the
+    robot is lost.
     """
     state = message.state
     pose_time_s = _value(state, "stamp_s", math.nan)
@@ -173,7 +173,7 @@ def _press_from(message: pb.PressConfirmation) -> robot_status.PressReport:
 
 
 def status_message_from(status: robot_status.RobotStatus) -> pb.Status:
-    """Status message that a robot in this state sends; NaN and None are absent fields."""
+    """Return the Status message that a robot in this state sends; NaN and None are absent fields."""
     message = pb.Status(
         id=status.id, robot_session_id=status.robot_session_id, state=_state_message(status),
         sent_time_s=status.stamp_s if math.isnan(status.sent_s) else status.sent_s,

@@ -1,4 +1,4 @@
-"""The robot's fake in the same process: a virtual robot that answers at once, on a clock of its own."""
+"""Fake robot in the same process: a virtual robot that answers at once, on its own clock."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _SESSION_ID = 1
 
 
 class FakeRobotLink(RobotLink):
-    """Each next_status lets 0.1 s of virtual time pass; deterministic for a seed.
+    """Link to a virtual robot. Each next_status advances its time by 0.1 s; the result is deterministic for a seed.
 
-    time_factor: virtual seconds per second of wall time, 0 for as fast as the caller asks. robot: one that has lived in
-    an earlier session already; session_id has to be another one then.
+    time_factor: virtual seconds per second of wall time, 0 for as fast as possible. robot: one that was used in an
+    earlier session; session_id must then be a new one.
     """
 
     def __init__(self, seed: int = 1, time_factor: float = 0.0, world: VirtualWorld = DEFAULT_WORLD,
@@ -40,7 +40,7 @@ class FakeRobotLink(RobotLink):
         self._connected = True
 
     def next_status(self, timeout_s: float) -> RobotStatus | None:
-        """See RobotLink; a Status is always there."""
+        """See RobotLink; a Status is always available."""
         if not self._connected:
             raise ConnectionFailed("The robot is not connected.")
         if self._pause_s:
@@ -50,7 +50,7 @@ class FakeRobotLink(RobotLink):
         return self._robot.status()
 
     def _pause(self) -> None:
-        """Until the next Status is due: on the whole its clock goes as fast as the laptop's, however late one is."""
+        """Wait until the next Status is due; a late call is compensated, so that the clock keeps its average rate."""
         now_s = time.monotonic()
         self._due_s = self._pause_s + (now_s if math.isnan(self._due_s) else self._due_s)
         self._sleep(min(max(self._due_s - now_s, 0.0), self._pause_s))

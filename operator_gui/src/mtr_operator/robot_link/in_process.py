@@ -14,17 +14,17 @@ if TYPE_CHECKING:
 
 
 class SteppedRobot(Protocol):
-    """A robot whose time passes when somebody asks for its next Status."""
+    """Robot whose time advances only when its next Status is requested."""
 
     def next_status(self) -> bytes:
-        """Let time pass until the next Status, with what was taken since the one before; its bytes."""
+        """Advance the time to the next Status, with the Commands since the previous one; return its bytes."""
 
     def take(self, command: bytes) -> None:
-        """A Command."""
+        """Receive a Command."""
 
 
 class InProcessRobotLink(ZmqRobotLink):
-    """The same session as over sockets; nobody waits, and time passes in next_status alone."""
+    """Session as over sockets, but without waiting; time advances only in next_status."""
 
     def __init__(self, robot: SteppedRobot):
         super().__init__("127.0.0.1")
@@ -36,29 +36,29 @@ class InProcessRobotLink(ZmqRobotLink):
 
 
 class _Wire:
-    """What the link asks of its sockets and their context."""
+    """Substitute of the sockets and their context, as far as the link uses them."""
 
     def __init__(self, robot: SteppedRobot):
         self._robot = robot
         self._waiting: list[bytes] = []
 
     def poll(self, timeout_ms: int) -> bool:
-        """The next Status is there as soon as somebody waits for it."""
+        """Produce the next Status; it is available at once."""
         self._waiting.append(self._robot.next_status())
         return True
 
     def recv_multipart(self, flags: int) -> list[bytes]:
-        """A Status, if one waits."""
+        """Return a Status, if one is queued."""
         if not self._waiting:
             raise zmq.Again
         return [self._waiting.pop(0)]
 
     def send(self, command: bytes) -> None:
-        """A Command to the robot."""
+        """Send a Command to the robot."""
         self._robot.take(command)
 
     def close(self, linger: Any = None) -> None:
-        """Nothing is open."""
+        """Do nothing, because nothing is open."""
 
     def term(self) -> None:
-        """Nothing is open."""
+        """Do nothing, because nothing is open."""

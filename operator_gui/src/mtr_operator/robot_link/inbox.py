@@ -10,14 +10,14 @@ from mtr_operator.domain.robot_status import Notification, RobotStatus
 
 from .conversions import MAX_MESSAGE_BYTES, ImplausibleMessage, UndecodableMessage, decode_status
 
-# Five seconds of Status: whoever is further behind wants the present, not the past.
+# Five seconds of Status: a slower reader needs the newest Statuses, not the old ones.
 MAX_BACKLOG = 50
 
 RESTARTED = Notification("robot_restarted", 2, "The robot has restarted; the present order was sent to it again.")
 
 
 class Inbox:
-    """Queue of Status messages that were received and not yet taken."""
+    """Queue of Status messages that were received but not taken yet."""
 
     def __init__(self, statistics: LinkStatistics):
         self._statistics = statistics
@@ -26,7 +26,7 @@ class Inbox:
         self._newest_id = 0
 
     def put(self, parts: list[bytes]) -> bool:
-        """Queue one ZeroMQ message; True, and not queued, when it repeats the Status that was taken last."""
+        """Queue one ZeroMQ message; return True, without queueing it, if it repeats the Status that was taken last."""
         status = self._decoded(parts)
         if status is None:
             return False
@@ -44,7 +44,7 @@ class Inbox:
         return False
 
     def take(self) -> RobotStatus | None:
-        """Oldest Status of the queue, None when it is empty."""
+        """Return the oldest Status of the queue, None if it is empty."""
         return self._queue.popleft() if self._queue else None
 
     def _begin_robot_session(self, status: RobotStatus) -> RobotStatus:

@@ -1,4 +1,4 @@
-"""Whether the numbers of a Status can be true."""
+"""Plausibility check of the numbers in a Status."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from mtr_operator.domain import limits
 from mtr_operator.domain.limits import Limit, first_violation
 from mtr_operator.domain.robot_status import CarDimensions, RobotStatus
 
-# Robots of before sent it while they did not know it.
+# Older robots send it as NaN while it is unknown.
 _MAY_BE_NAN = "device_height"
 
 
 def plausible(status: RobotStatus) -> RobotStatus:
-    """The same; a pose that the robot itself calls invalid is none when its numbers cannot be true."""
+    """Return the Status; an invalid pose with implausible numbers is removed."""
     if status.pose_valid or not first_violation(_pose(status)):
         return status
     nan = math.nan
@@ -24,16 +24,16 @@ def plausible(status: RobotStatus) -> RobotStatus:
 
 
 def violation_of(status: RobotStatus) -> str:
-    """Sentence about the first number that cannot be true; empty when there is none."""
+    """Return a sentence about the first implausible number; empty without one."""
     if status.pose_valid and not all(map(math.isfinite, (status.x, status.y, status.heading))):
         return "The pose is valid and lacks a coordinate."
     return first_violation(_numbers(status))
 
 
 def not_finite(message: Any) -> str:
-    """Sentence about the first number of a valid pose that was sent and is none; empty when there is none.
+    """Return a sentence about the first number of a valid pose that is not finite; empty without one.
 
-    In the domain's types NaN stands for a number that was not sent.
+    In the domain's types NaN represents a number that was not sent.
     """
     if not message.state.pose_valid:
         return ""
@@ -62,7 +62,7 @@ def _numbers(status: RobotStatus) -> Iterator[tuple[Limit, object]]:
 
 
 def _pose(status: RobotStatus) -> Iterator[tuple[Limit, object]]:
-    """What is not NaN: a robot of before does not say everything."""
+    """Yield the numbers that are not NaN: older robots do not send all of them."""
     for limit, value in ((limits.COORDINATE, status.x), (limits.COORDINATE, status.y), (limits.HEADING, status.heading),
                          (limits.POSITION_SIGMA, status.position_sigma_m),
                          (limits.HEADING_SIGMA, status.heading_sigma_rad), (limits.VARIANCE, status.variance_x_m2),

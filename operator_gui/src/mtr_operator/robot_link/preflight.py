@@ -1,4 +1,4 @@
-"""What a preflight found, to and from its message."""
+"""Converts the report of a preflight to and from its message."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ import math
 from mtr_operator.domain.robot_status import PreflightItem, PreflightReport
 from mtr_proto import robot_link_pb2 as pb
 
-# As many as a robot sends.
+# Largest number of items that a robot sends.
 _MAX_ITEMS = 64
 
 
 def preflight_from(message: pb.PreflightReport) -> PreflightReport:
-    """As the domain knows it. What does not say that nothing is wrong is bad; a time that is none is no report."""
+    """Return the report. An item without a good state counts as bad; a report without a valid time is absent."""
     if not message.HasField("made_s") or not math.isfinite(message.made_s):
         return PreflightReport()
     items = tuple(PreflightItem(item.name, item.level != pb.SEVERITY_INFO, item.sentence)
@@ -22,13 +22,13 @@ def preflight_from(message: pb.PreflightReport) -> PreflightReport:
 
 
 def _motion_made_s(message: pb.PreflightReport) -> float:
-    """NaN for a time that is none."""
+    """Return the time of the motion check; NaN if it is invalid."""
     is_told = message.HasField("motion_made_s") and math.isfinite(message.motion_made_s)
     return float(message.motion_made_s) if is_told else math.nan
 
 
 def preflight_message(report: PreflightReport) -> pb.PreflightReport:
-    """As a robot sends it."""
+    """Return the message that a robot sends."""
     if math.isnan(report.made_s):
         return pb.PreflightReport()
     items = [pb.PreflightItem(name=item.name, sentence=item.sentence,

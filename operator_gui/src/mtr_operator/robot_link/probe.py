@@ -1,4 +1,4 @@
-"""Plain TCP test of a port with a time limit, so that a wrong address is an error a person sees."""
+"""Plain TCP test of a port with a time limit, so that a wrong address is a visible error."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def probe(address: RobotAddress, timeout_s: float) -> str:
 
 
 def round_trip_s(address: RobotAddress, timeout_s: float) -> float:
-    """Median time in which a connection opens, one round trip of the network each; or ConnectionFailed."""
+    """Return the median time of opening a connection, one round trip of the network; or raise ConnectionFailed."""
     ip, port, taken_s = resolve(address.host, timeout_s), address.subscriber_port, []
     for _ in range(_ROUND_TRIPS):
         begun_s = time.monotonic()
@@ -34,7 +34,7 @@ def round_trip_s(address: RobotAddress, timeout_s: float) -> float:
 
 
 def resolve(host: str, timeout_s: float) -> str:
-    """IPv4 address of a host; the system's own name look-up knows no time limit, hence the thread."""
+    """Return the IPv4 address of a host; a thread limits the time, because the system's name look-up has no limit."""
     found: list[str] = []
 
     def look_up() -> None:

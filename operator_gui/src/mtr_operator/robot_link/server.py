@@ -31,12 +31,12 @@ class ConnectionServer:
 
     @property
     def status_socket(self) -> Socket:
-        """PUB socket of Status; there is one after open()."""
+        """PUB socket of Status; available after open()."""
         return _opened(self._status_socket)
 
     @property
     def command_socket(self) -> Socket:
-        """SUB socket of Command; there is one after open()."""
+        """SUB socket of Command; available after open()."""
         return _opened(self._command_socket)
 
     def open(self) -> None:

@@ -16,7 +16,7 @@ from .access.credentials import Credentials
 from .address import RobotAddress
 
 if TYPE_CHECKING:
-    # Generic in their stubs only.
+    # These types are generic only in their stubs.
     Socket = zmq.Socket[bytes]
     Context = zmq.Context[zmq.Socket[bytes]]
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 # IPv4 address and port.
 Place = Tuple[str, int]
 # A message between the link's own limit (64 KiB) and this one is received, counted and ignored; beyond it ZeroMQ drops
-# the connection, so that nobody can fill the memory.
+# the connection, which bounds the memory.
 _MAX_BYTES = 1024 * 1024
 _HEARTBEAT_MS = 1000
 _HEARTBEAT_TIMEOUT_MS = 3000
@@ -33,17 +33,17 @@ _MAX_RECONNECT_MS = 1000
 
 _HANDSHAKE_EVENTS = (zmq.EVENT_HANDSHAKE_SUCCEEDED | zmq.EVENT_HANDSHAKE_FAILED_PROTOCOL
                      | zmq.EVENT_HANDSHAKE_FAILED_NO_DETAIL | zmq.EVENT_HANDSHAKE_FAILED_AUTH
-                     # libzmq 4.3.4 says no more than this of a peer of the wrong socket type.
+                     # For a peer of the wrong socket type, libzmq 4.3.4 reports only this event.
                      | zmq.EVENT_DISCONNECTED)
 
 
 class KeyRefused(ConnectionFailed):
-    """The right robot, which does not accept this laptop's key."""
+    """The robot is correct, but does not accept this laptop's key."""
 
 
 @dataclass(frozen=True)
 class LinkSockets:
-    """The two connected sockets. credentials: what encrypts them, None when nothing does."""
+    """The two connected sockets. credentials: keys of their encryption, None without encryption."""
 
     context: Context
     subscriber: Socket
@@ -52,7 +52,7 @@ class LinkSockets:
 
 
 def connect(address: RobotAddress, ip: str, timeout_s: float, credentials: Credentials | None = None) -> LinkSockets:
-    """Both sockets, or ConnectionFailed."""
+    """Return both sockets, or raise ConnectionFailed."""
     context = zmq.Context()
     try:
         return LinkSockets(context, subscribe(context, (ip, address.subscriber_port), timeout_s, credentials),
@@ -63,16 +63,16 @@ def connect(address: RobotAddress, ip: str, timeout_s: float, credentials: Crede
 
 
 def subscribe(context: Context, place: Place, timeout_s: float, credentials: Credentials | None = None) -> Socket:
-    """SUB socket connected to the robot's Status, or ConnectionFailed."""
+    """Return a SUB socket connected to the robot's Status, or raise ConnectionFailed."""
     socket = _socket(context, zmq.SUB, credentials)
     socket.setsockopt(zmq.SUBSCRIBE, b"")
     return _connect(socket, place, timeout_s, "subscriber")
 
 
 def publish(context: Context, place: Place, timeout_s: float, credentials: Credentials | None = None) -> Socket:
-    """PUB socket connected to the robot's Command port, or ConnectionFailed."""
+    """Return a PUB socket connected to the robot's Command port, or raise ConnectionFailed."""
     socket = _socket(context, zmq.PUB, credentials)
-    # Nothing is queued while the link is down: an old Command must not arrive later.
+    # While the link is down nothing is queued: an old Command must not arrive later.
     socket.setsockopt(zmq.IMMEDIATE, 1)
     return _connect(socket, place, timeout_s, "publisher")
 
@@ -113,7 +113,7 @@ def _connect(socket: Socket, place: Place, timeout_s: float, name: str) -> Socke
 
 
 def _handshake(monitor: Socket, timeout_s: float) -> int:
-    """How it ended, as ZeroMQ's event; 0 when it has not."""
+    """Return the final ZeroMQ event of the handshake; 0 if it did not end in time."""
     deadline = time.monotonic() + timeout_s
     while monitor.poll(max(0, math.ceil((deadline - time.monotonic()) * 1000))):
         event: Any = recv_monitor_message(monitor)["event"]

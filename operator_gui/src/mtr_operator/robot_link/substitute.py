@@ -27,8 +27,8 @@ from .conversions import (
 from .server import LOOPBACK, ConnectionServer
 from .virtual.robot import DEFAULT_WORLD, STATUS_PERIOD_S, VirtualRobot, VirtualWorld
 
-# Virtual time without a Command after which the robot stops and another session may take over, and the wall time that
-# it is at least: a busy laptop answers late, however fast virtual time runs.
+# Virtual time without a Command after which the robot stops and another session may take over, and its minimum in wall
+# time: a busy laptop answers late, at any rate of virtual time.
 _SILENCE_LIMIT_S = 1.0
 _MIN_SILENCE_WALL_S = 0.3
 
@@ -36,9 +36,8 @@ _MIN_SILENCE_WALL_S = 0.3
 class RobotSubstitute:
     """Virtual robot behind the two ports of a ConnectionServer; run() serves until stop(), start() does so in a thread.
 
-    time_factor: virtual seconds per second of wall time. robot: another one than that of the seed in the world.
-
-    Attributes: period_s: wall time from one Status to the next; may be changed while it serves. rejected: messages.
+    time_factor: virtual seconds per second of wall time. robot: replaces the robot of the world's seed. Attributes:
+    period_s: wall time between Statuses; may be changed while it serves. rejected: messages.
     """
 
     def __init__(self, server: ConnectionServer, seed: int = 1, time_factor: float = 1.0,
@@ -52,7 +51,7 @@ class RobotSubstitute:
         self._thread: threading.Thread | None = None
         self._session_id = 0
         self._newest_command_s = -math.inf
-        # Statuses since the newest Command.
+        # Number of Statuses since the newest Command.
         self._unanswered = math.inf
 
     def start(self) -> None:
@@ -61,17 +60,17 @@ class RobotSubstitute:
         self._thread.start()
 
     def stop(self) -> None:
-        """End run(), and the thread."""
+        """End run() and the thread."""
         self._stopping.set()
         if self._thread is not None:
             self._thread.join()
             self._thread = None
 
     def run(self) -> None:
-        """Take Commands, let time pass, send Status."""
+        """Receive Commands, advance time, send Status."""
         deadline = time.monotonic()
         while not self._stopping.is_set():
-            # A late turn is not caught up: virtual time just runs slower on a loaded machine.
+            # A late cycle is not compensated: virtual time runs slower on a loaded machine.
             deadline = max(deadline + self.period_s, time.monotonic())
             self._take_commands_until(deadline)
             if self._is_silent(time.monotonic()):
@@ -85,7 +84,7 @@ class RobotSubstitute:
             self.server.status_socket.send(message.SerializeToString())
 
     def _is_silent(self, now: float) -> bool:
-        """Whether the session at hand has gone: time in which this program itself was held up says nothing of it."""
+        """Return True if the current session is silent; delays of this program itself do not count as silence."""
         return now - self._newest_command_s > self._silence_limit_wall_s and \
             self._unanswered * STATUS_PERIOD_S > _SILENCE_LIMIT_S
 
@@ -118,7 +117,7 @@ class RobotSubstitute:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Command line."""
+    """Run the command line."""
     parser = argparse.ArgumentParser(description="Substitute of the robot, to develop the Operator's application.")
     parser.add_argument("--subscriber-port", type=int, default=SUBSCRIBER_PORT, help="Status, default %(default)s")
     parser.add_argument("--publisher-port", type=int, default=PUBLISHER_PORT, help="Command, default %(default)s")

@@ -1,4 +1,5 @@
-"""What the robot sees, to and from its message; what cannot be true is left out, for nothing is measured by it."""
+"""Converts the robot's view of its surroundings to and from its message; implausible points are dropped, because
+nothing is measured with them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,7 +18,7 @@ _MAX_OBSTACLE_M = 100.0
 
 
 def surroundings_from(message: pb.Surroundings) -> Surroundings:
-    """As the domain knows it."""
+    """Return the surroundings as a type of the domain."""
     distance_m, bearing_rad = message.obstacle_m, message.obstacle_bearing_rad
     is_there = message.HasField("obstacle_m") and 0.0 <= distance_m < _MAX_OBSTACLE_M and math.isfinite(bearing_rad)
     return Surroundings(_points(message.points_cm), _points(message.path_cm), StopZone(message.zone),
@@ -25,7 +26,7 @@ def surroundings_from(message: pb.Surroundings) -> Surroundings:
 
 
 def surroundings_message(seen: Surroundings) -> pb.Surroundings:
-    """As a robot sends it."""
+    """Return the message that a robot sends."""
     message = pb.Surroundings(points_cm=_centimetres(seen.points), path_cm=_centimetres(seen.path),
                               zone=seen.zone.value)
     if seen.obstacle is not None:

@@ -12,7 +12,7 @@ from .pairing import pair
 
 
 def pair_with(options: argparse.Namespace) -> None:
-    """Pair with the robot that shows a code; OperatorError says why not."""
+    """Pair with the robot that shows a code; OperatorError states why it failed."""
     code = options.code or _asked("Code that the robot shows: ")
     robot = pair(options.host, code, options.name or "", options.port)
     print(f"Paired with {robot.host} as {robot.role}; the robot's key: {fingerprint(robot.key)}")

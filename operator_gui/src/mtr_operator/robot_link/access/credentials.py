@@ -1,4 +1,4 @@
-"""With which keys a robot is tried, and when the link may do without."""
+"""Selection of the keys for a connection to a robot, and of the cases without encryption."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from .key_chain import CONTROLLER, KeyChain
 
 @dataclass(frozen=True)
 class Credentials:
-    """What encrypts one connection. own: this laptop's pair. robot_key: whose end it has to be, Z85. role: its own."""
+    """Keys of one encrypted connection. own: this laptop's pair. robot_key: expected key of the robot, Z85. role: its
+    own."""
 
     own: KeyPair
     robot_key: bytes
@@ -21,15 +22,15 @@ class Credentials:
 
 
 def is_loopback(ip: str) -> bool:
-    """True when the link does not leave this computer."""
+    """Return True if the link stays on this computer."""
     return ipaddress.ip_address(ip).is_loopback
 
 
 def ways_to(host: str, ip: str, is_unencrypted: bool, chain: KeyChain) -> tuple[Credentials | None, ...]:
-    """What to try one after the other; None is a connection without encryption.
+    """Return the credentials to try in this order; None is a connection without encryption.
 
-    Raises ConnectionFailed when there is none: a robot elsewhere has to be paired, unless the person has asked for no
-    encryption. A robot that was paired is never tried without.
+    Raises ConnectionFailed without any: a remote robot must be paired, unless the person chose a connection without
+    encryption. A paired robot is always encrypted.
     """
     if is_unencrypted:
         return (None,)

@@ -36,7 +36,7 @@ _VERSION = 1
 
 @dataclass(frozen=True)
 class PairedRobot:
-    """A robot whose key this laptop knows. host: where it was paired. key: Z85. date: ISO 8601."""
+    """Robot with a known key. host: address at the time of pairing. key: Z85. date: ISO 8601."""
 
     host: str
     key: str
@@ -45,25 +45,25 @@ class PairedRobot:
 
 
 def default_folder() -> pathlib.Path:
-    """Where the system keeps a program's data on this computer; it does not follow the person to another one."""
+    """Return the system's folder for local program data; it does not roam with the user's profile."""
     return platformdirs.user_data_path("mtr-operator", appauthor=False) / FOLDER_NAME
 
 
 class KeyChain:
-    """folder: None for the system's."""
+    """Keys in a folder. folder: None for the system's."""
 
     def __init__(self, folder: pathlib.Path | None = None):
         self._folder = folder or default_folder()
 
     def own_keys(self) -> KeyPair:
-        """The pair, made when it is asked for first; ConnectionFailed says why it cannot be used."""
+        """Return the key pair, created at the first call; ConnectionFailed states why it cannot be used."""
         try:
             return own_key_pair(self._folder / OWN_KEYS, zmq.curve_keypair)
         except LinkKeyError as error:
             raise ConnectionFailed(str(error)) from None
 
     def robots(self) -> tuple[PairedRobot, ...]:
-        """All paired robots, the newest first; ConnectionFailed when the file is damaged, or others may write it."""
+        """Return all paired robots, newest first; ConnectionFailed if the file is damaged or writable by others."""
         path = self._folder / ROBOTS
         try:
             check_writers(self._folder, self._folder.stat())
@@ -81,16 +81,17 @@ class KeyChain:
             raise ConnectionFailed(f"The list of paired robots {path} is damaged; delete it and pair anew.") from None
 
     def robots_at(self, host: str) -> tuple[PairedRobot, ...]:
-        """Those that were paired at this address, the newest first: hotspots of two robots have the same one."""
+        """Return the robots that were paired at this address, newest first: hotspots of two robots have the same
+        address."""
         return tuple(robot for robot in self.robots() if robot.host == host)
 
     def keep(self, robot: PairedRobot) -> None:
-        """Remember a robot, in place of what was known of its key at this address."""
+        """Store a robot; it replaces an entry with the same address and key."""
         others = [each for each in self.robots() if (each.host, each.key) != (robot.host, robot.key)]
         self._write((robot, *others[:MAX_ROBOTS - 1]))
 
     def forget(self, host: str) -> int:
-        """Forget the robots at this address; how many there were."""
+        """Remove the robots at this address; return their number."""
         robots = self.robots()
         kept = tuple(robot for robot in robots if robot.host != host)
         if len(kept) < len(robots):

@@ -14,12 +14,12 @@ from ..address import RobotAddress
 from ..probe import resolve
 from .key_chain import KeyChain, PairedRobot
 
-# Of one try; the robot lets the next one wait for some seconds.
+# Time limit of one attempt; the robot delays the next attempt by some seconds.
 TIMEOUT_S = 15.0
 
 
 def default_name() -> str:
-    """What the robot calls this laptop: person and computer."""
+    """Return this laptop's name for the robot: person and computer."""
     try:
         person = getpass.getuser()
     except (OSError, KeyError, ImportError):
@@ -28,11 +28,11 @@ def default_name() -> str:
 
 
 def pair(host: str, typed_code: str, name: str = "", port: int = PORT, chain: KeyChain | None = None) -> PairedRobot:
-    """Pair with the robot at this address; it is remembered.
+    """Pair with the robot at this address, and store it.
 
     Raises:
-        InvalidParameter: address or code cannot be right.
-        ConnectionFailed: the robot does not pair, or has another code.
+        InvalidParameter: address or code is invalid.
+        ConnectionFailed: the robot is not in pairing mode, or has a different code.
     """
     RobotAddress(host)
     try:
@@ -53,7 +53,7 @@ def pair(host: str, typed_code: str, name: str = "", port: int = PORT, chain: Ke
 
 
 def _conversation(host: str, port: int, side: LaptopSide) -> bytes:
-    """The robot's last message."""
+    """Run the message exchange and return the robot's last message."""
     ip = resolve(host, TIMEOUT_S)
     end_s = time.monotonic() + TIMEOUT_S
     try:
@@ -73,7 +73,7 @@ def _conversation(host: str, port: int, side: LaptopSide) -> bytes:
 
 
 def _received(connection: socket.socket, length: int, end_s: float) -> bytes:
-    """So many bytes; none when the robot has ended the conversation or takes too long."""
+    """Return this number of bytes; empty if the robot closes the connection or exceeds the time limit."""
     data = b""
     while len(data) < length:
         connection.settimeout(max(end_s - time.monotonic(), 0.001))

@@ -1,4 +1,4 @@
-"""Self-check of the virtual robot: it takes a while and finds a given difference."""
+"""Self-check of the virtual robot: it lasts some time and finds a given difference."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ _IDLE = CarCheck(limit_m=LIMIT_M, limit_rad=LIMIT_RAD)
 
 
 class VirtualCheck:
-    """Answers each request once.
+    """Self-check that answers each request once.
 
     Attributes:
         report: as in Status.
@@ -23,21 +23,21 @@ class VirtualCheck:
 
     @property
     def is_running(self) -> bool:
-        """True while it checks."""
+        """True during the check."""
         return self.report.state is CheckState.RUNNING
 
     def begin_session(self) -> None:
-        """Forget the request of the former session."""
+        """Discard the request of the previous session."""
         self.report = _IDLE
 
     def request(self, check_id: int) -> None:
-        """Take the id of the desired state; 0 is no request."""
+        """Accept the id of the desired state; 0 means no request."""
         if check_id and check_id != self.report.id:
             self._left_s = DURATION_S
             self.report = CarCheck(check_id, CheckState.RUNNING, limit_m=LIMIT_M, limit_rad=LIMIT_RAD)
 
     def step(self, dt_s: float) -> None:
-        """Let dt_s of standing before the Car pass."""
+        """Advance the time by dt_s at rest in front of the Car."""
         if self.is_running:
             self._left_s -= dt_s
             if self._left_s <= 0.0:

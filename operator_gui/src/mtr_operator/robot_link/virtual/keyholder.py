@@ -11,12 +11,12 @@ LIFT_SPEED_MPS = 0.15
 # Time a servo needs to reach the button.
 SERVO_TRAVEL_S = 0.1
 _KEPT_CONFIRMATIONS = 5
-# Heights travel as 32-bit floats: 0.35 arrives as 0.34999999.
+# Heights are sent as 32-bit floats: 0.35 arrives as 0.34999999.
 _HEIGHT_ROUNDING_M = 1e-6
 
 
 class VirtualKeyholder:
-    """Moves the key to a height and presses its buttons, each press once by id."""
+    """Lift and servos: moves the key to a height and presses its buttons, each press once by id."""
 
     def __init__(self) -> None:
         self.height_m = MIN_KEY_M
@@ -27,12 +27,12 @@ class VirtualKeyholder:
         self._start_s = 0.0
 
     def begin_session(self) -> None:
-        """Forget the ids of the former session."""
+        """Discard the ids of the previous session."""
         self.confirmations = ()
         self._newest_press_id = 0
 
     def request(self, height_m: float | None, press: Press | None, time_s: float) -> None:
-        """Take the desired height and press; None changes nothing."""
+        """Accept the desired height and press; None changes nothing."""
         if height_m is not None and MIN_KEY_M - _HEIGHT_ROUNDING_M <= height_m <= MAX_KEY_M + _HEIGHT_ROUNDING_M:
             self._wanted_m = min(max(height_m, MIN_KEY_M), MAX_KEY_M)
         if press is not None and press.id > self._newest_press_id and self._press is None:
@@ -41,7 +41,7 @@ class VirtualKeyholder:
             self._start_s = time_s + SERVO_TRAVEL_S
 
     def stop(self, press: Press | None, time_s: float) -> None:
-        """Hold the key where it is; a press under way ends by itself, one that is ordered now is refused."""
+        """Hold the key at its height; a press in progress ends by itself, a new one is rejected."""
         self._wanted_m = self.height_m
         if press is not None and press.id > self._newest_press_id and self._press is None:
             self._newest_press_id = press.id
@@ -49,7 +49,7 @@ class VirtualKeyholder:
             self.confirmations = (*self.confirmations, refused)[-_KEPT_CONFIRMATIONS:]
 
     def step(self, time_s: float, dt_s: float) -> None:
-        """Go on to time_s, which is dt_s later."""
+        """Advance to time_s, which is dt_s later."""
         step_m = LIFT_SPEED_MPS * dt_s
         self.height_m += min(max(self._wanted_m - self.height_m, -step_m), step_m)
         press = self._press
@@ -59,5 +59,5 @@ class VirtualKeyholder:
             self._press = None
 
     def pressed_buttons(self, time_s: float) -> tuple[int, ...]:
-        """Buttons held down at time_s."""
+        """Return the buttons that are held down at time_s."""
         return self._press.buttons if self._press is not None and time_s >= self._start_s else ()

@@ -1,4 +1,4 @@
-"""A robot that exists only as numbers: it follows Commands as the real one does, on a virtual clock."""
+"""Virtual robot without hardware: it follows Commands as the real one does, on a virtual clock."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -39,10 +39,10 @@ _MAX_SESSION_ID = 2 ** 63 - 1
 
 @dataclass(frozen=True)
 class VirtualWorld:
-    """The Car, how long the robot takes to start and to map it, and how far it finds it moved when it checks.
+    """Environment of the virtual robot: the Car, the durations of start and mapping, and the displacement that a check
+    finds.
 
-    position_sigma_m, heading_sigma_rad, car_sigma_m: 1 sigma that it tells, of its pose and of the Car's length and
-    width.
+    position_sigma_m, heading_sigma_rad, car_sigma_m: reported 1 sigma of its pose and of the Car's length and width.
     """
 
     car_length_m: float = 4.5
@@ -60,10 +60,10 @@ DEFAULT_WORLD = VirtualWorld()
 
 
 class VirtualRobot:
-    """Virtual state of the robot; step() lets time pass, take() hands it a desired state.
+    """State of the virtual robot; step() advances time, take() sets the desired state.
 
-    robot_session_id: 1 to 2^63 - 1. None draws it from the seed, so that two robots of one seed are equal in all that
-    they report; a consumer that outlives the first takes the second for the same robot. Use started() for those.
+    robot_session_id: 1 to 2^63 - 1. None derives it from the seed, so that two robots of one seed report equal values.
+    A consumer that outlives the first would mistake the second for it; use started() in that case.
     """
 
     def __init__(self, seed: int, world: VirtualWorld = DEFAULT_WORLD, *, robot_session_id: int | None = None):
@@ -94,32 +94,32 @@ class VirtualRobot:
 
     @classmethod
     def started(cls, seed: int, world: VirtualWorld = DEFAULT_WORLD) -> VirtualRobot:
-        """Return a robot with a session id that no other has: its clock and its map begin with it."""
+        """Return a robot with a unique session id, which identifies its clock and its map."""
         return cls(seed, world, robot_session_id=secrets.randbelow(_MAX_SESSION_ID) + 1)
 
     @property
     def time_s(self) -> float:
-        """Virtual clock."""
+        """Virtual clock in s."""
         return self._time_s
 
     @property
     def pose(self) -> Pose:
-        """Of base_link in the Car's frame, m and rad."""
+        """Pose of base_link in the Car's frame, m and rad."""
         return Pose(*self._here, self._heading)
 
     @property
     def key_height_m(self) -> float:
-        """Above ground."""
+        """Height of the key above ground."""
         return self._key.height_m
 
     @property
     def is_driving(self) -> bool:
-        """It is on the way to a waypoint."""
+        """True on the way to a waypoint."""
         return (self._result is WaypointResult.PENDING and not self._desired.stop
                 and self._desired.waypoint is not None)
 
     def take(self, session_id: int, command_id: int, desired: DesiredState) -> None:
-        """Follow this desired state from now on. A new session forgets the ids of the old one."""
+        """Follow this desired state from now on. A new session resets the ids."""
         if session_id != self._session_id:
             self._begin_session(session_id)
         self._service.take(desired)
@@ -146,17 +146,17 @@ class VirtualRobot:
         self._check.begin_session()
 
     def halt(self) -> None:
-        """Stand still until the next desired state: the Operator has gone or is silent."""
+        """Stop until the next desired state: the Operator has gone or is silent."""
         self._desired = DesiredState(stop=True)
         self._key.stop(None, self._time_s)
 
     def leave(self) -> None:
-        """Stand still, for nobody: the Operator has said goodbye."""
+        """Stop without a controller: the Operator has sent a goodbye."""
         self.halt()
         self._begin_session(0)
 
     def step(self, dt_s: float = STATUS_PERIOD_S) -> None:
-        """Let dt_s pass."""
+        """Advance the time by dt_s."""
         self._time_s += dt_s
         self._key.step(self._time_s, dt_s)
         before, heading = self._here, self._heading
@@ -174,12 +174,12 @@ class VirtualRobot:
         self._yaw_rate_radps = math.remainder(self._heading - heading, 2 * math.pi) / dt_s
 
     def _map(self, waypoint: Waypoint | None, dt_s: float) -> None:
-        """The Car is mapped for the first waypoint, or because somebody asks for it."""
+        """Map the Car before the first waypoint, or on request."""
         if waypoint is not None or (self._map_car_id and not self._desired.stop):
             self._mapping_left_s -= dt_s
 
     def status(self) -> RobotStatus:
-        """The next Status message."""
+        """Return the next Status message."""
         self._status_id += 1
         mapped = self._mapping_left_s <= 0
         world, mode = self._world, self._mode()

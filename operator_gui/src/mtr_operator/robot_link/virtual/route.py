@@ -1,4 +1,4 @@
-"""Ways of the virtual robot around the Car, and positions along them."""
+"""Routes of the virtual robot around the Car, and positions along them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ Point = Tuple[float, float]
 
 @dataclass(frozen=True)
 class Box:
-    """Rectangle around the origin that is not entered; half length along x and half width along y, in m."""
+    """Keep-out rectangle around the origin; half length along x and half width along y, in m."""
 
     half_length: float
     half_width: float
 
     def contains(self, point: Point) -> bool:
-        """True strictly inside."""
+        """Return True strictly inside."""
         return abs(point[0]) < self.half_length and abs(point[1]) < self.half_width
 
     def crosses(self, start: Point, goal: Point) -> bool:
-        """True when the straight way passes through the inside (slab method)."""
+        """Return True if the straight path passes through the inside (slab method)."""
         enter, leave = 0.0, 1.0
         for begin, end, half in ((start[0], goal[0], self.half_length), (start[1], goal[1], self.half_width)):
             delta = end - begin
@@ -34,13 +34,13 @@ class Box:
         return leave - enter > 1e-9
 
     def corners(self) -> list[Point]:
-        """The four corners, counterclockwise."""
+        """Return the four corners, counterclockwise."""
         return [(self.half_length, self.half_width), (-self.half_length, self.half_width),
                 (-self.half_length, -self.half_width), (self.half_length, -self.half_width)]
 
 
 def route(start: Point, goal: Point, box: Box) -> list[Point]:
-    """Points to pass from start to goal, goal included: straight, or around the box on the shorter side."""
+    """Return the points from start to goal, goal included: straight, or around the box on the shorter side."""
     if box.contains(start) or not box.crosses(start, goal):
         return [goal]
     ways = [_around(start, goal, box, turn) for turn in (1, -1)]
@@ -56,7 +56,7 @@ def _around(start: Point, goal: Point, box: Box, turn: int) -> list[Point]:
     for corner in ordered:
         if not box.crosses(here, goal):
             break
-        # A corner that can be skipped makes a detour.
+        # A corner that can be skipped is a detour.
         if len(way) > 1 and not box.crosses(way[-2], corner):
             way.pop()
         way.append(corner)
@@ -69,7 +69,7 @@ def _length(points: list[Point]) -> float:
 
 
 def advance(here: Point, way: list[Point], distance_m: float) -> tuple[Point, list[Point]]:
-    """Position after distance_m along the way, and what is left of it."""
+    """Return the position after distance_m along the path, and the rest of the path."""
     while way:
         step_m = math.dist(here, way[0])
         if step_m > distance_m:

@@ -1,4 +1,4 @@
-"""Service mode of a virtual robot, next to which nobody works: its own side is released at once."""
+"""Service mode of a virtual robot, which needs no release on site."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _PROBLEMS = (Problem("dispatcher.service_mode", (), _TEXT), _CAUSE)
 
 
 class VirtualService:
-    """Attributes: is_active: the robot follows no order to move."""
+    """Service mode. Attributes: is_active: the robot rejects all orders to move."""
 
     def __init__(self) -> None:
         self.is_active = False
         self._id = 0
 
     def take(self, desired: DesiredState) -> None:
-        """Enter it, or leave it when the Operator releases this entry."""
+        """Enter service mode, or leave it if the Operator releases this entry."""
         if desired.enters_service:
             self._id += not self.is_active
             self.is_active = True
@@ -32,12 +32,12 @@ class VirtualService:
 
     @property
     def state(self) -> ServiceState:
-        """What the robot reports."""
+        """Return the reported state."""
         if not self.is_active:
             return ServiceState()
         return ServiceState(True, self._id, _RELEASE_S, math.nan, _PROBLEMS)
 
     @property
     def notifications(self) -> tuple[Notification, ...]:
-        """The same for its list of notifications."""
+        """Return the state as notifications."""
         return (Notification(SERVICE_CODE, _ERROR, _TEXT, _PROBLEMS),) if self.is_active else ()
