@@ -1,4 +1,4 @@
-"""What a report says of a test beside its values."""
+"""Assessment of a test for its report, in addition to the values."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,5 +9,5 @@ from mtr_operator.storage.given_files import calibration_of
 
 
 def assess(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress) -> Assessment:
-    """Budgets and verdicts; the progress has to hold the Car's dimensions."""
+    """Return budgets and verdicts; the progress must contain the Car's dimensions."""
     return Assessor(scenario, parameters, progress.measured_car, calibration_of(progress)).assess(progress)

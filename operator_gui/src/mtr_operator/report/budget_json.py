@@ -1,4 +1,4 @@
-"""budget.json: what the uncertainty of each distance is made of, and how the errors of distances go together."""
+"""Writes budget.json: the parts of each distance's uncertainty, and the correlations between the distances."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from mtr_operator.domain.verdict.assessment import Assessment
 from mtr_operator.storage.given_files import calibration_of
 
 FILE_NAME = "budget.json"
-# A correlation is known to a hundredth at best; sixty distances make a table that a person still reads.
+# A correlation is accurate to a hundredth at best; a table of sixty distances is still readable.
 _DIGITS = 3
 _MAX_CORRELATED = 60
 
 
 def budget_json(progress: Progress, assessment: Assessment) -> str:
-    """Content of the file. Infinite degrees of freedom are null."""
+    """Return the content of the file. Infinite degrees of freedom are null."""
     budgets = assessment.budgets
     document = {
         "format": "mtr-operator budget", "version": 1,

@@ -1,4 +1,4 @@
-"""Shape of a car from above: parts as polygons, for whoever draws it.
+"""Shape of a car from above: its parts as polygons for drawings.
 
 A corner is (part of the half length towards the front, part of the half width towards the left).
 """
@@ -19,10 +19,10 @@ TAIL = ((-0.985, 0.50), (-0.955, 0.84), (-0.91, 0.90), (-0.94, 0.52))
 
 
 def scaled(part: Sequence[Point], half_length: float, half_width: float) -> list[Point]:
-    """Corners of a part in the Car coordinate system, in m."""
+    """Return the corners of a part in the Car coordinate system, in m."""
     return [(ahead * half_length, across * half_width) for ahead, across in part]
 
 
 def mirrored(part: Sequence[Point]) -> list[Point]:
-    """The same part on the other side."""
+    """Return the same part on the other side."""
     return [(ahead, -across) for ahead, across in part]

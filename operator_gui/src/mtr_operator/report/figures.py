@@ -1,6 +1,6 @@
-"""Distances as text, the same in window, files and command line: templates that a window translates, and digits.
+"""Distances as text, equal in window, files and command line: templates that a window translates, and digits.
 
-All are in m: as the columns of results.csv, and as the parameters that they are compared with.
+All are in m, like the columns of results.csv and the parameters.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -14,18 +14,18 @@ from mtr_operator.domain.results.figure import Figure, Kind, between, figure_of,
 from mtr_operator.domain.results.line_result import LineResult, LineStatus, MeasuredDistance, has_intervals
 from mtr_operator.domain.scenario import AnyScenario, ScenarioParameters
 
-# In the cell of a table, whose heading has the unit.
+# Templates for the cell of a table, whose heading has the unit.
 TEMPLATES = {
     Kind.VALUE: "{first}", Kind.AT_LEAST: "at least {first}", Kind.AT_MOST: "at most {first}",
     Kind.BETWEEN: "{first} to {second}", Kind.NOT_REACHED: "not reached", Kind.INVALID: "invalid",
     Kind.UNKNOWN: "unknown"}
-# Beside a point, where there is little room.
+# Templates for a label next to a point, with little space.
 SIGNS = {
     Kind.VALUE: "{first} m", Kind.AT_LEAST: "\N{GREATER-THAN OR EQUAL TO} {first} m",
     Kind.AT_MOST: "\N{LESS-THAN OR EQUAL TO} {first} m", Kind.BETWEEN: "{first}\N{EN DASH}{second} m",
     Kind.NOT_REACHED: "", Kind.INVALID: "", Kind.UNKNOWN: "?"}
 _PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
-# Headings of what stands beside a distance.
+# Headings of the columns next to a distance.
 KEY, INTERVAL = "key", "95 %"
 OF_PLACE = ("Beside each distance stands 1 sigma of where the Remote key was at this one event; at another attempt the "
             "Car may react elsewhere, by more than that.")
@@ -35,26 +35,27 @@ OF_PLACES = ("Of a range between two places the nearer one is the farthest press
              "that failed; a range of at least a place worked at the first.")
 OF_REPORTED = ("Beside each distance that the phone told stands 1 sigma of where it really was, and the 95 % interval "
                "of what it told there; the errors are in results.csv.")
-# Whoever reads a distance by its sigma does not want it coarser than that.
+# A reader who interprets a distance by its sigma needs a resolution finer than the sigma.
 _FINE_M, _FINE_DIGITS, _DIGITS, _SIGMA_DIGITS = 0.05, 3, 2, 3
 Number = Callable[[float, int], str]
 Translation = Callable[[str], str]
 
 
 def plain_number(value: float, digits: int) -> str:
-    """With a decimal point."""
+    """Return the number with a decimal point."""
     return f"{value:.{digits}f}"
 
 
 def figures_of(scenario: AnyScenario, parameters: ScenarioParameters | None, result: LineResult) -> list[Figure]:
-    """What may be said of each distance of a line; without parameters less of one that was not reached."""
+    """Return the figure of each distance of a line; without parameters, a distance that was not reached has no
+    bound."""
     return [figure_of(distance, (None, None) if parameters is None
                       else part(scenario, Judging).unreached(parameters, result, distance.word))
             for distance in result.distances]
 
 
 def filled(template: str, figure: Figure, number: Number = plain_number, sigma_m: float | None = None) -> str:
-    """A template, translated or not, with the figure's numbers. sigma_m: of a value."""
+    """Return a template, translated or not, with the figure's numbers. sigma_m: of a value."""
     is_fine = figure.kind is Kind.VALUE and sigma_m is not None and sigma_m < _FINE_M
     digits = _FINE_DIGITS if is_fine else _DIGITS
     ends = ("" if end is None else number(end, digits) for end in (figure.first_m, figure.second_m))
@@ -62,7 +63,7 @@ def filled(template: str, figure: Figure, number: Number = plain_number, sigma_m
 
 
 def sigma_text(sigma_m: float | None, number: Number = plain_number) -> str:
-    """Never a zero: a sigma that is smaller than what is shown is below that."""
+    """Return the sigma, never as zero: a sigma below the resolution is shown as an upper bound."""
     if sigma_m is None:
         return ""
     least = 10.0 ** -_SIGMA_DIGITS
@@ -80,18 +81,18 @@ def ends_text(low: float, high: float, number: Number = plain_number, translated
 
 def interval_text(distance: MeasuredDistance, number: Number = plain_number,
                   translated: Translation = lambda text: text) -> str:
-    """Of a boundary; empty without one."""
+    """Return the interval of a boundary; empty without one."""
     figure = interval_of(distance)
     return "" if figure is None else filled(translated(TEMPLATES[figure.kind]), figure, number)
 
 
 def sigma_word(results: Sequence[LineResult], translated: Translation = lambda text: text) -> str:
-    """Heading of the uncertainties: those of the key's place alone are called so."""
+    """Return the heading of the uncertainties; it names the key if they include only its position."""
     return _PLUS_MINUS if has_intervals(results) else f"{translated(KEY)} {_PLUS_MINUS}"
 
 
 def meanings(results: Sequence[LineResult]) -> list[str]:
-    """Sentences on what the figures of a test mean."""
+    """Return sentences on the meaning of a test's figures."""
     if not any(distance.status is LineStatus.OK for result in results for distance in result.distances):
         return []
     if any(distance.key_m is not None for result in results for distance in result.distances):

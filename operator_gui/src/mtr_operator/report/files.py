@@ -1,4 +1,4 @@
-"""The report of a finished test as files in a folder."""
+"""Report of a finished test as files in a folder."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from mtr_operator.storage.atomic import write_bytes
 from . import budget_json, results_csv
 from .assessed import assess
 
-# Of an exception's text, characters.
+# Maximum characters of an exception's text.
 _MAX_SAID = 300
 PICTURE_NAME, PAGE_NAME = "protocol.png", "protocol.pdf"
 FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, PICTURE_NAME, PAGE_NAME)
@@ -23,9 +23,9 @@ FILE_NAMES = (results_csv.FILE_NAME, budget_json.FILE_NAME, PICTURE_NAME, PAGE_N
 
 def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: ScenarioParameters,
                  progress: Progress, tell: Callable[[str], None] = logging.warning) -> Assessment:
-    """Write results.csv, budget.json and the protocol; OutputError when it fails. What the report says of the test.
+    """Write results.csv, budget.json and the protocol; return the assessment. OutputError if writing fails.
 
-    tell: receives a sentence for each file that cannot be made; the others are written.
+    tell: receives a sentence for each file that cannot be created; the others are written.
     """
     assessment = assess(scenario, parameters, progress)
     for name, make in report_files(scenario, parameters, progress, assessment).items():
@@ -34,7 +34,7 @@ def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: Scenar
         except OperatorError as error:
             tell(f"{name} is missing: {error}")
             continue
-        # A defect of a picture must not cost the results of a test.
+        # A faulty picture must not lose the results of a test.
         except Exception as error:
             logging.debug("The file %s was not made.", name, exc_info=True)
             tell(f"{name} is missing, because the application has a defect: {type(error).__name__}: "
@@ -46,8 +46,8 @@ def write_report(folder: pathlib.Path, scenario: AnyScenario, parameters: Scenar
 
 def report_files(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  assessment: Assessment) -> dict[str, Callable[[], bytes]]:
-    """What makes the content of each file, by its name."""
-    # Matplotlib takes as long to import as all else together, and this file's names are needed at the start.
+    """Return a function that creates the content of each file, by file name."""
+    # Importing matplotlib lasts as long as all other imports, and the file names are needed at the start.
     from .protocol_page import protocol_pdf, protocol_png
 
     return {results_csv.FILE_NAME: lambda: results_csv.results_csv(scenario, progress, assessment).encode("utf-8"),

@@ -1,6 +1,6 @@
-"""Parameters as a person reads them, the same in window, protocol and command line; files have their keys.
+"""Names of parameters for people, equal in window, protocol and command line; files contain the keys.
 
-The words are those of the thesis where it has some, but for the Remote key, which it also calls the device.
+The terms are from the thesis, except for the Remote key, which it also calls the device.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -69,12 +69,12 @@ NAMES = {
 
 
 def parameter_name(name: str, declared: Declaration) -> str:
-    """Name of a parameter by that of its field."""
+    """Return the name of a parameter from the name of its field."""
     return NAMES.get(name) or _plain_words(name, declared)
 
 
 def _plain_words(name: str, declared: Declaration) -> str:
-    """Words of a parameter of a scenario that came later."""
+    """Return a name for a parameter that is missing in the table."""
     for suffix in _SUFFIXES:
         if declared.unit and name.endswith(suffix):
             name = name[:-len(suffix)]

@@ -1,4 +1,4 @@
-"""protocol.png and protocol.pdf: the Car from above with everything measured around it, parameters and date."""
+"""Creates protocol.png and protocol.pdf: the Car from above with all measured points, parameters and date."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _LABEL_GAP_INCH, _LABEL_WIDTH_INCH, _LABEL_HEIGHT_INCH = 0.18, 0.28, 0.13
 _MARGIN_PART = 0.14
 _CAP_INCH = 0.05
 _PALE = "#90a4ae"
-# Colours that colour-blind readers tell apart (Okabe and Ito), and a marker each.
+# Colours that are distinct for colour-blind readers (Okabe and Ito), each with a marker.
 _STYLES = {
     PointRole.FIRST: {"color": "#0072b2", "marker": "o"},
     PointRole.SECOND: {"color": "#d55e00", "marker": "s"},
@@ -44,13 +44,13 @@ _STYLES = {
 
 def protocol_png(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  assessment: Assessment | None = None) -> bytes:
-    """Content of the file; the progress has to hold the Car's dimensions."""
+    """Return the content of the file; the progress must contain the Car's dimensions."""
     return _saved(_page(scenario, parameters, progress, assessment), "png", {})
 
 
 def protocol_pdf(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  assessment: Assessment | None = None) -> bytes:
-    """The same as a page to print; it says when the test was, and not when the page was made."""
+    """Return the page for printing; it contains the date of the test, not of its creation."""
     return _saved(_page(scenario, parameters, progress, assessment), "pdf", {"CreationDate": None})
 
 
@@ -87,7 +87,7 @@ def _draw_stretches(axes: Axes, picture: Picture) -> None:
 
 
 def label_stretches(axes: Axes, picture: Picture) -> None:
-    """Label the far ends, as many as do not touch each other; the frame's limits have to be set."""
+    """Label the far ends that do not overlap; the limits of the axes must be set."""
     per_inch = _metres_per_inch(axes)
     written: list[Point] = []
     for stretch in picture.stretches:
@@ -101,7 +101,7 @@ def label_stretches(axes: Axes, picture: Picture) -> None:
 
 
 def _metres_per_inch(axes: Axes) -> float:
-    # The axes are higher than wide for a Car and its surroundings; otherwise this is a little too small.
+    # The axes are taller than wide for a Car and its surroundings; otherwise this is slightly too small.
     return float(axes.get_ylim()[1] - axes.get_ylim()[0]) / (_SIZE_INCH[1] * _AXES_BOX[3])
 
 
@@ -124,7 +124,7 @@ def _draw_points(axes: Axes, points: PointSet) -> None:
 
 
 def _draw_intervals(axes: Axes, points: PointSet) -> None:
-    """A line with a cap across each end; the frame's limits have to be set."""
+    """Draw a line with a cap across each end; the limits of the axes must be set."""
     color, cap_m = _STYLES[points.role]["color"], _CAP_INCH * _metres_per_inch(axes)
     for (x0, y0), (x1, y1) in points.intervals:
         length_m = max(math.dist((x0, y0), (x1, y1)), 1e-9)
@@ -135,7 +135,7 @@ def _draw_intervals(axes: Axes, points: PointSet) -> None:
 
 
 def _write_figures(axes: Axes, points: PointSet) -> None:
-    """What may be said of each point, beside it."""
+    """Write the figure of each point next to it."""
     gap_m = _LABEL_GAP_INCH * _metres_per_inch(axes)
     for point, figure in zip(points.points, points.figures):
         if point is not None and figure is not None:

@@ -1,4 +1,4 @@
-"""Text beside the drawing of a protocol."""
+"""Text panel next to the drawing of a protocol."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ from .protocol_rows import (
 )
 
 INK = "#263238"
-# Height of a row of the tables, if there is room for all, and of the margin below them; parts of the sheet's.
+# Maximum height of a table row, and of the margin below the tables; relative to the sheet.
 _ROW, _BOTTOM = 0.0235, 0.105
-# Of the signatures below them: height of each, and where name, date and signature begin and end.
+# Signatures below the tables: height of each, and the horizontal ranges of name, date and signature.
 _SIGN_ROW, _SIGN_COLUMNS = 0.042, ((0.69, 0.805), (0.815, 0.88), (0.89, 0.985))
 _TEXT_POINTS = 8.5
 BAR = {"linewidth": 5.0, "alpha": 0.3, "solid_capstyle": "butt"}
@@ -60,7 +60,7 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
              ("Identity", short_rows(progress.identity)),
              ("Parameters", parameter_rows(scenario, progress)), ("Test", session_rows(progress)))
     tables = [(heading, rows) for heading, rows in known if rows]
-    # Each table has its heading, and a gap of a row below it.
+    # Each table has a heading, and a gap of one row below it.
     row = min(_ROW, (height - _BOTTOM) / sum(len(rows) + 2 for _, rows in tables))
     for heading, rows in tables:
         height = _write_table(figure, heading, rows, (left, height), row) - row
@@ -68,7 +68,7 @@ def write_panel(figure: Figure, axes: Axes, scenario: AnyScenario, progress: Pro
 
 
 def _write_signatures(figure: Figure, progress: Progress) -> None:
-    """A line to sign on for whoever measured, and for whoever checks it."""
+    """Draw a signature line for the person who measured, and one for the person who checks."""
     bottom = 0.02
     for signatory in reversed(signatories(progress.identity)):
         for (left, right), text in zip(_SIGN_COLUMNS, (signatory.role, DATE, SIGNATURE)):
@@ -79,7 +79,7 @@ def _write_signatures(figure: Figure, progress: Progress) -> None:
 
 
 def _write_table(figure: Figure, heading: str, rows: list[Row], corner: tuple[float, float], row: float) -> float:
-    """Write rows of a height below each other; the height at which the table ends."""
+    """Write the rows of a table; return the height at which it ends."""
     left, top = corner
     size = _TEXT_POINTS * row / _ROW
     figure.text(left, top, heading, fontsize=size + 1.5, fontweight="bold", color=INK, va="top")

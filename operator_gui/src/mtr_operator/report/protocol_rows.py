@@ -1,4 +1,4 @@
-"""Content of the panel beside the drawing of a protocol: names and values, for whoever writes them."""
+"""Content of the panel next to the drawing of a protocol: names and values."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Row = Tuple[str, str]
 
 
 def date_text(started: str) -> str:
-    """Local date and time of the test with its distance from UTC."""
+    """Return local date and time of the test with its offset from UTC."""
     try:
         moment = datetime.datetime.fromisoformat(started)
     except ValueError:
@@ -31,7 +31,7 @@ def date_text(started: str) -> str:
 
 
 def summary_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
-    """How many of the lines came to which end, and what they say together."""
+    """Return the number of lines per status, and their common result."""
     rows = [("lines", str(len(progress.results)))]
     for index, word in enumerate(scenario.distance_words):
         states = [result.distances[index].status for result in progress.results]
@@ -42,12 +42,12 @@ def summary_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
 
 
 def finding_rows(progress: Progress) -> list[Row]:
-    """What lines tell beside their distances."""
+    """Return the findings of lines in addition to their distances."""
     return [(result.place, finding) for result in progress.results for finding in result.findings]
 
 
 def assessment_rows(assessment: Assessment | None) -> list[Row]:
-    """The largest expanded uncertainty, and the verdict where there are limits."""
+    """Return the largest expanded uncertainty, and the verdict if there are limits."""
     if assessment is None:
         return []
     expanded_m = max((budget.expanded_m for budget in assessment.budgets), default=None)
@@ -59,7 +59,7 @@ def assessment_rows(assessment: Assessment | None) -> list[Row]:
 
 
 def parameter_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
-    """Every parameter that was set, as a person reads it."""
+    """Return all parameters that were set, as shown to people."""
     rows = [(name, str(progress.parameters.get(name, choice.default)))
             for name, choice in scenario.parameters_type.choices().items()]
     return rows + [(parameter_name(name, declared), declared.shown_text(value))
@@ -67,14 +67,14 @@ def parameter_rows(scenario: AnyScenario, progress: Progress) -> list[Row]:
 
 
 def numbers_with_effect(scenario: AnyScenario, progress: Progress) -> list[tuple[str, Declaration, Any]]:
-    """Field name, declaration and value in the file's unit of each number that means something in this test."""
+    """Return field name, declaration and value in the file's unit of each number with an effect in this test."""
     parameters = scenario.parameters_type.from_mapping(progress.parameters)
     return [(name, declared, progress.parameters.get(declared.file_key, declared.default))
             for name, declared in parameters.declarations().items() if parameters.has_effect(declared)]
 
 
 def session_rows(progress: Progress) -> list[Row]:
-    """The Car, and with what it was measured."""
+    """Return the Car and the equipment of the test."""
     car = progress.measured_car
     rows = [("Car measured", f"{car.length:.2f} m \N{MULTIPLICATION SIGN} {car.width:.2f} m")]
     for name in ("car profile", "robot", "software", "robot software"):

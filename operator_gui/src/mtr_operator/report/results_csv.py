@@ -1,7 +1,7 @@
-"""results.csv: one line per measured line, metadata in lines that begin with '#' above the header.
+"""Writes results.csv: one row per measured line, metadata in rows that begin with '#' above the header.
 
-What a person wrote may hold quotes, commas and what a spreadsheet takes for a formula. An apostrophe, by which
-spreadsheets know a text, keeps such a cell of a line from being anything else; all other lines are as they are.
+Texts from people may contain quotes, commas and text that a spreadsheet interprets as a formula. An apostrophe, the
+spreadsheets' text mark, keeps such a cell of a line plain text; all other lines are unchanged.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -28,12 +28,12 @@ from .table import line_text
 
 FILE_NAME = "results.csv"
 _TEXT = "'"
-# Behind what separates cells: a quote, which joins all up to the next one to a cell, and what begins a formula.
+# After a separator: a quote, which joins all text up to the next quote to one cell, or the beginning of a formula.
 _NO_TEXT = re.compile(r"""(?<=[,;])(?=\s*[=@"]|[-+\t])""")
 
 
 def results_csv(scenario: AnyScenario, progress: Progress, assessment: Assessment | None = None) -> str:
-    """Content of the file; without an assessment the columns that it fills are empty."""
+    """Return the content of the file; without an assessment its columns are empty."""
     file = io.StringIO()
     added = AssessedColumns(scenario, assessment)
     shown = ShownColumns(scenario, scenario.parameters_type.from_mapping(progress.parameters))
@@ -89,7 +89,7 @@ def _cell(column: Column, value: Any) -> str:
     if value is None:
         return ""
     if isinstance(value, float):
-        # Adding zero turns -0.0 into 0.0.
+        # Adding zero converts -0.0 to 0.0.
         return f"{round(value, column.digits) + 0.0:.{column.digits}f}"
     if isinstance(value, list):
         return " ".join(_cell(column, each) for each in value)

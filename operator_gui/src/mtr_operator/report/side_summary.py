@@ -1,4 +1,4 @@
-"""Minimum, mean and maximum of the distances per side of the Car, and the worst line of each."""
+"""Minimum, mean and maximum of the distances per side of the Car, and the worst line of each side."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,20 +17,20 @@ from mtr_operator.domain.verdict.requirement import SIDES, side_of
 from mtr_operator.domain.verdict.verdict import Verdict, worst
 
 ALL_SIDES = "all sides"
-# Of a distance of which one end is not known.
+# Ends of a distance that is unknown.
 _UNKNOWN = (-math.inf, math.inf)
 _WITHOUT = (Kind.INVALID, Kind.NOT_REACHED)
 
 
 @dataclass(frozen=True)
 class SideSummary:
-    """Of one distance on one side.
+    """Summary of one distance on one side.
 
     Attributes:
-        side: of requirement.SIDES with blanks, or ALL_SIDES. word: of the scenario's distance_words.
-        count: lines that say something. minimum, mean, maximum: as much as is known when some lines know one end only.
-        worst_line: number of the line with the worst verdict, among those the nearest; None when no line says anything.
-        verdict: the worst on the side; NOT_SET without limits.
+        side: of requirement.SIDES with blanks, or ALL_SIDES. word: of the scenario's distance_words. count: lines with
+        a result. minimum, mean, maximum: bounds if some lines know only one end.
+        worst_line: number of the line with the worst verdict, the nearest of several; None without any result. verdict:
+        the worst on the side; NOT_SET without limits.
     """
 
     side: str
@@ -45,7 +45,8 @@ class SideSummary:
 
 def side_summaries(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                    judgement: TestJudgement | None) -> list[SideSummary]:
-    """Per distance: the sides that have lines, clockwise from the front, then all of them where there are several."""
+    """Return summaries per distance: the sides with lines, clockwise from the front, then all of them if there are
+    several."""
     rays = {line.number: line.ray for line in scenario.lines(parameters, progress.measured_car)}
     by_side: dict[str, list[LineResult]] = {side: [] for side in SIDES}
     for result in progress.results:
@@ -77,7 +78,7 @@ def _summary(of: tuple[str, int], results: Sequence[LineResult], test: tuple[Any
 
 
 def _ends(figure: Figure) -> tuple[float, float]:
-    """Between which the distance lies."""
+    """Return the bounds of the distance."""
     low_m, high_m = figure.first_m, figure.second_m
     if figure.kind is Kind.VALUE:
         high_m = low_m

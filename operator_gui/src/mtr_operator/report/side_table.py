@@ -1,4 +1,4 @@
-"""The summary per side as text."""
+"""Summary per side as text."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _WORDS = (0, 6)
 
 
 def side_table(summaries: Sequence[SideSummary], is_judged: bool) -> Iterator[str]:
-    """Lines of a table per distance; is_judged: with a column of verdicts."""
+    """Yield the lines of a table per distance; is_judged: with a column of verdicts."""
     columns = len(HEADINGS) - (not is_judged)
     for word in dict.fromkeys(summary.word for summary in summaries):
         rows = [[f"{word}: side", *HEADINGS[1:]][:columns],

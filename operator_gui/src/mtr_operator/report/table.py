@@ -21,19 +21,19 @@ from .figures import (
 
 _GAP = "  "
 _PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
-# Without a number there is no unit.
+# Kinds without a number, which need no unit.
 _WORDS = (Kind.NOT_REACHED, Kind.INVALID, Kind.UNKNOWN)
 
 
 def line_name(scenario: AnyScenario, result: LineResult) -> str:
-    """Such as "axis 3 (right)"."""
+    """Return a name such as "axis 3 (right)"."""
     return f"{scenario.line_word} {result.number} ({result.place})"
 
 
 def line_text(scenario: AnyScenario, result: LineResult, parameters: ScenarioParameters | None = None) -> str:
-    """Such as "axis 3 (right): unlock 0.887 \N{PLUS-MINUS SIGN} 0.012 m, lock at least 3.00 m".
+    """Return a text such as "axis 3 (right): unlock 0.887 \N{PLUS-MINUS SIGN} 0.012 m, lock at least 3.00 m".
 
-    Without parameters less is said of what was not reached.
+    Without parameters, a distance that was not reached has no bound.
     """
     figures = zip(result.distances, figures_of(scenario, parameters, result))
     distances = [f"{distance.word} {_with_unit(distance, figure)}" for distance, figure in figures]
@@ -43,8 +43,8 @@ def line_text(scenario: AnyScenario, result: LineResult, parameters: ScenarioPar
 
 def results_table(scenario: AnyScenario, results: Sequence[LineResult],
                   parameters: ScenarioParameters | None = None) -> Iterator[str]:
-    """Lines of a table of all results, distances in m with 1 sigma, then what lines tell beside them, what the figures
-    mean, and the reasons of the invalid ones."""
+    """Yield the lines of a table of all results, distances in m with 1 sigma, then the lines' further findings, the
+    meaning of the figures, and the reasons of the invalid ones."""
     shows_intervals = has_intervals(results)
     heading = [scenario.line_word, ""]
     for word in scenario.distance_words:
@@ -52,7 +52,7 @@ def results_table(scenario: AnyScenario, results: Sequence[LineResult],
     rows = [heading, *(_row(scenario, parameters, result, shows_intervals) for result in results)]
     widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
     for row in rows:
-        # The name of the place is the only word.
+        # Only the column of the place contains words.
         cells = (cell.ljust(width) if index == 1 else cell.rjust(width)
                  for index, (cell, width) in enumerate(zip(row, widths)))
         yield _GAP.join(cells).rstrip()

@@ -1,4 +1,4 @@
-"""Verdicts as text: of the test, of a line, and why."""
+"""Verdicts on the test and its lines as text, with reasons."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from .table import line_name
 
 
 def verdict_counts(judgement: TestJudgement) -> str:
-    """Such as "3 pass, 1 fail": how many of the lines that a limit names came to which verdict."""
+    """Return a text such as "3 pass, 1 fail": the number of lines with a limit for each verdict."""
     return ", ".join(f"{count} {verdict.word}" for verdict, count in judgement.counts().items())
 
 
 def verdict_lines(scenario: AnyScenario, results: Sequence[LineResult],
                   judgement: TestJudgement | None) -> Iterator[str]:
-    """The lines that did not pass with the reason, then the verdict on the test; nothing without limits."""
+    """Yield the lines that did not pass with the reason, then the verdict on the test; nothing without limits."""
     if judgement is None:
         return
     names = {result.number: line_name(scenario, result) for result in results}

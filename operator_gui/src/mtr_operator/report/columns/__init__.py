@@ -1,2 +1,2 @@
-"""Columns of results.csv that no scenario stores itself."""
+"""Columns of results.csv that are not stored by a scenario."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Columns at the end of results.csv that no scenario measures: uncertainty by its parts, and the verdict."""
+"""Last columns of results.csv, which are computed instead of measured: parts of the uncertainty, and the verdict."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from mtr_operator.domain.verdict.verdict import Verdict
 
 
 class AssessedColumns:
-    """Attributes: columns: in their order."""
+    """Computed columns. Attributes: columns: in their order."""
 
     def __init__(self, scenario: AnyScenario, assessment: Assessment | None):
         self._words = scenario.distance_words
@@ -28,7 +28,7 @@ class AssessedColumns:
             self.columns += _HOLES
 
     def metadata(self) -> Iterator[str]:
-        """Lines above the table."""
+        """Yield the metadata lines above the table."""
         judgement = None if self._assessment is None else self._assessment.judgement
         if judgement is not None:
             for requirement in dict.fromkeys(each.requirement for each in judgement.judgements):
@@ -39,7 +39,7 @@ class AssessedColumns:
             yield f"column {column.name}{unit}: {column.doc}"
 
     def values(self, result: LineResult) -> list[Any]:
-        """Of one line, in the order of the columns; None where there is nothing."""
+        """Return the values of one line, in the order of the columns; None for an empty cell."""
         assessment = self._assessment
         values: list[Any] = []
         for word in self._words:

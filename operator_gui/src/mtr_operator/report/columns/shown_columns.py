@@ -1,4 +1,4 @@
-"""First figures of a row of results.csv: each distance as table, window and PDF show it."""
+"""First columns of a row of results.csv: each distance as shown in table, window and PDF."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from ..figures import figures_of
 
 Item = TypeVar("Item")
 _NAMES = ("result_m", "low_m", "high_m")
-# A line's identification ends where its measurement begins.
+# The identification of a line ends at the first column of its measurement.
 _STATUS = "status"
 
 
 class ShownColumns:
-    """Columns of the distances that may be said of a line, behind its identification.
+    """Columns of the reportable distances, after the identification of a line.
 
-    Attributes: columns: three of each distance, named by its word where the names alone would not be clear.
+    Attributes: columns: three for each distance, prefixed by its word if the names alone would be ambiguous.
     """
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters):
@@ -31,12 +31,12 @@ class ShownColumns:
         self._place = next((index for index, name in enumerate(own) if name.endswith(_STATUS)), len(own))
 
     def values(self, result: LineResult) -> list[Any]:
-        """Of one line, in the order of the columns; None where there is nothing to say."""
+        """Return the values of one line, in the order of the columns; None for an empty cell."""
         figures = figures_of(self._scenario, self._parameters, result)
         return [value for distance, figure in zip(result.distances, figures) for value in _shown(distance, figure)]
 
     def inserted(self, own: Sequence[Item], shown: Sequence[Item]) -> list[Item]:
-        """A row or header with the shown part behind the line's identification."""
+        """Return a row or header with the shown part inserted after the line's identification."""
         return [*own[:self._place], *shown, *own[self._place:]]
 
 

@@ -1,2 +1,2 @@
-"""What all pictures made with matplotlib have in common."""
+"""Common settings of all pictures made with matplotlib."""
 # SPDX-License-Identifier: Apache-2.0

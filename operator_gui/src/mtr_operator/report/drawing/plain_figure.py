@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 
 
 def plain_figure(size_inch: tuple[float, float], **options: Any) -> Figure:
-    """Figure with a canvas. Text between two dollar signs is text, in titles, legends, tick labels and annotations.
+    """Return a figure with a canvas. Dollar signs are plain text in titles, legends, tick labels and annotations.
 
     options: further arguments of matplotlib's Figure.
     """
-    # Names of Cars, keys and people are drawn; as mathematics they are changed, or refused with an exception.
+    # Names of Cars, keys and people are drawn; as mathematics they would be changed, or raise an exception.
     matplotlib.rcParams["text.parse_math"] = False
     figure = Figure(figsize=size_inch, **options)
     FigureCanvasAgg(figure)

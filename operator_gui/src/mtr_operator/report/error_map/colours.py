@@ -1,4 +1,4 @@
-"""Errors at places as colours on the protocol, with the scale of the colours in cm."""
+"""Position errors as colours on the protocol, with the colour scale in cm."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _SCALE_BOX = (0.24, 0.955, 0.24, 0.014)
 
 
 def draw_errors(axes: Axes, points: PointSet) -> None:
-    """Each point in the colour of its error, ringed, so that one without an error is seen too."""
+    """Draw each point in the colour of its error, with a ring, so that a point without an error is visible too."""
     scale_m = scale_of(points.errors_m)
     colours = [tuple(part / 255.0 for part in colour_of_error(error_m, scale_m)) for error_m in points.errors_m]
     axes.scatter([y for _, y in points.known], [x for x, _ in points.known], s=70, c=colours, edgecolors=INK,
@@ -27,7 +27,7 @@ def draw_errors(axes: Axes, points: PointSet) -> None:
 
 
 def draw_scale(figure: Figure, points: PointSet) -> None:
-    """Which colour is which error; nothing for points without errors."""
+    """Draw the colour scale; nothing for points without errors."""
     if not points.errors_m:
         return
     scale_m = scale_of(points.errors_m)

@@ -1,4 +1,4 @@
-"""An identity as rows of names and values, for a protocol, and as lines of results.csv."""
+"""Identity as rows of names and values for a protocol, and as lines of results.csv."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from mtr_operator.domain.identity.equipment_text import one_line
 from mtr_operator.domain.identity.identity import TEXTS, TITLES, Identity
 
 Row = Tuple[str, str]
-# Room beside the picture is for what tells tests apart; the rest is on a page of its own.
+# The panel next to the picture shows the fields that identify a test; the others are on a separate page.
 _SHORT = ("car_vin", "car_model", "car_software", "key_serial", "key_battery_v", "operator",
           "person_in_charge", "place")
 _MAX_SHORT = 34
-# Letters of a check sum that a person compares.
+# Number of check sum characters that a person compares.
 _DIGEST = 12
 
 
 def identity_rows(identity: Identity | None) -> list[Row]:
-    """Everything that is known, in the order of a protocol; notes line by line."""
+    """Return all known fields, in the order of a protocol; notes line by line."""
     if identity is None:
         return []
     rows = []
@@ -27,7 +27,7 @@ def identity_rows(identity: Identity | None) -> list[Row]:
 
 
 def short_rows(identity: Identity | None) -> list[Row]:
-    """What tells tests apart, cut to the room beside a picture."""
+    """Return the fields that identify a test, shortened to the panel next to a picture."""
     if identity is None:
         return []
     rows = [(TITLES[name], value) for name in _SHORT for value in _values(identity, name)]
@@ -36,7 +36,7 @@ def short_rows(identity: Identity | None) -> list[Row]:
 
 
 def identity_lines(identity: Identity | None) -> Iterator[str]:
-    """Such as "identity car_vin: WVWZZZ1KZAW000001"; notes are one line."""
+    """Yield lines such as "identity car_vin: WVWZZZ1KZAW000001"; notes are one line."""
     if identity is None:
         return
     for name in TITLES:

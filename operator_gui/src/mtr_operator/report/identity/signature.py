@@ -1,4 +1,4 @@
-"""The signature block of a protocol: who signs what."""
+"""Signature block of a protocol."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ DATE, SIGNATURE = "date", "signature"
 
 
 class Signatory(NamedTuple):
-    """One of those who sign. name: empty where it is written by hand."""
+    """Person who signs. name: empty if it is written by hand."""
 
     role: str
     name: str
 
 
 def signatories(identity: Identity | None) -> tuple[Signatory, Signatory]:
-    """Who measured, and who checks it."""
+    """Return the person who measured and the person who checks."""
     return Signatory(MEASURED_BY, "" if identity is None else identity.operator), Signatory(CHECKED_BY, "")
