@@ -1,2 +1,2 @@
-"""What a laboratory keeps of a test: one signed file with all of it, and the proof that nothing in it was changed."""
+"""Evidence of a test for a laboratory: one signed file with all data, and the proof that it is unchanged."""
 # SPDX-License-Identifier: Apache-2.0

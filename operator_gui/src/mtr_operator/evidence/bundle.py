@@ -22,28 +22,29 @@ from .verification import content_problems
 
 
 def bundle_path(path: pathlib.Path) -> pathlib.Path:
-    """Of the test with this progress file: named as its folder, or as the file where that has a name of its own."""
+    """Return the path of a test's bundle: named like its folder, or like its progress file if that has its own name."""
     name = path.parent.resolve().name if path.stem == "progress" else path.stem
     return path.with_name(f"{name or 'test'}{SUFFIX}")
 
 
 class BundleWatch:
-    """Who is told while a bundle is written; this one keeps nothing."""
+    """Observer of a bundle being written; this one ignores the calls."""
 
     def left_out(self, name: str, reason: str) -> None:
-        """A file is missing in the bundle, for the reason of a sentence."""
+        """Report a file that is missing in the bundle, with the reason as a sentence."""
 
     def done(self, share: float) -> None:
-        """How much of it is done, 0 to 1. What is raised here ends the writing, and nothing of the bundle is left."""
+        """Report the progress, 0 to 1. An exception raised here ends the writing, and the incomplete bundle is
+        removed."""
 
 
 def write_bundle(target: pathlib.Path, path: pathlib.Path, scenario: AnyScenario, progress: Progress,
                  assessment: Assessment | None, *, profile: str = "", station: Station | None = None,
                  watch: BundleWatch | None = None) -> Manifest:
-    """Bundle of the test with this progress file; profile: name or path of the Car's. Its report is made anew.
+    """Write the bundle of the test with this progress file, with a new report. profile: name or path of the Car's.
 
-    InUse when an application is measuring the test, or has measured more of it than this progress holds. OutputError
-    when the bundle cannot be written: then nothing of it is left, and the chain is as it was.
+    InUse if an application is measuring the test, or has measured more of it than this progress contains. OutputError
+    if the bundle cannot be written: it is then removed, and the chain is unchanged.
     """
     station, watch = station or Station(), watch or BundleWatch()
     with at_rest(path):
@@ -57,7 +58,7 @@ def write_bundle(target: pathlib.Path, path: pathlib.Path, scenario: AnyScenario
 
 def _signed(target: pathlib.Path, sources: Mapping[str, Source], station: Station, watch: BundleWatch) -> Manifest:
     try:
-        # Each byte is read twice: as it is written, and as it is verified.
+        # Each byte is read twice: for writing and for verification.
         half = _Half(watch.done, sum(map(size_of, sources.values())))
         manifest = _written(target, sources, station, half)
     except OSError as error:
@@ -65,14 +66,14 @@ def _signed(target: pathlib.Path, sources: Mapping[str, Source], station: Statio
     try:
         station.append(Link(manifest.number, target.name, sha256_of(manifest.content())))
     except OutputError:
-        # The next bundle would have its number, too.
+        # Otherwise the next bundle would have the same number.
         target.unlink(missing_ok=True)
         raise
     return manifest
 
 
 class _Half:
-    """Counts the bytes that have been read, each of them twice."""
+    """Counter of read bytes, which counts each of them twice."""
 
     def __init__(self, told: Callable[[float], None], size: int):
         self._told = told
@@ -85,7 +86,7 @@ class _Half:
 
 
 def _written(target: pathlib.Path, sources: Mapping[str, Source], station: Station, half: _Half) -> Manifest:
-    """Write the bundle, and put it in its place once all of it was read back as it was signed."""
+    """Write the bundle, and move it to its place after all of it was verified against the signature."""
     temporary = target.with_name(f".{target.name}.part")
     try:
         with open(temporary, "wb") as file:
@@ -104,7 +105,7 @@ def _written(target: pathlib.Path, sources: Mapping[str, Source], station: Stati
 
 
 def _write(file: BinaryIO, sources: Mapping[str, Source], station: Station, half: _Half) -> Manifest:
-    """The manifest comes last: it has the digests of what was written."""
+    """Write the files; the manifest is last, because it contains the digests of the written files."""
     newest = station.newest
     number, before = (1, "") if newest is None else (newest.number + 1, newest.manifest)
     manifests: list[Manifest] = []

@@ -1,4 +1,4 @@
-"""The file of a bundle: a zip whose bytes follow from its content alone, so that any changed byte is found."""
+"""File of a bundle: a zip whose bytes depend only on its content, so that any changed byte is detected."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mtr_operator.storage.inside import below
 from .manifest import FileEntry, copied_entry
 
 SUFFIX = ".mtr.zip"
-# Nothing of the time of writing or of the computer is in it; nothing is compressed, for logs and pictures are already.
+# It contains no time of writing and no computer data; nothing is compressed, because logs and pictures already are.
 _DATE = (1980, 1, 1, 0, 0, 0)
 _UNIX, _MODE = 3, 0o100644 << 16
 _VERSION = 20
@@ -24,16 +24,16 @@ Source = Union[bytes, pathlib.Path]
 
 
 def size_of(source: Source) -> int:
-    """In bytes; OSError when a file is not there."""
+    """Return the size in bytes; OSError if a file is missing."""
     return len(source) if isinstance(source, bytes) else source.stat().st_size
 
 
 def write_container(file: BinaryIO, sources: Mapping[str, Source], done: Callable[[int], None] = lambda _: None,
                     last: Callable[[Mapping[str, FileEntry]], Mapping[str, bytes]] = lambda _: {}) -> None:
-    """Write a zip of these files, by their paths in it; OSError when one cannot be read or written.
+    """Write a zip of these files, by their paths in it; OSError if one cannot be read or written.
 
-    done: receives the size of each of them once it is written. last: returns the files behind them, from the size and
-    digest of what was written.
+    done: receives the size of each file after it was written. last: returns the final files from the size and digest of
+    the written ones.
     """
     entries: dict[str, FileEntry] = {}
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as container:
@@ -45,7 +45,7 @@ def write_container(file: BinaryIO, sources: Mapping[str, Source], done: Callabl
 
 
 def _add(container: zipfile.ZipFile, name: str, source: Source) -> FileEntry:
-    """The source is read once, so that nobody who writes it meanwhile makes its digest differ from its content."""
+    """Add a file. The source is read once, so that concurrent writing cannot make digest and content differ."""
     with contextlib.closing(_opened(source)) as read, container.open(_info(name, size_of(source)), "w") as target:
         return copied_entry(read, target.write)
 
@@ -55,7 +55,7 @@ def _opened(source: Source) -> BinaryIO:
 
 
 def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: BinaryIO) -> None:
-    """The same files written anew."""
+    """Write the same files to a new container."""
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as copy:
         for name in names:
             info = _info(name, container.getinfo(name).file_size)
@@ -64,10 +64,8 @@ def copy_container(container: zipfile.ZipFile, names: Iterable[str], file: Binar
 
 
 def unpack(container: zipfile.ZipFile, folder: pathlib.Path) -> None:
-    """Write all files into a folder; UnsafeName, before anything is written, when one would lie outside it.
-
-    OSError when one cannot be written.
-    """
+    """Write all files to a folder; UnsafeName, before any file is written, if one would be outside it. OSError if one
+    cannot be written."""
     for name, target in [(name, below(folder, name)) for name in container.namelist()]:
         target.parent.mkdir(parents=True, exist_ok=True)
         with container.open(name) as source, open(target, "xb") as copy:
@@ -75,8 +73,8 @@ def unpack(container: zipfile.ZipFile, folder: pathlib.Path) -> None:
 
 
 def packing_problem(container: zipfile.ZipFile, file: BinaryIO) -> str:
-    """Why nothing of it is read: some kB that are packed, or named again and again, may be more than a disk holds.
-    Empty for one as it is written here. file: that of the container."""
+    """Return why the container must not be read: compressed or repeated entries of some kB may exceed a disk. Empty for
+    a container as written here. file: of the container."""
     members = container.infolist()
     packed = next((member.filename for member in members
                    if member.compress_type != zipfile.ZIP_STORED or member.compress_size != member.file_size), None)
@@ -95,7 +93,7 @@ def _info(name: str, size: int) -> zipfile.ZipInfo:
 
 
 def first_difference(first: BinaryIO, second: BinaryIO) -> int | None:
-    """Place of the first byte that differs, from where both stand; None when they are alike."""
+    """Return the position of the first differing byte, from the current positions; None if the files are equal."""
     place = 0
     while True:
         a, b = first.read(_BLOCK), second.read(_BLOCK)

@@ -1,4 +1,4 @@
-"""What goes into a bundle: every file that is there, and why one is not."""
+"""Collects the content of a bundle: all available files, and the reasons for missing ones."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ from .record import SCHEMA, record_of, versions
 
 RECORD = "record.json"
 RESULTS_TABLE, POSES_TABLE = "results.parquet", "poses.parquet"
-# Only where something is left out: why, by the name of what is missing.
+# Written only if files are missing: the reasons by name of the missing file.
 LEFT_OUT = "left_out.json"
-# Of the text of a defect, characters.
+# Maximum characters of an error text.
 _MAX_SAID = 300
 
 
 class Tested(NamedTuple):
-    """A test with its progress file. profile: of the Car, by name or path, as the record has it."""
+    """Test with its progress file. profile: of the Car, by name or path, as in the record."""
 
     path: pathlib.Path
     scenario: AnyScenario
@@ -53,26 +53,27 @@ class Tested(NamedTuple):
 
 
 class Contents:
-    """Attributes: sources: of the files by their paths in the bundle. left_out: a sentence for each that is missing."""
+    """Content of a bundle. Attributes: sources: of the files by their paths in the bundle. left_out: a sentence for
+    each missing file."""
 
     def __init__(self) -> None:
         self.sources: dict[str, Source] = {}
         self.left_out: dict[str, str] = {}
 
     def add(self, name: str, make: Callable[[], Source]) -> None:
-        """A file; when it cannot be made it is left out with the reason, and the rest of the bundle is written."""
+        """Add a file; if it cannot be created, record the reason, and continue with the others."""
         try:
             self.sources[name] = make()
         except OperatorError as error:
             self.left_out[name] = str(error)
-        # A defect of one picture must not cost the evidence of the whole test.
+        # A faulty picture must not lose the evidence of the whole test.
         except Exception as error:
             logging.exception("Part %s of a bundle was not made because of a defect of the application.", name)
             self.left_out[name] = f"It cannot be made: {type(error).__name__}: {str(error)[:_MAX_SAID]}"
 
 
 def contents_of(test: Tested, station: str) -> Contents:
-    """All of a test that a bundle holds; station: who signs it."""
+    """Return all content of a test's bundle; station: signer."""
     path, scenario, progress, assessment, _ = test
     found, record = Contents(), record_of(scenario, progress, assessment)
     found.sources.update(_of_record(scenario, progress, record))
@@ -106,7 +107,7 @@ def _of_record(scenario: AnyScenario, progress: Progress, record: Mapping[str, A
 
 
 def _add_report(found: Contents, test: Tested) -> None:
-    """Made from the progress that is signed: a report on disk may be an older one, or say anything."""
+    """Add the report, created from the signed progress: a report on disk may be outdated or modified."""
     scenario, progress = test.scenario, test.progress
     parameters = scenario.parameters_type.from_mapping(progress.parameters)
     assessment = test.assessment or assess(scenario, parameters, progress)
@@ -115,7 +116,7 @@ def _add_report(found: Contents, test: Tested) -> None:
 
 
 def _add_files(found: Contents, path: pathlib.Path) -> None:
-    """Findings, recording, photos and kept profile, as they are on disk. Links to other folders are never followed."""
+    """Add findings, recording, photos and archived profile from the disk. Links to other folders are not followed."""
     found.sources.update({file.name: file for file in (path,) if file.is_file()})
     _add_own(found, journal_path(path), "")
     for folder, kept in ((recording_folder(path), "recording"), (photo_folder(path), "photos"),
@@ -128,7 +129,7 @@ def _add_files(found: Contents, path: pathlib.Path) -> None:
 
 
 def _add_own(found: Contents, file: pathlib.Path, prefix: str) -> None:
-    """A file of the test's own folder, if it is there."""
+    """Add a file of the test's own folder, if it exists."""
     problem = name_problem(file.name)
     if problem:
         found.left_out[f"{prefix}{shown(file.name)}"] = f"The file name {shown(file.name)} is refused. {problem}."
@@ -139,7 +140,7 @@ def _add_own(found: Contents, file: pathlib.Path, prefix: str) -> None:
 
 
 def _check_photos(found: Contents, test: Tested) -> None:
-    """Leave out photos whose content is not the recorded one."""
+    """Omit photos whose content differs from the recorded digest."""
     identity = test.progress.identity or NOBODY
     for photo in identity.photos:
         name = f"photos/{photo.name}"
@@ -152,9 +153,9 @@ def _check_photos(found: Contents, test: Tested) -> None:
 
 
 def _add_profile(found: Contents, test: Tested) -> None:
-    """The Car's profile and its databases as they were kept when the test began; of an older test, as they are now.
+    """Add the Car's profile and its databases as archived at the start of the test; for older tests, the current ones.
 
-    The record may come from somebody else: nothing is added that is no profile and no CAN database.
+    The record may come from a third party: only profiles and CAN databases are added.
     """
     from mtr_operator.car_link.profile import bundled_files
     profile, recorded = test.profile, test.progress.session.get(CAR_PROFILE_FILES, "").split(", ")
@@ -173,7 +174,7 @@ def _add_profile(found: Contents, test: Tested) -> None:
 
 
 def _add_course(found: Contents, run: RecordedRun) -> None:
-    """As MCAP; what is damaged is bundled as it is, alone."""
+    """Add the course as MCAP; a damaged course is bundled only in its original form."""
     scans = []
     if run.scans is not None:
         try:
@@ -184,12 +185,12 @@ def _add_course(found: Contents, run: RecordedRun) -> None:
 
 
 def _adapters(record: Mapping[str, Any], station: str) -> dict[str, Callable[[], Source]]:
-    """What makes the record for other tools."""
+    """Return functions that create the record for other tools."""
     return {"adapters/openhtf.json": lambda: as_json(openhtf_of(record, station)),
             "adapters/junit.xml": lambda: junit_of(record, station),
             "adapters/ods.json": lambda: as_json(ods_of(record, station))}
 
 
 def as_json(value: Any) -> bytes:
-    """A file of a bundle."""
+    """Return a file of a bundle."""
     return (json.dumps(value, indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode("utf-8")

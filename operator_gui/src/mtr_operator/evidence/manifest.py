@@ -1,4 +1,4 @@
-"""The manifest of a bundle: each file with its size and SHA-256, who signed when, and the bundle before."""
+"""Manifest of a bundle: each file with its size and SHA-256, signer and date, and the previous bundle."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Kind = TypeVar("Kind")
 
 FORMAT, VERSION = "mtr evidence bundle", 1
 MANIFEST, SIGNATURE = "manifest.json", "manifest.sig"
-# Some 100,000 files; what is longer is no manifest, and nobody keeps it in memory.
+# About 100,000 files; a longer file is not a manifest, and is not read into memory.
 MAX_MANIFEST_BYTES = 16 * 1024 * 1024
 _BLOCK = 1024 * 1024
 # Keys and digests: 32 bytes.
 _DIGEST = re.compile(r"[0-9a-f]{64}\Z")
-# Sizes and numbers of bundles stay below.
+# Upper bound of sizes and bundle numbers.
 _MOST = 2 ** 63
 
 
@@ -31,7 +31,7 @@ class BadManifest(Exception):
 
 @dataclass(frozen=True)
 class FileEntry:
-    """sha256: hexadecimal."""
+    """Entry of a file. sha256: hexadecimal."""
 
     size: int
     sha256: str
@@ -39,8 +39,8 @@ class FileEntry:
 
 @dataclass(frozen=True)
 class Manifest:
-    """created: ISO 8601. station, key: who signed. number, before: place in the chain; before is the SHA-256 of the
-    manifest before, empty for the first one. files: by their paths in the bundle."""
+    """Manifest. created: ISO 8601. station, key: of the signer. number, before: position in the chain; before is the
+    SHA-256 of the previous manifest, empty for the first one. files: by their paths in the bundle."""
 
     created: str
     station: str
@@ -50,7 +50,7 @@ class Manifest:
     files: Mapping[str, FileEntry]
 
     def content(self) -> bytes:
-        """As it is signed."""
+        """Return the signed bytes."""
         files = {name: {"size": entry.size, "sha256": entry.sha256} for name, entry in sorted(self.files.items())}
         document = {"format": FORMAT, "version": VERSION, "created": self.created, "station": self.station,
                     "key": self.key, "number": self.number, "before": self.before, "files": files}
@@ -58,7 +58,7 @@ class Manifest:
 
 
 def manifest_from(content: bytes) -> Manifest:
-    """Manifest in a file; BadManifest when it is none."""
+    """Return the manifest in a file; BadManifest if it is invalid."""
     try:
         document: Any = json.loads(content)
         if (document["format"], document["version"]) != (FORMAT, VERSION):
@@ -69,7 +69,7 @@ def manifest_from(content: bytes) -> Manifest:
         datetime.datetime.fromisoformat(created)
         if not (_DIGEST.match(key) and _DIGEST.match(before or key)):
             raise BadManifest
-        # The station is a text of whoever signed, and is printed.
+        # The station is a foreign text that is printed.
         return Manifest(created, shown_text(_checked(document["station"], str)), key, _count(document["number"]),
                         before, files)
     except (ValueError, LookupError, TypeError, AttributeError, RecursionError):
@@ -89,17 +89,17 @@ def _count(value: Any) -> int:
 
 
 def sha256_of(content: bytes) -> str:
-    """Hexadecimal."""
+    """Return the digest, hexadecimal."""
     return hashlib.sha256(content).hexdigest()
 
 
 def entry_of(file: BinaryIO) -> FileEntry:
-    """Of a file from where it stands to its end."""
+    """Return the entry of a file from its current position to its end."""
     return copied_entry(file, lambda _: None)
 
 
 def copied_entry(file: BinaryIO, write: Callable[[bytes], object]) -> FileEntry:
-    """Pass a file, from where it stands to its end, to write; return the entry of the passed bytes."""
+    """Pass a file, from its current position to its end, to write; return the entry of the passed bytes."""
     digest, size = hashlib.sha256(), 0
     while block := file.read(_BLOCK):
         write(block)
@@ -109,6 +109,6 @@ def copied_entry(file: BinaryIO, write: Callable[[bytes], object]) -> FileEntry:
 
 
 def entry_of_path(path: pathlib.Path) -> FileEntry:
-    """Of a file; OSError when it cannot be read."""
+    """Return the entry of a file; OSError if it cannot be read."""
     with open(path, "rb") as file:
         return entry_of(file)

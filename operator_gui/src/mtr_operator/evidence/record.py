@@ -1,4 +1,4 @@
-"""The record of a test for programs: what was measured on whose car by whom with what, as JSON with a schema."""
+"""Record of a test for programs, as JSON with a schema: results, car, people and equipment."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _PACKAGES = ("numpy", "scipy", "python-can", "cantools", "pyzmq", "protobuf", "u
 
 
 def record_of(scenario: AnyScenario, progress: Progress, assessment: Assessment | None) -> dict[str, Any]:
-    """Plain values that record.schema.json describes; distances in m, angles as the columns say."""
+    """Return plain values as in record.schema.json; distances in m, angles in the units of the columns."""
     judgement = None if assessment is None else assessment.judgement
     document = progress.to_document()
     return {
@@ -37,7 +37,7 @@ def record_of(scenario: AnyScenario, progress: Progress, assessment: Assessment 
 
 
 def versions() -> dict[str, str]:
-    """Of the application, Python, the system and the packages that distances depend on."""
+    """Return the versions of the application, Python, the system and the packages that affect distances."""
     found = {"mtr-operator": __version__, "python": platform.python_version(), "system": platform.platform()}
     for name in _PACKAGES:
         try:
@@ -48,7 +48,7 @@ def versions() -> dict[str, str]:
 
 
 def _planned(scenario: AnyScenario, progress: Progress) -> list[dict[str, Any]]:
-    """All lines that the test wants; none before the Car was mapped, for they follow from its size."""
+    """Return all lines of the test; none before the Car was mapped, because they depend on its size."""
     if progress.car is None:
         return []
     lines = scenario.lines(scenario.parameters_type.from_mapping(progress.parameters), progress.car)

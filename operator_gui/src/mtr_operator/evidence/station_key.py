@@ -1,4 +1,4 @@
-"""The Ed25519 key with which this computer signs bundles, and the chain of what it has signed."""
+"""Ed25519 key with which this computer signs bundles, and the chain of its signatures."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ from mtr_operator.storage.lock import Lock
 _FOLDER = "evidence"
 _KEY, _CHAIN = "signing.key", "chain.json"
 _KEY_BYTES = 32
-# A bundle of some hundred MB is written in a few seconds.
+# Writing a bundle of some hundred MB lasts a few seconds.
 PATIENCE_S = 30.0
 _PAUSE_S = 0.1
 
 
 class StationKeyError(OperatorError):
-    """The key or the chain of this computer cannot be used; the text says why."""
+    """The key or the chain of this computer cannot be used; the text states the reason."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Link:
 
 
 class Station:
-    """folder: None for the system's, which no other computer has.
+    """Signer. folder: None for the system's, which no other computer uses.
 
     Attributes: name: user and computer.
     """
@@ -53,17 +53,17 @@ class Station:
 
     @property
     def key(self) -> str:
-        """The public key, hexadecimal; made when it is asked for first."""
+        """Public key, hexadecimal; created at the first call."""
         return self._signing_key().verify_key.encode().hex()
 
     def sign(self, content: bytes) -> str:
-        """Signature, hexadecimal."""
+        """Return the signature, hexadecimal."""
         return self._signing_key().sign(content).signature.hex()
 
     @contextlib.contextmanager
     def signing(self) -> Iterator[None]:
-        """Context in which this application alone goes on with the chain, from its newest bundle to the next one;
-        StationKeyError when another one does for too long."""
+        """Context with exclusive access to the chain, from its newest bundle to the next one; StationKeyError if
+        another application holds it for too long."""
         until_s = time.monotonic() + PATIENCE_S
         with contextlib.ExitStack() as held:
             self._make_folder()
@@ -79,7 +79,7 @@ class Station:
 
     @property
     def newest(self) -> Link | None:
-        """The bundle signed last; None before the first one."""
+        """Newest signed bundle; None before the first one."""
         try:
             document: Any = json.loads((self._folder / _CHAIN).read_text(encoding="utf-8"))
             return Link(int(document["number"]), str(document["name"]), str(document["manifest"]))
@@ -90,7 +90,7 @@ class Station:
                                   "elsewhere to begin a new chain.") from None
 
     def append(self, link: Link) -> None:
-        """A bundle was signed and is on disk."""
+        """Record a bundle that was signed and is on disk."""
         write_bytes(self._folder / _CHAIN, json.dumps(vars(link), indent=1).encode("utf-8"))
 
     def _signing_key(self) -> SigningKey:
@@ -124,7 +124,7 @@ class Station:
 
 
 def is_signed_by(key: str, content: bytes, signature: str) -> bool:
-    """True when the signature over the content is that of the public key; both hexadecimal."""
+    """Return True if the signature matches content and public key; both hexadecimal."""
     try:
         VerifyKey(bytes.fromhex(key)).verify(content, bytes.fromhex(signature))
     except (BadSignatureError, ValueError, TypeError):

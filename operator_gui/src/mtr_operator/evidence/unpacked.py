@@ -1,4 +1,4 @@
-"""The files of a bundle in a folder, for as long as they are looked at."""
+"""Temporary folder with the files of a bundle."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from .verification import verify_bundle
 
 
 class NotIntact(OperatorError):
-    """A bundle is not as it was signed; the text names what is changed."""
+    """The bundle differs from its signed state; the text names the changes."""
 
 
 @contextlib.contextmanager
 def unpacked(path: pathlib.Path) -> Iterator[pathlib.Path]:
-    """Folder of an intact bundle's files; whatever is no bundle is handed on as it is."""
+    """Folder of an intact bundle's files; any other path is returned unchanged."""
     if not path.name.endswith(SUFFIX) or not path.is_file():
         yield path
         return

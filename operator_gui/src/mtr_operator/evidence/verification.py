@@ -1,4 +1,4 @@
-"""Is a bundle as it was signed, by whom and when? What is torn or changed is named."""
+"""Verifies a bundle against its signature; truncated and changed files are named."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -33,9 +33,11 @@ from .station_key import is_signed_by
 
 @dataclass(frozen=True)
 class Verification:
-    """Attributes:
-        manifest: what is said in the bundle, None when that cannot be read. digest: SHA-256 of it.
-        problems: a sentence for each thing that is not as it was signed; empty for an intact bundle.
+    """Result of a verification.
+
+    Attributes:
+        manifest: of the bundle, None if it cannot be read. digest: its SHA-256.
+        problems: a sentence for each difference from the signed state; empty for an intact bundle.
     """
 
     manifest: Manifest | None = None
@@ -44,12 +46,12 @@ class Verification:
 
     @property
     def is_intact(self) -> bool:
-        """True when all is as it was signed."""
+        """True if all content is as it was signed."""
         return self.manifest is not None and not self.problems
 
 
 def verify_bundle(path: pathlib.Path) -> Verification:
-    """A bundle, or the folder into which one was unpacked."""
+    """Verify a bundle, or the folder with its unpacked files."""
     if path.is_dir():
         names = [file.relative_to(path).as_posix() for file in sorted(path.rglob("*")) if file.is_file()]
         return _verified(names, lambda name: (path / name).read_bytes(), lambda name: entry_of_path(path / name))
@@ -68,9 +70,9 @@ def verify_bundle(path: pathlib.Path) -> Verification:
 
 
 def content_problems(path: pathlib.Path, done: Callable[[int], None]) -> Sequence[str]:
-    """What is not as it was signed in the files of a bundle that was just written; OSError when it cannot be read.
+    """Return the differences in the files of a bundle that was just written; OSError if it cannot be read.
 
-    done: receives the size of each file once it was read, in bytes.
+    done: receives the size of each file after it was read, in bytes.
     """
     with zipfile.ZipFile(path) as container:
         return _verified(container.namelist(), lambda name: _start_of(container, name),
@@ -95,7 +97,7 @@ def _is_later(content: bytes) -> bool:
 
 
 def chain_problems(found: Sequence[Verification]) -> list[str]:
-    """Bundles of one station that do not follow one another, or of which there are several, among those given."""
+    """Return problems of the chain among these bundles: gaps, and several bundles of one number."""
     by_key: dict[str, dict[int, dict[str, Manifest]]] = {}
     for each in found:
         if each.manifest is not None:
@@ -132,7 +134,7 @@ def _verified(names: Sequence[str], read: Callable[[str], bytes],
         if name not in names:
             problems.append(f"{name} is missing.")
             continue
-        # What is raised by done ends the verification; it is no fault of the file.
+        # An exception from done ends the verification; it does not belong to the file.
         found = _entry_or_none(entry, name)
         done(wanted.size)
         if found != wanted:
@@ -147,7 +149,7 @@ def _verified(names: Sequence[str], read: Callable[[str], bytes],
 
 
 def _name_problem(name: str) -> str:
-    """Reason why a file must not be unpacked under its name; empty when it may."""
+    """Return the reason why a file must not be unpacked under its name; empty if it may."""
     parts = name.split("/")
     return SEPARATED if "" in parts and name else next(filter(None, map(name_problem, parts)), "")
 
@@ -159,7 +161,7 @@ def _is_signed(manifest: Manifest, content: bytes, signature: Any) -> bool:
 
 
 def _entry_or_none(entry: Callable[[str], FileEntry], name: str) -> FileEntry | None:
-    """None for bytes that cannot even be read."""
+    """Return the entry; None for unreadable bytes."""
     try:
         return entry(name)
     except (zipfile.BadZipFile, zlib.error, OSError, NotImplementedError, RuntimeError, EOFError, ValueError):
@@ -167,7 +169,7 @@ def _entry_or_none(entry: Callable[[str], FileEntry], name: str) -> FileEntry | 
 
 
 def _start_of(container: zipfile.ZipFile, name: str) -> bytes:
-    """All of a manifest or signature; one that is too long to be either is no JSON then."""
+    """Return the whole manifest or signature; an overlong one is truncated, and therefore invalid JSON."""
     with container.open(name) as file:
         return file.read(MAX_MANIFEST_BYTES)
 
@@ -178,7 +180,7 @@ def _member(container: zipfile.ZipFile, name: str) -> FileEntry:
 
 
 def _of_container(found: Verification, file: BinaryIO, container: zipfile.ZipFile) -> Verification:
-    """The files are as they were signed; so has to be all between them."""
+    """Compare the bytes between the files with a new container, after the files were verified."""
     with tempfile.TemporaryFile() as copy:
         copy_container(container, container.namelist(), copy)
         copy.seek(0)

@@ -1,2 +1,2 @@
-"""The record of a test as other tools read it: OpenHTF, JUnit, ASAM ODS, MCAP."""
+"""Converts the record of a test to formats of other tools: OpenHTF, JUnit, ASAM ODS, MCAP."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The record as JUnit XML, which servers of continuous integration show: a line is a test case."""
+"""The record as JUnit XML for continuous integration servers: a line is a test case."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ _BAD_VERDICTS = ("fail", "error", "aborted")
 
 
 def junit_of(record: Mapping[str, Any], station: str) -> bytes:
-    """Of a record as record.schema.json has it; the verdict, if there is one, is a test case of its own.
+    """Convert a record (record.schema.json); the verdict, if there is one, is a separate test case.
 
-    A planned line without a result is an error: a skipped case would leave an interrupted test green."""
+    A planned line without a result is an error: a skipped case would leave an interrupted test green.
+    """
     suite = ElementTree.Element("testsuite", name=record["scenario"], hostname=station,
                                 timestamp=str(record["session"].get("started", "")))
     for line in record["lines"]:

@@ -1,4 +1,4 @@
-"""The course of a test as MCAP, which Foxglove opens: poses of robot and key, returns of the LiDARs, and events."""
+"""Course of a test as MCAP, which Foxglove opens: poses of robot and key, returns of the LiDARs, and events."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _POSE = {"type": "object", "properties": {
 # Number of float32 in Foxglove's NumericType, and its bytes; a return has two, x and y.
 _FLOAT32, _FLOAT_BYTES = 7, 4
 _AXES = ("x", "y")
-# Names of Foxglove's own schemas, by which its panels know a pose and a cloud of points.
+# Names of Foxglove's own schemas, by which its panels recognize a pose and a point cloud.
 _SCHEMAS = {
     "foxglove.PoseInFrame": {"type": "object", "properties": {
         "timestamp": _TIME, "frame_id": {"type": "string"}, "pose": _POSE}},
@@ -50,8 +50,8 @@ class _Entry(NamedTuple):
 
 
 def mcap_of(course: pathlib.Path, scans: Iterable[Scan] = ()) -> bytes:
-    """The file of one run; times are the robot's, places in the Car coordinate system, but for returns of a robot that
-    did not know its own. ProgressFileError for a course that is damaged."""
+    """Return the file of one run. Times are the robot's, positions in the Car coordinate system, except returns of a
+    robot without a known pose. ProgressFileError for a damaged course."""
     file = io.BytesIO()
     writer = Writer(file, compression=CompressionType.NONE)
     writer.start(profile="", library="mtr-operator")
@@ -85,7 +85,7 @@ def _poses(status: RobotStatus) -> Iterator[_Entry]:
 
 
 def _cloud(scan: Scan) -> _Entry:
-    """Returns as they were seen from the robot, and where it stood."""
+    """Return the scan relative to the robot, with the robot's pose."""
     packed = struct.pack(f"<{len(_AXES) * len(scan.points)}f", *(value for point in scan.points for value in point))
     x, y, heading = scan.pose or (0.0, 0.0, 0.0)
     return _entry(_SCANS, scan.time_s, frame_id=_FRAME if scan.pose else _ROBOT_FRAME, pose=_pose(x, y, 0.0, heading),

@@ -1,4 +1,4 @@
-"""The record with the names of ASAM ODS' base model, so that an import is a mapping and no interpretation."""
+"""The record with the names of ASAM ODS' base model, so that an import is a plain mapping."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,12 +7,12 @@ from typing import Any, Mapping
 from mtr_operator.domain.results.session_record import CAN_ADAPTER
 
 _METRE = {"base": "AoUnit", "name": "m", "factor": 1.0, "offset": 0.0, "dimension": "length"}
-# Of a submatrix: one row for each line.
+# Quantities of a submatrix: one row for each line.
 _QUANTITIES = ("distance_m", "uncertainty_m", "low_m", "high_m")
 
 
 def ods_of(record: Mapping[str, Any], station: str) -> dict[str, Any]:
-    """Of a record as record.schema.json has it."""
+    """Convert a record (record.schema.json)."""
     identity, session = record.get("identity") or {}, record["session"]
     return {
         "AoTest": {"name": record["scenario"], "date_created": session.get("started", ""), "station": station,

@@ -1,4 +1,5 @@
-"""The record as the JSON of an OpenHTF test, which TofuPilot takes too: a line is a phase, a distance a measurement."""
+"""The record as the JSON of an OpenHTF test, which TofuPilot also accepts: a line is a phase, a distance a
+measurement."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,8 +15,8 @@ _PHASES = {PASS: "PASS", FAIL: "FAIL"}
 
 
 def openhtf_of(record: Mapping[str, Any], station: str) -> dict[str, Any]:
-    """Of a record as record.schema.json has it. The outcome is the verdict; without limits that of the measuring, which
-    passes when each planned line is measured."""
+    """Convert a record (record.schema.json). The outcome is the verdict; without limits the outcome of the measurement,
+    which passes if each planned line is measured."""
     identity, session = record.get("identity") or {}, record["session"]
     begun_ms = _milliseconds(session.get("started"))
     phases = [_phase(line, begun_ms) for line in record["lines"]]
@@ -47,13 +48,13 @@ def _phase(line: Mapping[str, Any], begun_ms: int) -> dict[str, Any]:
 
 
 def _left_out(line: Mapping[str, Any], begun_ms: int) -> dict[str, Any]:
-    """Phase of a planned line without a result."""
+    """Return the phase of a planned line without a result."""
     return {"name": f"{line['kind']} {line['number']}", "start_time_millis": begun_ms, "end_time_millis": begun_ms,
             "outcome": "SKIP", "measurements": {}, "attachments": {}, "result": {"phase_result": NOT_MEASURED}}
 
 
 def _milliseconds(started: Any) -> int:
-    """Of the epoch; 0 for a record that does not say when."""
+    """Return milliseconds of the epoch; 0 for a record without a time."""
     try:
         return round(_MS_PER_S * datetime.datetime.fromisoformat(str(started)).timestamp())
     except ValueError:

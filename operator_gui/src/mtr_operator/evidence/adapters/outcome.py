@@ -1,4 +1,4 @@
-"""What became of a line, for tools that know no more than good, bad and nothing."""
+"""Outcome of a line for tools that only distinguish good, bad and nothing."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ NOT_MEASURED = "The line was not measured."
 
 
 def line_outcome(line: Mapping[str, Any]) -> str:
-    """PASS for a line that is measured, with or without a reaction of the Car; FAIL for an invalid one; NOTHING for one
-    without a distance."""
+    """Return PASS for a measured line, with or without a reaction of the Car; FAIL for an invalid one; NOTHING without
+    a distance."""
     states = {distance["status"] for distance in line["distances"]}
     if "invalid" in states or line["reason"]:
         return FAIL
@@ -18,6 +18,6 @@ def line_outcome(line: Mapping[str, Any]) -> str:
 
 
 def unmeasured_lines(record: Mapping[str, Any]) -> Sequence[Mapping[str, Any]]:
-    """Those planned that have no result; older records do not say what was planned."""
+    """Return the planned lines without a result; older records do not contain the plan."""
     measured = {line["number"] for line in record["lines"]}
     return [line for line in record.get("planned_lines", ()) if line["number"] not in measured]

@@ -1,4 +1,4 @@
-"""Tables as Parquet, by DuckDB: a package that the application works without."""
+"""Tables as Parquet, written by DuckDB, an optional package."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from mtr_operator.domain.errors import OutputError
 
 from .tables import Table
 
-# No extension is fetched from anywhere.
+# DuckDB must not download extensions.
 _SETTINGS = {"autoinstall_known_extensions": "false", "autoload_known_extensions": "false"}
 
 
 def parquet_of(table: Table) -> bytes:
-    """The file; OutputError when it cannot be made, such as without that package."""
+    """Return the file; OutputError if it cannot be created, for example without the package."""
     try:
         import duckdb
     except ImportError:

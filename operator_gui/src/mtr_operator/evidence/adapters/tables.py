@@ -1,4 +1,4 @@
-"""Results and course of a test as tables, for analyses: a row each line, and a row each Status."""
+"""Results and course of a test as tables for analyses: a row per line, and a row per Status."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from mtr_operator.report.columns.assessed_columns import AssessedColumns
 from mtr_operator.report.columns.shown_columns import ShownColumns
 from mtr_operator.storage.recorded.course_file import Moment, read_course
 
-# Kinds of columns, as SQL calls them.
+# Column types in SQL.
 NUMBER, WHOLE, TRUTH, TEXT = "DOUBLE", "BIGINT", "BOOLEAN", "VARCHAR"
 _KINDS = {float: NUMBER, int: WHOLE, bool: TRUTH, str: TEXT, Floats: f"{NUMBER}[]", Texts: f"{TEXT}[]"}
 _POSE_COLUMNS = {"run": WHOLE, "robot_time_s": NUMBER, "pose_valid": TRUTH, "x_m": NUMBER, "y_m": NUMBER,
@@ -25,14 +25,14 @@ _POSE_COLUMNS = {"run": WHOLE, "robot_time_s": NUMBER, "pose_valid": TRUTH, "x_m
 
 
 class Table(NamedTuple):
-    """columns: kind of each by its name, in their order. rows: values in that order; None where there is none."""
+    """Table. columns: type of each by its name, in their order. rows: values in that order; None for an empty cell."""
 
     columns: Mapping[str, str]
     rows: Iterable[Sequence[Any]]
 
 
 def results_table(scenario: AnyScenario, progress: Progress, assessment: Assessment | None) -> Table:
-    """The columns of results.csv, with the same names and units, not rounded."""
+    """Return the columns of results.csv, with the same names and units, not rounded."""
     added = AssessedColumns(scenario, assessment)
     shown = ShownColumns(scenario, scenario.parameters_type.from_mapping(progress.parameters))
     kinds = kinds_of(scenario.result_type)  # type: ignore[arg-type]  # a class is hashable, which mypy does not see here
@@ -45,8 +45,8 @@ def results_table(scenario: AnyScenario, progress: Progress, assessment: Assessm
 
 
 def poses_table(courses: Sequence[pathlib.Path]) -> Table:
-    """Where robot and key were, at each Status of each run: Car coordinate system, robot's clock; without places where
-    they were not known. ProgressFileError, when its rows are read, for a course that is damaged."""
+    """Return the positions of robot and key at each Status of each run: Car coordinate system, robot's clock; None if
+    unknown. While its rows are read, ProgressFileError for a damaged course."""
     return Table(_POSE_COLUMNS, (row for number, course in enumerate(courses, 1) for row in _poses(number, course)))
 
 
@@ -66,7 +66,7 @@ def _pose(status: RobotStatus) -> Iterator[Any]:
 
 
 def _kind(kind: Any) -> str:
-    """Of a field; of an optional one as of the other ones, for each value may be missing."""
+    """Return the type of a field; an optional field has the type of the others, because each value may be missing."""
     kind = get_args(kind)[0] if get_origin(kind) is Union else kind
     return TEXT if isinstance(kind, type) and issubclass(kind, enum.Enum) else _KINDS[kind]
 
