@@ -1,2 +1,2 @@
-"""Distances of a test computed anew, from what was recorded with it: log of the bus, poses, profile."""
+"""Recomputes the distances of a test from its recording: log of the bus, poses, profile."""
 # SPDX-License-Identifier: Apache-2.0

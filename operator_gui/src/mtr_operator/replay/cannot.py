@@ -1,4 +1,4 @@
-"""Why a test cannot be computed anew."""
+"""Error of a test that cannot be recomputed."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,4 +6,4 @@ from mtr_operator.domain.errors import OperatorError
 
 
 class CannotReplay(OperatorError):
-    """What was recorded does not suffice; the text says what is missing."""
+    """The recording is insufficient; the text names the missing data."""

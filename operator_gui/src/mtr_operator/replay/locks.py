@@ -1,4 +1,4 @@
-"""The changes of the Car's locks anew, from the log of its bus, by a profile: as they were told with each Status."""
+"""Recomputes the lock changes of the Car from the log of its bus and a profile, as reported with each Status."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from .phone import ReplayedPhone
 
 
 class ReplayedLocks:
-    """The parts of the live link on a log, in the order in which frames and Statuses came.
+    """Parts of the live link applied to a log, in the recorded order of frames and Statuses.
 
-    phone: is given each frame, too.
+    phone: receives each frame, too.
 
     Attributes:
-        watch: what follows the locks. facts: of the profile. frames: of the log so far. has_state: one of them was the
-            message that tells the state. is_short: the log has ended before the test did.
-            has_marks: the test has noted how far the log had come with each Status.
+        watch: follower of the locks. facts: of the profile. frames: of the log so far. has_state: the log contains the
+            message of the state. is_short: the log ended before the test.
+            has_marks: the test recorded the position of the log at each Status.
     """
 
     def __init__(self, profile: CarProfile, log: ReadLog, phone: ReplayedPhone | None = None, *,
                  is_played: bool = False):
-        """is_played: the test played the log from its first Status on, in place of a bus."""
+        """is_played: the test played the log from its first Status on, instead of a bus."""
         self._buses = LogBuses(profile)
         self._phone = phone
         self.watch = LockWatch(profile)
@@ -47,7 +47,7 @@ class ReplayedLocks:
         self._first_s = math.nan
 
     def take(self, moment: Moment) -> list[CarEvent]:
-        """Events that a live link would have told with this Status."""
+        """Return the events that a live link would have reported with this Status."""
         if self._is_played:
             return self._play(moment.status)
         self.has_marks = self.has_marks or moment.mark is not None
@@ -58,7 +58,7 @@ class ReplayedLocks:
         return self.watch.release(mark.told_s)
 
     def _play(self, status: RobotStatus) -> list[CarEvent]:
-        """As LogCarLink did."""
+        """Advance as LogCarLink does."""
         if math.isnan(self._first_s):
             self._next = next(self._log, None)
             self._first_s = status.stamp_s - (0.0 if self._next is None else self._next.time_s)

@@ -1,4 +1,4 @@
-"""The phone's distances of a Digital key test anew: from a signal of the Car's bus, by its log and a profile."""
+"""Recomputes the phone's distances of a Digital key test from a signal of the Car's bus, by its log and a profile."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ from .cannot import CannotReplay
 
 
 class ReplayedPhone:
-    """Fed with what one run after the other recorded; places: of the test, by their number.
+    """Phone distances, updated with consecutive recorded runs. places: of the test, by their number.
 
-    Attributes: frame: takes each frame of the log.
+    Attributes: frame: receives each frame of the log.
     """
 
     def __init__(self, signal: PhoneSignal, parameters: DigitalKeyParameters, car: CarDimensions):
@@ -43,21 +43,21 @@ class ReplayedPhone:
         self.frame = self._feed.frame
 
     def observe(self, status: RobotStatus) -> None:
-        """A Status was taken, and the log read up to it."""
+        """Add a Status after the log was read up to it."""
         self._heard += self._feed.observe(status)
 
     def forget(self) -> None:
-        """What was told before is of another clock or run."""
+        """Discard earlier distances, which belong to another clock or run."""
         self._heard = []
 
     def begin(self, now_s: float) -> None:
-        """The robot stands at a place from now on."""
+        """Start the measurement at a place where the robot has stopped."""
         self._begun_s = now_s
 
     def result(self, number: int, made: Distance, poses: PoseHistory, now_s: float) -> DigitalKeyResult:
-        """Of the place at which the robot has stood until now; made: on the place's ray.
+        """Return the result of the place at which the robot was stopped until now; made: on the place's ray.
 
-        PoseUnknown, or LineInvalid, when nobody knows where the phone was.
+        PoseUnknown, or LineInvalid, if the position of the phone is unknown.
         """
         def key_distance(ray: Ray, time_s: float, origin: OriginError) -> Distance:
             return measure_at(ray, poses, time_s, 0.0, origin)
@@ -67,14 +67,15 @@ class ReplayedPhone:
         reading = read(self._heard, (self._begun_s, now_s), self._parameters)
         result = beside_others(place_result(line, reading, stood), list(self._results.values()))
         former = self._results.get(number)
-        # As in the test: measured again it counts, unless it is worse.
+        # As in the test, a repeated measurement counts unless it is worse.
         if former is None or former.invalid_count >= result.invalid_count:
             self._results[number] = result
         return result
 
 
 def replayed_phone(parameters: ScenarioParameters, progress: Progress, profile: CarProfile) -> ReplayedPhone | None:
-    """None for a test without a phone. CannotReplay for one whose phone's distances are not in the log of the bus."""
+    """Return the phone; None for a test without one. CannotReplay if the phone's distances are not in the log of the
+    bus."""
     if not isinstance(parameters, DigitalKeyParameters) or progress.car is None:
         return None
     source = progress.session.get(PHONE_FEED, "")

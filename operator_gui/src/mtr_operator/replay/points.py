@@ -1,5 +1,5 @@
-"""Every measurement of a test anew: what the Car did, by the log, when the test expected something, and where the key
-was then, by the recorded poses. What is expected when is as it was in the test, for the robot did what it did."""
+"""Recomputes all measurements of a test: the Car's reactions from the log, and the key's positions from the recorded
+poses. The expectations are as in the test, because the robot's actions are unchanged."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from .phone import ReplayedPhone
 
 @dataclass(frozen=True)
 class Point:
-    """One measurement: what it is called, as it was kept, and as it is now. doubt: why it would be invalid now."""
+    """One measurement: name, recorded and recomputed values. doubt: reason why it would be invalid now."""
 
     word: str
     status: LineStatus
@@ -41,19 +41,19 @@ class Point:
 
 @dataclass
 class Attempt:
-    """A line from its beginning to its result; values: of the result as it was kept, empty when it came to none."""
+    """Line from its start to its result; values: of the recorded result, empty without one."""
 
     number: int
     points: list[Point] = field(default_factory=list)
     values: Mapping[str, Any] = field(default_factory=dict)
-    # After the last point, for a line that was not kept valid.
+    # Point after the last one, for a line that was recorded as invalid.
     after: Point | None = None
-    # Of a place at which a phone's distance was read.
+    # Place of a measured phone distance.
     place: DigitalKeyResult | None = None
 
 
 class _Watch:
-    """The locks of a line as the test watched them."""
+    """Locks of a line as watched by the test."""
 
     def __init__(self, history: LockHistory):
         self.history = history
@@ -69,8 +69,8 @@ class _Watch:
 
 
 class Points:
-    """Fed with the course of one run after the other; rays: of the lines by their number. phone: of a test that reads
-    a phone's distance from the Car's bus."""
+    """Measurements, updated with the course of consecutive runs; rays: of the lines by their number. phone: of a test
+    with a phone's distance from the Car's bus."""
 
     def __init__(self, rays: Mapping[int, Ray], car: CarDimensions, phone: ReplayedPhone | None = None):
         self.attempts: list[Attempt] = []
@@ -80,7 +80,7 @@ class Points:
         self._car = car
 
     def follow(self, entries: Iterable[Entry], locks: ReplayedLocks) -> None:
-        """One run."""
+        """Follow one run."""
         poses, watch, before = PoseHistory(), None, None
         self._forget(poses)
         for entry in entries:
@@ -109,7 +109,7 @@ class Points:
         poses.add(status)
 
     def _forget(self, poses: PoseHistory) -> None:
-        """Another run, session or frame: what was known before says nothing of what comes."""
+        """Discard the state at a new run, session or frame: earlier data does not apply to it."""
         poses.clear()
         if self.phone is not None:
             self.phone.forget()
@@ -148,7 +148,7 @@ class Points:
 
     @staticmethod
     def _at_place(attempt: Attempt, phone: ReplayedPhone, point: Point, poses: PoseHistory, now_s: float) -> Point:
-        """By what the phone told: the locks do not matter."""
+        """Evaluate the phone's distance; the locks do not matter."""
         if point.new_distance is None:
             return point
         try:
@@ -170,7 +170,7 @@ class Points:
         return dataclasses.replace(now, status=LineStatus(values["status"]), distance=distance)
 
     def _now(self, attempt: Attempt, word: str, watch: _Watch, poses: PoseHistory, kept: Distance | None) -> Point:
-        """What the locks and poses say of the expectation in force."""
+        """Evaluate locks and poses for the current expectation."""
         answer, ray = watch.history.answer, self._rays.get(attempt.number)
         status = LineStatus.INVALID if watch.doubt else LineStatus.NOT_REACHED if answer is None else LineStatus.OK
         new, doubt = None, watch.doubt
@@ -183,7 +183,7 @@ class Points:
 
     def _distance(self, ray: Ray, watch: _Watch, answer: CarEvent | None, kept: Distance | None,
                   poses: PoseHistory) -> Distance | None:
-        """By approach the key is where the event finds it; by button or handle it stood there when it was tried."""
+        """Return the distance: in an approach at the event; with button or handle at the position of the attempt."""
         if watch.expected is not None and math.isinf(watch.expected.until_s):
             if answer is None or watch.doubt:
                 return None
@@ -203,6 +203,6 @@ def _history(locks: ReplayedLocks, values: Mapping[str, Any]) -> LockHistory:
 def _expected(values: Mapping[str, Any]) -> Expected:
     known = dict(values)
     known["state"] = LockState(known["state"])
-    # Infinity has no number in a file.
+    # JSON has no infinity.
     known["until_s"] = math.inf if known.get("until_s") is None else known["until_s"]
     return Expected(**known)

@@ -1,4 +1,4 @@
-"""An axis of Relay resistance by its requests as they are now."""
+"""Recomputes an axis of Relay resistance from its requests."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ _UNPROVEN = "The Car did not unlock inside its zone, so that its silence beyond 
 
 
 def relayed(points: Sequence[Point]) -> dict[str, Any]:
-    """The extender was as it was; whether the Car unlocked is as the bus says now. A proof that fails now proves
-    nothing, and neither does a request that is in doubt."""
+    """Return the columns: the extender's state is as recorded, the Car's reactions are from the bus. A proof that fails
+    now is void, and so is a doubtful request."""
     newest = {point.word: point for point in points if point.new_distance is not None}
     tried = {point.word: each for point in newest.values() if point.new_distance is not None
              for each in tried_of({point.word: (point.new_status is LineStatus.OK, point.new_distance.distance_m)})}

@@ -1,4 +1,4 @@
-"""A recorded test computed anew, and what differs from its record."""
+"""Recomputes a recorded test, and finds the differences from its record."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -22,18 +22,20 @@ from .phone import replayed_phone
 from .points import Attempt, Point, Points
 from .results import counted_attempts, results_anew
 
-# What results.csv shows is a tenth of a millimetre.
+# Resolution of results.csv, a tenth of a millimetre.
 SAME_M = 0.0001
-# A zone's presses are on many rays; its field has no distance to compare, only what the Car did.
+# The presses of a zone are on many rays; only the Car's reactions are compared, because its field has no distance.
 _WITHOUT_RAYS = ("zone_map",)
 
 
 @dataclass(frozen=True)
 class ReplayedTest:
-    """Attributes:
-        recorded, now: results of the lines, in the same order. attempts: by line, those that are in the record.
-        notices: sentences on what is missing or was used otherwise.
-        is_whole: the logs tell the state of the locks, and reach to the end of each run.
+    """Result of a replay.
+
+    Attributes:
+        recorded, now: results of the lines, in the same order. attempts: by line, as in the record.
+        notices: sentences on missing or replaced data.
+        is_whole: the logs contain the lock state, and extend to the end of each run.
     """
 
     recorded: Sequence[LineResult]
@@ -44,18 +46,18 @@ class ReplayedTest:
 
     @property
     def points(self) -> list[tuple[int, Point]]:
-        """All measurements that are in the record, with their lines."""
+        """All measurements of the record, with their lines."""
         return [(number, point) for number, attempt in self.attempts.items() for point in attempt.points]
 
     @property
     def changed_lines(self) -> list[tuple[LineResult, MeasuredDistance, MeasuredDistance]]:
-        """Distances that read otherwise now: the line, as recorded, as now."""
+        """Changed distances: the line, as recorded, as recomputed."""
         return [(old, former, new) for old, now in zip(self.recorded, self.now)
                 for former, new in zip(old.distances, now.distances) if not is_same(former, new)]
 
     @property
     def worst_m(self) -> float:
-        """Largest difference of a place or distance that is known both ways."""
+        """Largest difference of a position or distance that both versions have."""
         return max((abs(new - former) for former, new in self._pairs()), default=0.0)
 
     def _pairs(self) -> Iterator[tuple[float, float]]:
@@ -69,7 +71,7 @@ class ReplayedTest:
 
 
 def is_same(former: MeasuredDistance, new: MeasuredDistance) -> bool:
-    """True when a table would show them alike."""
+    """Return True if a table would show equal texts."""
     if former.status is not new.status:
         return False
     pairs = ((former.distance_m, new.distance_m), (former.low_m, new.low_m), (former.high_m, new.high_m))
@@ -78,9 +80,9 @@ def is_same(former: MeasuredDistance, new: MeasuredDistance) -> bool:
 
 def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress, folder: pathlib.Path,
            profile: CarProfile, *, log: pathlib.Path | None = None) -> ReplayedTest:
-    """The test in a progress file whose recording is in a folder; log: of its only run, instead of the recorded one.
+    """Replay a test with its recording in a folder; log: of its only run, instead of the recorded one.
 
-    CannotReplay when too little was recorded, another OperatorError for a file that is damaged.
+    CannotReplay if the recording is insufficient, another OperatorError for a damaged file.
     """
     runs = recorded_runs(folder)
     if not runs or progress.car is None:
@@ -105,7 +107,7 @@ def replay(scenario: AnyScenario, parameters: ScenarioParameters, progress: Prog
 
 def _follow(points: Points, run: RecordedRun, profile: CarProfile, log: pathlib.Path | None,
             played: str) -> tuple[list[str], bool]:
-    """Notices on its log, and whether that tells the whole run. played: see played_log."""
+    """Replay one run; return notices on its log, and True if the log covers the whole run. played: see played_log."""
     path = log or run.log
     if path is None and played:
         raise CannotReplay(f"The test played the CAN log {played}, which is not kept with it; name that log "

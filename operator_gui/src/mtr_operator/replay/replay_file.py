@@ -1,4 +1,4 @@
-"""A test by its progress file, computed anew with the car profile that it names or another one."""
+"""Recomputes a test from its progress file, with its own or another car profile."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from .replay import ReplayedTest, replay
 
 def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.Path | None = None,
                 log: pathlib.Path | None = None) -> tuple[AnyScenario, ReplayedTest]:
-    """The test's scenario, and what was found; OperatorError says what is missing.
+    """Return the test's scenario and the replay; OperatorError names missing data.
 
-    profile_name: empty for the one that the test had: as a bundle has kept it, else as it is now. folder: of the
-    recording, None for that beside the file. log: see replay.
+    profile_name: empty for the test's own: as archived in a bundle, else the current one. folder: of the recording,
+    None for the folder next to the file. log: see replay.
     """
     if not path.exists():
         raise CannotReplay(f"There is no test in {path}.")
@@ -38,7 +38,7 @@ def replay_file(path: pathlib.Path, profile_name: str = "", *, folder: pathlib.P
 
 
 def _found(name: str, path: pathlib.Path) -> str:
-    """The profile as a record names it; a path that was relative is looked for from the test's folder upwards, too."""
+    """Return the profile's path; a relative path is also searched from the test's folder upwards."""
     if not name.endswith(".yaml") or pathlib.Path(name).is_absolute() or pathlib.Path(name).is_file():
         return name
     found = next((folder / name for folder in path.resolve().parents if (folder / name).is_file()), None)

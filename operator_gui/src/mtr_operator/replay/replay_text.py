@@ -1,4 +1,4 @@
-"""What a replay found, for a person and for a program."""
+"""Result of a replay, for people and programs."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _MM_PER_M = 1000.0
 
 
 def replay_lines(scenario: AnyScenario, found: ReplayedTest) -> Iterator[str]:
-    """What would change, and how well the rest agrees."""
+    """Yield the changes, and the agreement of the rest."""
     for result, former, new in found.changed_lines:
         yield (f"{scenario.line_word} {result.number} ({result.place}), {former.word}: {_text(former)} in the record, "
                f"{_text(new)} now")
@@ -32,7 +32,7 @@ def replay_lines(scenario: AnyScenario, found: ReplayedTest) -> Iterator[str]:
 
 
 def summary(found: ReplayedTest) -> str:
-    """One line."""
+    """Return a summary of one line."""
     distances, points = sum(len(result.distances) for result in found.recorded), len(found.points)
     worst = f"the largest difference is {_MM_PER_M * found.worst_m:.3f} mm"
     if not found.is_whole:
@@ -44,13 +44,14 @@ def summary(found: ReplayedTest) -> str:
 
 
 def is_unchanged(found: ReplayedTest) -> bool:
-    """True when the log tells that all distances and outcomes are those of the record, to a tenth of a millimetre."""
+    """Return True if the log covers the test, and all distances and outcomes match the record to a tenth of a
+    millimetre."""
     return (found.is_whole and not found.changed_lines and found.worst_m <= SAME_M
             and all(point.status is point.new_status for _, point in found.points))
 
 
 def replay_document(scenario: AnyScenario, found: ReplayedTest) -> dict[str, Any]:
-    """The same as plain values."""
+    """Return the result as plain values."""
     return {"scenario": scenario.name, "is_unchanged": is_unchanged(found), "worst_m": found.worst_m,
             "is_whole": found.is_whole, "measurements": len(found.points), "notices": list(found.notices), "lines": [
                 {"line": old.number, "place": old.place, "distances": [

@@ -1,4 +1,4 @@
-"""The results of all lines anew, from their measurements anew."""
+"""Recomputes the results of all lines from their recomputed measurements."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -25,14 +25,14 @@ from .points import Attempt, Point
 from .relayed import relayed
 
 Result = TypeVar("Result", bound=LineResult)
-# Places are kept in whole micrometres.
+# Positions are recorded in whole micrometres.
 _DIGITS = 6
 _SAME_M = 2e-6
 
 
 def results_anew(scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  attempts: Sequence[Attempt]) -> tuple[list[LineResult], list[LineResult]]:
-    """As they are recorded and as they are now; both with what all lines have in common worked out."""
+    """Return the recorded and the recomputed results; both with the values that all lines have in common."""
     counted = counted_attempts(scenario, attempts)
     new = [anew(result, counted[result.number]) if result.number in counted else result
            for result in progress.results]
@@ -40,7 +40,7 @@ def results_anew(scenario: AnyScenario, parameters: ScenarioParameters, progress
 
 
 def counted_attempts(scenario: AnyScenario, attempts: Sequence[Attempt]) -> dict[int, Attempt]:
-    """Of each line the attempt whose result is in the record: a later one, unless it was worse."""
+    """Return the attempt of each line whose result is in the record: a later one, unless it was worse."""
     counted: dict[int, tuple[Attempt, int]] = {}
     for attempt in attempts:
         if not attempt.values:
@@ -53,8 +53,8 @@ def counted_attempts(scenario: AnyScenario, attempts: Sequence[Attempt]) -> dict
 
 
 def anew(result: LineResult, attempt: Attempt) -> LineResult:
-    """One line by its measurements as they are now; an invalid line stays so, for it had a reason. Not so a place at
-    which nothing but the phone's distance was wrong: that is of the bus, too."""
+    """Recompute one line. An invalid line stays invalid, for a recorded reason. An exception is a place where only the
+    phone's distance was wrong, because that comes from the bus, too."""
     if attempt.place is not None or result.invalid_count or not attempt.points:
         return attempt.place or result
     if isinstance(result, AutolockResult):
@@ -107,7 +107,7 @@ def _distance(prefix: str, point: Point) -> dict[str, Any]:
 
 
 def _passes(result: AutolockResult, word: str, points: Sequence[Point]) -> Iterator[tuple[float, float]]:
-    """A pass that was in steps keeps its speed of 0."""
+    """Yield the passes; a pass in steps keeps its speed of 0."""
     for distance_m, speed_mps in result.passes(word):
         point = _kept_at(distance_m, [each for each in points if each.word.partition(" ")[0] == word])
         if point is None or point.new_distance is None or point.new_status is not LineStatus.OK:
@@ -121,7 +121,8 @@ def _kept_at(distance_m: float, points: Sequence[Point]) -> Point | None:
 
 
 def _scan(points: Sequence[Point]) -> dict[str, Any]:
-    """The first press that works, and works again where it was repeated, ends a scan."""
+    """Return the columns of a scan, which ends at the first successful press whose repetition, if any, succeeds as
+    well."""
     worked = next((point for index, point in enumerate(points) if _works(points, index)), None)
     doubts = [point.doubt for point in points if point.doubt]
     if worked is None:
@@ -132,7 +133,7 @@ def _scan(points: Sequence[Point]) -> dict[str, Any]:
 
 
 def _slept(points: Sequence[Point]) -> dict[str, Any]:
-    """For how long the key was at rest is as it was; whether it answered is as the bus says now."""
+    """Return the columns of a sleep test: the rest times are as recorded, the key's answers are from the bus."""
     return rest_columns(Rests(trials_of({point.word: (point.new_status is LineStatus.OK, point.distance.rest_s)
                                          for point in points if point.distance is not None})))
 
@@ -145,7 +146,7 @@ def _works(points: Sequence[Point], index: int) -> bool:
 
 
 def _searched(result: SearchedResult, points: Sequence[Point]) -> dict[str, Any]:
-    """Each place that counted, among those that worked or those that failed as it is now."""
+    """Sort each counted position by its recomputed outcome."""
     worked: list[float] = []
     failed: list[float] = []
     left = list(points)
