@@ -1,2 +1,2 @@
-"""What this computer lacks to run tests, in sentences."""
+"""Checks of this computer's readiness for tests."""
 # SPDX-License-Identifier: Apache-2.0

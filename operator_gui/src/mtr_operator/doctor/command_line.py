@@ -1,4 +1,4 @@
-"""The command that says what this computer lacks."""
+"""Command that reports missing requirements of this computer."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _SIGNS = {**SIGNS, State.BAD: "missing"}
 
 
 def doctor(computer: Computer | None = None) -> bool:
-    """Print a line for each thing that was looked at. True when nothing is missing."""
+    """Print a line for each check. Return True if all passed."""
     found = [*computer_findings(computer or Computer()), *file_findings(SettingsStore(default_path()))]
     for finding in found:
         print(finding.line(_SIGNS))

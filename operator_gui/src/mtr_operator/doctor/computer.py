@@ -1,6 +1,6 @@
-"""What the computer itself has: packages, display, drivers and permissions of CAN adapters.
+"""Checks of the computer itself: packages, display, drivers and permissions of CAN adapters.
 
-Nothing but the standard library is imported, for this has to tell which of the other packages is missing.
+Only the standard library is imported, because this module reports which of the other packages are missing.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -18,7 +18,7 @@ from mtr_operator.station.checks.finding import State
 
 from .finding import Finding
 
-# Modules by the package that brings them, all but the contract with the robot on package indexes.
+# Modules by the package that provides them, except the robot interface package, which is not on package indexes.
 PACKAGES = {"zmq": "pyzmq", "google.protobuf": "protobuf", "can": "python-can", "cantools": "cantools",
             "serial": "pyserial", "numpy": "numpy", "scipy": "scipy", "matplotlib": "matplotlib",
             "uncertainties": "uncertainties", "yaml": "pyyaml", "tqdm": "tqdm", "platformdirs": "platformdirs",
@@ -26,7 +26,7 @@ PACKAGES = {"zmq": "pyzmq", "google.protobuf": "protobuf", "can": "python-can", 
 _SERIAL_PORTS = ("dev/ttyACM*", "dev/ttyUSB*")
 _NETWORKS = "sys/class/net/*can*"
 _DISPLAYS = ("DISPLAY", "WAYLAND_DISPLAY")
-# On these platforms of Qt, the first of which is whatever suits the desktop, a window needs a display.
+# Qt platforms whose windows need a display; the first one lets Qt choose.
 _NEEDS_DISPLAY = ("", "xcb", "wayland")
 
 
@@ -38,7 +38,7 @@ def _is_installed(module: str) -> bool:
 
 
 def _import_problem(module: str) -> str:
-    """Why a module that is installed cannot be imported; empty when it can."""
+    """Return why an installed module cannot be imported; empty if it can."""
     try:
         importlib.import_module(module)
     except ImportError as error:
@@ -52,9 +52,9 @@ def _may_use(path: str) -> bool:
 
 @dataclass(frozen=True)
 class Computer:
-    """What is asked of the computer. root: folder of the devices. is_installed, may_use: of a module, of a device.
+    """Access to the computer. root: folder of the devices. is_installed, may_use: of a module, of a device.
 
-    import_problem: of a module that is installed; empty when there is none.
+    import_problem: of an installed module; empty without one.
     """
 
     environment: Mapping[str, str] = field(default_factory=lambda: os.environ)
@@ -66,14 +66,14 @@ class Computer:
 
 
 def computer_findings(computer: Computer) -> Iterator[Finding]:
-    """In the order in which it is mended."""
+    """Yield the findings in the order in which they must be fixed."""
     yield from _packages(computer)
     yield _display(computer)
     yield from _adapters(computer)
 
 
 def display_problem(environment: Mapping[str, str], platform: str) -> str:
-    """Why no window can open, a sentence; empty when one can. Qt ends the process where there is no display."""
+    """Return a sentence why no window can open; empty if one can. Qt aborts the process if the display is missing."""
     wanted = environment.get("QT_QPA_PLATFORM", "").partition(":")[0]
     if platform != "linux" or wanted not in _NEEDS_DISPLAY or any(environment.get(name) for name in _DISPLAYS):
         return ""

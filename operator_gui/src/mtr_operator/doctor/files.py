@@ -1,4 +1,4 @@
-"""What the application's files are like: settings, folders, the laboratory's file."""
+"""Checks of the application's files: settings, folders, the laboratory's file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .finding import Finding
 
 
 def file_findings(store: SettingsStore) -> Iterator[Finding]:
-    """store: settings, not loaded yet."""
+    """Yield the findings. store: settings, not loaded yet."""
     store.load()
     yield Finding("settings", State.BAD if store.problem else State.GOOD, store.problem or "They can be read.")
     for what, folder in (("results", store.settings.result_folder), ("progress", store.settings.progress_folder)):
@@ -32,7 +32,7 @@ def file_findings(store: SettingsStore) -> Iterator[Finding]:
 def _folder(what: str, folder: pathlib.Path) -> Finding:
     try:
         with output_folder(folder):
-            # Only a folder that a failed test leaves empty goes again.
+            # Only an empty folder, as after a failed test, is removed.
             raise _TriedOut
     except _TriedOut:
         return Finding(f"folder of {what}", State.GOOD, f"{folder} can be written.")
@@ -41,4 +41,4 @@ def _folder(what: str, folder: pathlib.Path) -> Finding:
 
 
 class _TriedOut(Exception):
-    """Ends a trial of a folder."""
+    """Ends the trial of a folder."""

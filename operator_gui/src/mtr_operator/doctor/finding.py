@@ -1,4 +1,4 @@
-"""Result of looking at one part of the computer, its files, or the robot."""
+"""Result of one check of the computer, its files, or the robot."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SIGNS: Mapping[State, str] = {State.GOOD: "ok", State.NOTE: "note", State.UNKNOW
 
 @dataclass(frozen=True)
 class Finding:
-    """what: a word or two. sentence: what is there, or what is missing and what to do."""
+    """Result of a check. what: a word or two. sentence: the state, or the fault and its remedy."""
 
     what: str
     state: State

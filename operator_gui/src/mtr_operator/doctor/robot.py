@@ -1,6 +1,6 @@
-"""What a robot tells an application that only looks: nothing is sent to it, and nobody loses control of it.
+"""Checks of a robot by a read-only application: nothing is sent to it, and its controller keeps control.
 
-What would hinder a test is what hinders one in the window, see station/checks.
+The findings that prevent a test are the same as in the window, see station/checks.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -24,22 +24,22 @@ from mtr_operator.station.mailbox import Mailbox
 
 from .finding import Finding
 
-# A robot tells of its preflight once a second, and lets another application take over after 3 s of silence.
+# A robot reports its preflight once a second, and lets another application take over after 3 s of silence.
 LISTEN_S = 3.0
 _POLL_S = 0.1
-# Of Car, laptop and chosen test, which nobody asks a robot for.
+# Checks of Car, laptop and selected test, which do not concern a robot.
 _NOT_OF_ROBOT = (Check.WAY, *UNSEEN, Check.BUS, Check.LOCKS, Check.SIGNALS, Check.CLOCK, Check.KEY,
                  Check.DISK, Check.LIMITS)
-# Twice this and nothing that moves is sent: the robot would stop again and again.
+# After twice this time no motion command is sent: the robot would stop again and again.
 _LONG_GAP_S = MAX_BLIND_S / 2
 _MS_PER_S = 1000.0
 
 
 @dataclass(frozen=True)
 class Heard:
-    """What came within a while. robot: the newest, None when nothing came. silent_s: since then. longest_gap_s: between
-    two Statuses or after the last one; count: of Statuses; lost: those on the way. is_abandoned: the application that
-    controls the robot was silent all the time, and the next one takes over."""
+    """Received data. robot: newest snapshot, None without any. silent_s: time since it. longest_gap_s: between two
+    Statuses or after the last one; count: of Statuses; lost: in transit. is_abandoned: the controlling application was
+    silent all the time, so another one can take over."""
 
     robot: RobotSnapshot | None
     silent_s: float
@@ -50,7 +50,7 @@ class Heard:
 
 
 def listen(link: RobotLink, listen_s: float, clock: Callable[[], float] = time.monotonic) -> Heard:
-    """Take what comes over a connected link, and answer nothing. clock: wall time in s."""
+    """Receive Statuses over a connected link without answering. clock: wall time in s."""
     mailbox = Mailbox()
     begun_s = newest_s = clock()
     count, gaps_s, is_abandoned = 0, [0.0], True
@@ -59,7 +59,7 @@ def listen(link: RobotLink, listen_s: float, clock: Callable[[], float] = time.m
         if status is None:
             continue
         now_s = clock()
-        # What passes before the first one is the robot's period, and the subscription's way.
+        # The time before the first one depends on the robot's period and the subscription.
         gaps_s += [now_s - newest_s] if count else []
         newest_s, count = now_s, count + 1
         is_abandoned = is_abandoned and status.is_abandoned
@@ -70,7 +70,7 @@ def listen(link: RobotLink, listen_s: float, clock: Callable[[], float] = time.m
 
 
 def robot_items(heard: Heard) -> tuple[Item, ...]:
-    """The checklist's items of the robot, as the window has them."""
+    """Return the checklist's items of the robot, as in the window."""
     robot = heard.robot
     if robot is not None and heard.is_abandoned:
         robot = replace(robot, status=replace(robot.status, controlled_by_other=False))
@@ -79,10 +79,10 @@ def robot_items(heard: Heard) -> tuple[Item, ...]:
 
 
 def robot_sentences(heard: Heard, round_trip_s: float) -> Iterator[Finding]:
-    """Yield a finding for each part of the robot; round_trip_s: of a connection, NaN where there is no network."""
+    """Yield a finding for each part of the robot; round_trip_s: of a connection, NaN without a network."""
     for item in robot_items(heard):
         yield Finding(check_title(item.check), item.state, f"{check_text(item)} {check_advice(item)}".rstrip())
-        # The first is in the sentence above.
+        # The first one is in the sentence above.
         further = [sentence for state, sentence in item.parts if state is State.BAD][1:]
         yield from (Finding(check_title(item.check), State.BAD, sentence) for sentence in further)
         if item.check is Check.LINK and heard.robot is not None:
@@ -108,7 +108,7 @@ def _mode(status: RobotStatus) -> Finding:
 
 
 def _control(status: RobotStatus, is_abandoned: bool) -> Finding:
-    """Whether that hinders a test the checklist says."""
+    """Return the controller of the robot; the checklist states if it prevents a test."""
     if not status.controlled_by_other:
         return Finding("Control", State.GOOD, "No application controls the robot.")
     who = f"an application with the key of {status.controller_name}" if status.controller_name else "an application"
@@ -118,7 +118,8 @@ def _control(status: RobotStatus, is_abandoned: bool) -> Finding:
 
 
 def _software(robot: RobotSnapshot) -> Finding:
-    """The link's contract has no version: what is added to it a robot of before does not tell."""
+    """Return a finding on the software. The link's contract has no version: older robots lack fields that were added
+    later."""
     status = robot.status
     untold = [what for what, is_untold in (
         ("its steady clock", math.isnan(status.steady_s)), ("its preflight", robot.preflight is None),

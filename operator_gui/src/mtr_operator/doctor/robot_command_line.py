@@ -1,4 +1,4 @@
-"""The command that looks at a robot and sends it nothing."""
+"""Command that examines a robot without sending anything to it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from mtr_operator.station.connection import SIMULATED, LinkOpener, RobotChoice
 from .finding import Finding
 from .robot import LISTEN_S, listen, robot_items, robot_sentences
 
-# Wall time that opening a connection may take.
+# Wall time limit for opening a connection.
 _TIMEOUT_S = 2.0
 
 
 def look_at(choice: RobotChoice) -> bool:
-    """Print a line for each thing that a robot tells of itself. True when a test could begin.
+    """Print a line for each reported part of a robot. Return True if a test could start.
 
-    InvalidParameter for an address that cannot be right.
+    InvalidParameter for an invalid address.
     """
     link = LinkOpener().robot(choice)
     try:
@@ -42,7 +42,7 @@ def look_at(choice: RobotChoice) -> bool:
 
 
 def _round_trip_s(choice: RobotChoice) -> float:
-    """NaN for a robot within the application."""
+    """Return the round trip time; NaN for a robot within the application."""
     if choice.host == SIMULATED:
         return math.nan
     from mtr_operator.robot_link.probe import round_trip_s
