@@ -17,7 +17,7 @@ from .exit_codes import EXIT_USAGE
 
 
 class _Parser(argparse.ArgumentParser):
-    """Says what is wrong in one line."""
+    """Parser that reports an error in one line."""
 
     def error(self, message: str) -> NoReturn:
         """See ArgumentParser."""
@@ -26,7 +26,7 @@ class _Parser(argparse.ArgumentParser):
 
 
 def argument_parser() -> argparse.ArgumentParser:
-    """Parser of all commands."""
+    """Return the parser of all commands."""
     parser = _Parser(prog="mtr-operator", description="Measures where a car's remote key works.")
     parser.add_argument("--version", action="version", version=__version__)
     commands = parser.add_subparsers(dest="command", metavar="COMMAND")

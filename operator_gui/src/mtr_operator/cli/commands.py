@@ -1,4 +1,4 @@
-"""The commands: what each does, and how an error ends it."""
+"""Commands of the application and their error handling."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _EXIT_CODES = {Verdict.NOT_SET: EXIT_PASS, Verdict.PASS: EXIT_PASS, Verdict.INCO
 
 
 def run_command(arguments: list[str] | None = None) -> int:
-    """Run the command line; the exit code."""
+    """Run the command line; return the exit code."""
     _accept_any_character()
     options = argument_parser().parse_args(arguments)
     try:
@@ -48,12 +48,12 @@ def run_command(arguments: list[str] | None = None) -> int:
 
 
 def run_test(options: argparse.Namespace) -> int:
-    """A test; the exit code."""
+    """Run a test; return the exit code."""
     return _EXIT_CODES[CommandLineRun(options).run()]
 
 
 def run_demo(options: argparse.Namespace) -> int:
-    """A test that needs neither robot, Car nor file; the exit code."""
+    """Run a test without robot, Car and parameter file; return the exit code."""
     if options.out is None:
         moment = now().strftime("%Y-%m-%d_%H-%M-%S")
         options.out = Settings().result_folder / f"demo_{options.scenario}_{moment}"
@@ -61,7 +61,7 @@ def run_demo(options: argparse.Namespace) -> int:
 
 
 def pair(options: argparse.Namespace) -> None:
-    """Pair with a robot; what speaks its language is imported only when it is asked for."""
+    """Pair with a robot; its modules are imported only on demand."""
     from mtr_operator.robot_link.access.command_line import pair_with
     pair_with(options)
 
@@ -73,19 +73,19 @@ def keys(options: argparse.Namespace) -> None:
 
 
 def learn_car(options: argparse.Namespace) -> None:
-    """Learn a Car's profile from its bus; what listens to it is imported only when it is asked for."""
+    """Learn a Car's profile from its bus; the modules are imported only on demand."""
     from mtr_operator.car_link.learn.command_line import learn
     learn(options)
 
 
 def try_car(options: argparse.Namespace) -> int:
-    """Try profiles; what speaks on a bus is imported only when it is asked for."""
+    """Try profiles; the modules are imported only on demand."""
     from .cars.trying import try_profiles
     return try_profiles(options)
 
 
 def examine(options: argparse.Namespace) -> int:
-    """Look at the computer, or at a robot; the exit code."""
+    """Check the computer, or a robot; return the exit code."""
     if options.robot is None:
         return EXIT_PASS if doctor() else EXIT_ERROR
     from mtr_operator.doctor.robot_command_line import look_at
@@ -94,7 +94,7 @@ def examine(options: argparse.Namespace) -> int:
 
 
 def list_parameters(options: argparse.Namespace) -> None:
-    """Print a table of a scenario's parameters, or write them into a file."""
+    """Print a table of a scenario's parameters, or write them to a file."""
     if options.write is not None:
         write_template(options.write, SCENARIOS[options.scenario])
         print(f"{options.write} has the parameters of {options.scenario} as they are proposed; edit it, then: "
@@ -115,13 +115,13 @@ def list_parameters(options: argparse.Namespace) -> None:
 
 
 def _accept_any_character() -> None:
-    # A terminal that knows no degree sign must not end a test.
+    # A terminal without a degree sign must not end a test.
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="replace")
 
 
-# What each command calls; an exit code, or None when it has done what was asked for.
+# Function of each command; it returns an exit code, or None after success.
 _COMMANDS: dict[str, Callable[[argparse.Namespace], int | None]] = {
     "params": list_parameters, "check": check, "service": order_service,
     "history": list_history, "compare": compare_tests, "plan": plan,

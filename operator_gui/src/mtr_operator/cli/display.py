@@ -23,9 +23,9 @@ _BAR = "{n_fmt} of {total_fmt} |{bar:20}| {remaining} left{postfix}"
 
 
 class Display(RunObserver):
-    """Shows lines done, the present action, and each sentence of the robot once; scenario: None without lines.
+    """Display of finished lines, the current action, and each sentence of the robot once; scenario: None without lines.
 
-    Attributes: forecast: says after each line what is still to be expected; None: nothing.
+    Attributes: forecast: returns the remaining forecast after each line; None: no forecast.
     """
 
     def __init__(self, scenario: AnyScenario | None, stream: TextIO | None = None,
@@ -80,7 +80,7 @@ class Display(RunObserver):
             if message.id not in self._logged:
                 self._logged.add(message.id)
                 self._print_notice(message.severity, message.text)
-        # Until it has started it lacks this and that; what remains is shown then, or is in the last error.
+        # During its start the robot lacks several things; remaining faults are shown later, or are in the last error.
         if status.mode is not Mode.STARTING:
             self._notify(status)
 

@@ -1,4 +1,4 @@
-"""Enter on the command line as the answer to a question, without stopping the runner."""
+"""Enter on the command line as the answer to a question, without blocking the runner."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Callable, TextIO
 
 
 class Enter:
-    """One reader for all questions: a line answers the one that was asked first, and one without a question nothing.
+    """One reader for all questions: a line answers the oldest question, and is ignored without one.
 
-    It reads from its making on, so that no line of before answers the first question.
+    It reads from its construction on, so that no earlier line answers the first question.
     """
 
     def __init__(self, stream: TextIO | None = None):
@@ -22,12 +22,12 @@ class Enter:
         threading.Thread(target=self._read, name="enter", daemon=True).start()
 
     def ask(self, answered: Callable[[], None]) -> None:
-        """Call this, in the reader's thread, when Enter was pressed."""
+        """Call this function, in the reader's thread, after Enter was pressed."""
         with self._lock:
             self._questions.append(answered)
 
     def withdraw(self, answered: Callable[[], None]) -> None:
-        """Nobody need answer this question any more; safe when it was answered."""
+        """Cancel this question; safe if it was answered."""
         with self._lock:
             if answered in self._questions:
                 self._questions.remove(answered)
@@ -40,9 +40,9 @@ class Enter:
                 answered()
 
     def _has_line(self) -> bool:
-        """True as soon as there is a line; False at the end of the input, where nobody can answer any more."""
+        """Wait for a line; return False at the end of the input, after which no answer is possible."""
         try:
             return self._stream is not None and bool(self._stream.readline())
         except (OSError, ValueError):
-            # It was closed, or cannot be read, or what it has is no text.
+            # The input was closed, is unreadable, or is not text.
             return False

@@ -1,4 +1,4 @@
-"""The first thing that runs: Ctrl-C gets an answer while the rest is still being imported."""
+"""Entry point: Ctrl-C is handled while the other modules are still being imported."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .exit_codes import EXIT_ERROR, EXIT_INTERRUPTED
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command line; the exit code."""
+    """Run the command line; return the exit code."""
     try:
         from .commands import run_command
         return run_command(arguments)
@@ -25,7 +25,7 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def _say_missing(module: str) -> int:
-    """Which packages are not installed; the exit code."""
+    """Print the missing package; return the exit code."""
     print(f"The package {module} is not installed.", file=sys.stderr)
     for finding in computer_findings(Computer()):
         if finding.state is State.BAD:

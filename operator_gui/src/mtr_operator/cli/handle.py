@@ -1,4 +1,4 @@
-"""Asks the person at the command line to take the Car's handle, or to switch the extender."""
+"""Prompts the person at the command line to pull the Car's handle, or to switch the extender."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ EXTENDER_QUESTION = "Switch the extender {} now, then press Enter."
 
 
 class HandleQuestion:
-    """Attributes: person: takes the handle, and switches the extender, when asked."""
+    """Prompt. Attributes: person: pulls the handle, and switches the extender, when prompted."""
 
     def __init__(self, say: Callable[[str], None], enter: Enter):
         self.person = AskedPerson(self._show)

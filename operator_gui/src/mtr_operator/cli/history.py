@@ -1,4 +1,4 @@
-"""The commands that list tests of before, and compare two of them."""
+"""Commands that list previous tests, and compare two of them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _GAP = "  "
 
 
 def list_history(options: argparse.Namespace) -> None:
-    """Print the tests that fit, and on stderr a sentence for each file that cannot be read."""
+    """Print the matching tests, and on stderr a sentence for each unreadable file."""
     folders = options.folder or _usual_folders()
     entries = Index(folders, cache_path(folders)).refresh()
     found = matching(entries, " ".join(options.words), car=options.car, key=options.key, verdict=options.verdict)
@@ -38,7 +38,7 @@ def list_history(options: argparse.Namespace) -> None:
 
 
 def _printable(text: str) -> str:
-    """Names of files need not be valid text."""
+    """Return a printable text, because names of files may be invalid text."""
     return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
@@ -56,12 +56,12 @@ def compare_tests(options: argparse.Namespace) -> None:
 
 
 def _side(path: pathlib.Path) -> Side:
-    """path: a progress file or journal, or the folder with one."""
+    """Return a test. path: a progress file or journal, or the folder with one."""
     return open_side(path / FILE_NAME if path.is_dir() else path)
 
 
 def _usual_folders() -> list[pathlib.Path]:
-    """Those of the window."""
+    """Return the folders of the window."""
     store = SettingsStore(default_path())
     store.load()
     return [store.settings.progress_folder, store.settings.result_folder]

@@ -1,4 +1,4 @@
-"""What the command line is told of a test's identity, and whether the laboratory is content with it."""
+"""Identity of a test from the command line, and its check against the laboratory's rules."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -18,29 +18,29 @@ from mtr_operator.storage.store import Store
 
 
 class RunIdentity:
-    """Identity of one test. Its constructor checks the files; InvalidIdentity says what is wrong with them."""
+    """Identity of one test. Its constructor checks the files; InvalidIdentity states a fault."""
 
     def __init__(self, options: argparse.Namespace):
         self._given = GivenIdentity() if options.identity is None else load_identity(options.identity)
         self._laboratory = Laboratory()
-        # A demo measures nobody's car.
+        # A demo has no identity.
         if options.command != "demo":
             self._laboratory = load_laboratory(options.laboratory or laboratory_path())
         check_photos(self._given.photos)
 
     @property
     def unattended_stop(self) -> str:
-        """Rated stop that the laboratory declares for tests without a person; empty without one."""
+        """Rated stop that the laboratory declares for unattended tests; empty without one."""
         return self._laboratory.unattended_stop
 
     def give(self, progress: Progress) -> None:
-        """To a test that begins; InvalidIdentity when something is missing that the laboratory requires."""
+        """Assign the identity to a new test; InvalidIdentity if a field that the laboratory requires is missing."""
         identity = self._given.identity.filled_from(self._laboratory.defaults)
         self._laboratory.check(identity, len(self._given.photos))
         progress.identity = None if identity.is_empty and not self._given.photos else identity
 
     def compare(self, progress: Progress) -> None:
-        """With that of a test that goes on: what was measured belongs to the car and key with which it began."""
+        """Compare with the identity of a resumed test: its results belong to the original car and key."""
         mine, then = self._given.identity, progress.identity or Identity()
         for name in ("car_vin", "key_serial"):
             said, stored = getattr(mine, name), getattr(then, name)
@@ -51,7 +51,7 @@ class RunIdentity:
             progress.identity = mine.filled_from(then)
 
     def keep(self, store: Store, progress: Progress) -> None:
-        """Copy the photos beside the progress file, and keep what this run says; OutputError when that fails."""
+        """Copy the photos next to the progress file, and store this run's identity; OutputError if that fails."""
         photos = self._given.photos
         if photos:
             kept = keep_photos(photos, photo_folder(store.path))
@@ -60,6 +60,6 @@ class RunIdentity:
             store.add(IDENTITY, progress.identity.to_document())
 
     def discard_photos(self, path: pathlib.Path) -> None:
-        """Of a test that has measured nothing."""
+        """Remove the photos of a test without measurements."""
         if self._given.photos:
             discard_photos(photo_folder(path))

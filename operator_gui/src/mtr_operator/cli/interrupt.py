@@ -1,4 +1,4 @@
-"""Ctrl-C as a request that the runner looks for between two Status messages, so that the robot is stopped in order."""
+"""Ctrl-C as a request that the runner checks between two Status messages, so that the robot is stopped properly."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 class Interrupt:
-    """Context in which the first Ctrl-C, or a request to terminate, sets `requested`; the second Ctrl-C breaks off."""
+    """Context in which the first Ctrl-C, or a request to terminate, sets `requested`; the second Ctrl-C aborts."""
 
     _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
@@ -26,7 +26,7 @@ class Interrupt:
             signal.signal(number, handler)
 
     def is_requested(self) -> bool:
-        """True once the Operator wants to end."""
+        """Return True after the Operator requested the end."""
         return self.requested
 
     def _take(self, _number: int, _frame: FrameType | None) -> None:

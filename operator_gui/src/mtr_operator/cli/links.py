@@ -1,4 +1,4 @@
-"""The links that the command line asks for; a driver is imported only when it is used."""
+"""Links according to the command line; a driver is imported only when it is used."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from mtr_operator.station.connection import LinkOpener, RobotChoice
 
 
 def robot_link(options: argparse.Namespace, is_real_time: bool = False) -> RobotLink:
-    """Link to the robot or its substitute, not connected yet. is_real_time: of the substitute, which else is as fast as
-    it can; beside a real bus it has to be, for its frames are placed on the robot's clock."""
+    """Return the link to the robot or its substitute, not connected yet. is_real_time: of the substitute, otherwise as
+    fast as possible. With a real bus it is required, because the frames are placed on the robot's clock."""
     if options.simulated_robot:
         from mtr_operator.robot_link.fake import FakeRobotLink
         from mtr_operator.robot_link.virtual.robot import VirtualRobot
-        # The same seed gives the same record; a test that is continued has met the robot of its seed before.
+        # The same seed gives the same record; a resumed test has already used the robot of its seed.
         is_begun = getattr(options, "continued", None) is None
         start = VirtualRobot if is_begun else VirtualRobot.started
         return FakeRobotLink(time_factor=float(is_real_time), robot=start(options.seed))
@@ -25,7 +25,7 @@ def robot_link(options: argparse.Namespace, is_real_time: bool = False) -> Robot
 
 
 def car_link(options: argparse.Namespace) -> CarLink:
-    """Link to the Car or its substitute, not connected yet."""
+    """Return the link to the Car or its substitute, not connected yet."""
     if options.simulated_car:
         from mtr_operator.car_link.simulated_car import SimulatedCarLink
         return SimulatedCarLink(options.seed, options.simulated_key_sleep, options.simulated_extender,
@@ -44,13 +44,14 @@ def car_link(options: argparse.Namespace) -> CarLink:
 
 
 def lives_in_real_time(options: argparse.Namespace) -> bool:
-    """A bus or a feed outside the application does, and so has the robot's substitute beside it."""
+    """Return True for a bus or feed outside the application, which requires a robot's substitute in real time."""
     is_feed_outside = options.phone_feed is not None and not options.phone_feed.startswith("simulated")
     return is_feed_outside or (not options.simulated_car and options.can_log is None)
 
 
 def phone_feed(options: argparse.Namespace) -> DistanceFeed | None:
-    """Of a phone's distance, not connected yet; None for that of the Car. InvalidParameter says what is allowed."""
+    """Return the feed of a phone's distance, not connected yet; None for the Car's own. InvalidParameter states the
+    allowed values."""
     if options.phone_feed is None:
         return None
     from mtr_operator.car_link.phone.address import feed_address, feed_at
@@ -58,7 +59,7 @@ def phone_feed(options: argparse.Namespace) -> DistanceFeed | None:
 
 
 def _further_bus(text: str) -> tuple[str, str, str, int]:
-    """Name, interface, channel and bit/s; a channel may have a colon itself."""
+    """Return name, interface, channel and bit/s; a channel may itself contain a colon."""
     name, _, adapter = text.partition("=")
     interface, _, place = adapter.partition(":")
     channel, _, bitrate = place.rpartition(":")

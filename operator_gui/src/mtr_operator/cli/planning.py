@@ -1,4 +1,4 @@
-"""The planner of the test on the command line: what is to be expected, before the start and after each line."""
+"""Forecast of the test on the command line, before the start and after each line."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,12 +20,13 @@ from mtr_operator.storage.given_files import load_limits
 from mtr_operator.storage.parameter_file import load_parameters
 from mtr_operator.terminal import show
 
-# From here on seconds say nothing.
+# Durations from here on are given in minutes.
 _MINUTES_FROM_S = 90.0
 
 
 def plan(options: argparse.Namespace) -> None:
-    """Print what a test would take and tell, and what its parameters cannot give; nothing is connected or written."""
+    """Print the estimated duration and precision of a test, and the limits of its parameters; nothing is connected or
+    written."""
     scenario = SCENARIOS[options.scenario]
     parameters = load_parameters(options.params, scenario.parameters_type)
     if options.limits is not None:
@@ -36,7 +37,7 @@ def plan(options: argparse.Namespace) -> None:
 
 
 def plan_lines(scenario: AnyScenario, planned: Plan) -> Iterator[str]:
-    """Lines, time, attempts and intervals, and a warning for each thing that the parameters cannot give."""
+    """Yield lines, time, attempts and intervals, and a warning for each limit of the parameters."""
     count = len(planned.stretches)
     yield f"{count} lines ({scenario.line_word}), about {duration_text(planned.duration_s)} of robot time"
     if planned.forecast is not None:
@@ -48,7 +49,7 @@ def plan_lines(scenario: AnyScenario, planned: Plan) -> Iterator[str]:
 
 
 class RunForecast:
-    """What is still to be expected of one test, from the model and from what is measured."""
+    """Forecast of the rest of a test, from the model and the results so far."""
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, facts: LockFacts, progress: Progress):
         self._scenario = scenario
@@ -59,11 +60,11 @@ class RunForecast:
         self._now_s = math.nan
 
     def before(self, status: RobotStatus) -> str:
-        """Before the robot moves."""
+        """Return the forecast before the robot moves."""
         car = self._progress.car or status.car or USUAL_CAR
         try:
             planned = plan_of(self._scenario, self._parameters, car, status.car is not None, self._facts)
-        except InvalidParameter:  # by a Car whose size may be a guess; the runner will say it
+        except InvalidParameter:  # The Car's size may be a guess; the runner reports the fault.
             return f"expected: {self._lines_text()}"
         measured = {str(number) for number in self._progress.measured()}
         lines_s = sum(line_s for stretch, line_s in zip(planned.stretches, planned.lines_s)
@@ -71,17 +72,17 @@ class RunForecast:
         return f"expected: about {duration_text(planned.preparation_s + lines_s)}; {self._lines_text()}"
 
     def on_status(self, status: RobotStatus) -> None:
-        """A Status came: robot time goes on."""
+        """Advance the robot time to a Status."""
         self._now_s = status.stamp_s
 
     def on_plan(self, done: int) -> None:
-        """The robot begins with the lines, of which some may be done."""
+        """Start with the lines, of which some may be finished."""
         planned = plan_of(self._scenario, self._parameters, self._progress.measured_car, True, self._facts)
         self._time_left = TimeLeft(planned.lines_s)
         self._time_left.begin(done, self._now_s)
 
     def after_line(self, done: int) -> str:
-        """After a line; empty at the end of the test."""
+        """Return the forecast after a line; empty at the end of the test."""
         self._time_left.advance(done, self._now_s)
         left_s = self._time_left.left_s(self._now_s)
         return f"expected: about {duration_text(left_s)} left; {self._lines_text()}" if left_s else ""
@@ -92,7 +93,7 @@ class RunForecast:
 
 
 def duration_text(seconds: float) -> str:
-    """Such as "1 h 05 min", "9 min", "40 s"."""
+    """Return a text such as "1 h 05 min", "9 min", "40 s"."""
     if seconds < _MINUTES_FROM_S:
         return f"{max(0, round(seconds))} s"
     hours, minutes = divmod(round(seconds / 60.0), 60)
@@ -102,6 +103,6 @@ def duration_text(seconds: float) -> str:
 def _facts_of(car_profile: str | None) -> LockFacts:
     if car_profile is None:
         return USUAL_FACTS
-    # Reads the database of a bus: not needed, and not installed, where no Car is named.
+    # This reads the database of a bus: unnecessary, and possibly not installed, if no Car is named.
     from mtr_operator.car_link.profile import load_profile
     return load_profile(car_profile).facts

@@ -1,4 +1,4 @@
-"""Asks whether a robot that is held may go on, and whether a person is present."""
+"""Prompts for the release of a robot on hold, and for the presence of a person."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PRESENCE_QUESTION = "Press Enter within {:g} s to confirm that you are in sight 
 
 
 class Release:
-    """Called at each step with the hold in force; gives the newest one that was released."""
+    """Prompt that is called at each step with the current hold; returns the newest released hold."""
 
     def __init__(self, say: Callable[[str], None], enter: Enter):
         self._say = say
@@ -34,17 +34,17 @@ class Release:
         return self._released
 
     def _answer(self, hold_id: int) -> None:
-        # Whoever answers has read the question asked last, when that was this one.
+        # The person has read the last prompt, if it was for this hold.
         if hold_id == self._asked:
             self._released = hold_id
 
 
 class PresenceQuestion:
-    """Attributes: presence: asks for the conditions at the start, and for presence alone later."""
+    """Prompt for presence. Attributes: presence: prompts for the start conditions, and later for presence alone."""
 
     def __init__(self, say: Callable[[str], None], enter: Enter, announcement: str = "",
                  parameters: PresenceParameters | None = None):
-        """announcement: what people next to the Car have to know."""
+        """announcement: information for people next to the Car."""
         self._say = say
         self._enter = enter
         self._announcement = announcement

@@ -55,13 +55,13 @@ from .release import PresenceQuestion, Release
 
 
 class CommandLineRun:
-    """A test that the command line asks for. Its constructor checks options and files, and changes nothing."""
+    """Test of the command line. Its constructor checks options and files, and changes nothing."""
 
     def __init__(self, options: argparse.Namespace):
         self._options = options
         self._scenario = SCENARIOS[options.scenario]
         kind = self._scenario.parameters_type
-        # The demo has no file.
+        # The demo needs no parameter file.
         self._parameters = kind.from_mapping(kind.proposed()) if options.params is None else \
             load_parameters(options.params, kind)
         self._path = options.out / progress_file.FILE_NAME
@@ -76,7 +76,7 @@ class CommandLineRun:
         self._robot = robot_link(options, is_real_time=lives_in_real_time(options))
 
     def run(self) -> Verdict:
-        """Measure what is left and write the report; OperatorError or Cancelled when it does not come to its end."""
+        """Measure the remaining lines and write the report; OperatorError or Cancelled if the test does not finish."""
         with contextlib.closing(self._display()) as display, Interrupt() as interrupt:
             with output_folder(self._options.out), Store(self._path, self._progress) as store:
                 try:
@@ -157,7 +157,7 @@ class CommandLineRun:
                 _say_statistics(display, robot, loop.status.rejected_messages - rejected_before)
 
     def _supervision(self, display: Display, enter: Enter, status: RobotStatus) -> Supervision:
-        """On a real robot a person who answers at the command line, or the rated stop that is declared."""
+        """Return the supervision: for a real robot a person at the command line, or the declared rated stop."""
         stop = self._identity.unattended_stop
         if is_simulated_robot(status) or stop:
             return Supervision(unattended_stop=stop)
@@ -169,7 +169,7 @@ class CommandLineRun:
         return contextlib.nullcontext() if self._phone is None else contextlib.closing(self._phone)
 
     def _keep(self, display: Display, store: Store) -> None:
-        """After a test that did not come to its end: keep what it has measured."""
+        """Keep the results of a test that did not finish."""
         store.discard_if_empty()
         if not store.has_findings:
             self._recording.discard()

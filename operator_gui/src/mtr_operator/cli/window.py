@@ -1,4 +1,4 @@
-"""The command that opens the window."""
+"""Command that opens the window."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Any, Mapping
 from mtr_operator.doctor.computer import display_problem
 from mtr_operator.domain.errors import OperatorError
 
-# Options of the command line by the name of what they fill in.
+# Options of the command line by the name of their field.
 _ROBOT = {"host": "robot", "subscriber_port": "subscriber_port", "publisher_port": "publisher_port",
           "is_unencrypted": "unencrypted"}
 _CAN = {"interface": "can_interface", "channel": "can_channel", "bitrate_bps": "can_bitrate", "profile": "car_profile",
@@ -19,7 +19,7 @@ _SUBSTITUTE = {"car_seed": "car_seed"}
 
 
 def open_window(options: argparse.Namespace) -> int:
-    """Run the window until it is closed; the exit code."""
+    """Run the window until it is closed; return the exit code."""
     try:
         from mtr_operator.gui.app import run
     except ModuleNotFoundError as error:

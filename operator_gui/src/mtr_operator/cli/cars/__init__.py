@@ -1,2 +1,2 @@
-"""The commands that deal with profiles of cars."""
+"""Commands for profiles of cars."""
 # SPDX-License-Identifier: Apache-2.0

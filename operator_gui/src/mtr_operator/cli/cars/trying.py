@@ -1,4 +1,4 @@
-"""The command that tries a profile: an Autolock of a simulated Car that speaks the profile's frames."""
+"""Command that tries a profile: an Autolock test with a simulated Car that sends the profile's frames."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _MS_PER_S = 1000.0
 
 @dataclass(frozen=True)
 class Tried:
-    """An Autolock. sent: changes on the bus, heard: those that were understood. worst_s: largest difference of their
-    times. contradictions: states that the CAN database describes otherwise."""
+    """Result of a trial. sent: changes on the bus, heard: changes that were understood. worst_s: largest difference of
+    their times. contradictions: states that the CAN database describes differently."""
 
     results: Sequence[LineResult]
     sent: int
@@ -38,17 +38,17 @@ class Tried:
 
     @property
     def invalid(self) -> Sequence[LineResult]:
-        """Lines that could not be measured."""
+        """Invalid lines."""
         return [result for result in self.results if result.invalid_count]
 
     @property
     def is_good(self) -> bool:
-        """Every change was understood, within a cycle of its message, and every line measured."""
+        """True if every change was understood within a cycle of its message, and every line was measured."""
         return bool(self.results) and not self.invalid and self.heard == self.sent and self.worst_s <= self.cycle_s
 
 
 def try_profiles(options: argparse.Namespace) -> int:
-    """Try each; the exit code."""
+    """Try each profile; return the exit code."""
     code = EXIT_PASS
     for profile in options.profiles:
         try:
@@ -69,8 +69,8 @@ def try_profiles(options: argparse.Namespace) -> int:
 
 
 def try_profile(profile: str, databases: pathlib.Path | None = None, seed: int = 1, car_seed: int = 1) -> Tried:
-    """An Autolock; OperatorError when the profile is wrong."""
-    # What speaks on a bus is imported only when it is asked for.
+    """Run an Autolock test; OperatorError if the profile is faulty."""
+    # The simulated Car is imported only on demand.
     from mtr_operator.car_link.further.state_texts import contradictions
     from mtr_operator.car_link.profile import load_profile
     from mtr_operator.car_link.spoken_car import SpokenCar

@@ -1,4 +1,4 @@
-"""A self-check on demand: does the Car still stand where it was measured?"""
+"""Self-check on demand: compares the Car's position with the mapped one."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _SPEED_MPS = 0.5
 
 
 def check(options: argparse.Namespace) -> None:
-    """Have the robot look at the Car and print what it says; RobotFailed when the Car stands elsewhere."""
+    """Let the robot check the Car and print the result; RobotFailed if the Car has moved."""
     with contextlib.closing(Display(None)) as display, contextlib.closing(robot_link(options)) as link, \
             Interrupt() as interrupt:
         link.connect()

@@ -21,7 +21,7 @@ INACTIVE = "The robot is not in service mode."
 
 
 def order_service(options: argparse.Namespace) -> None:
-    """Enter or leave service mode, or print whether it is active; RobotFailed when the robot does not follow."""
+    """Enter or leave service mode, or print its state; RobotFailed if the robot does not follow."""
     if options.order == "leave":
         _confirm()
     with contextlib.closing(robot_link(options)) as link, Interrupt() as interrupt:
@@ -41,12 +41,12 @@ def order_service(options: argparse.Namespace) -> None:
 
 
 def text_of(state: ServiceState) -> str:
-    """Whether it is active, and why."""
+    """Return the state and its reason."""
     return state.text if state.is_active else INACTIVE
 
 
 def _confirm() -> None:
     show(QUESTION)
-    # The end of the input is no answer.
+    # The end of the input does not confirm.
     if not sys.stdin.readline():
         raise Cancelled("Nobody has confirmed; service mode remains active.")

@@ -1,2 +1,2 @@
-"""The commands that compute recorded tests anew, and prove what was recorded."""
+"""Commands that recompute recorded tests, and prove their records."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""The commands that bundle a test's evidence, and verify bundles."""
+"""Commands that bundle a test's evidence, and verify bundles."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ..exit_codes import EXIT_CHANGED, EXIT_PASS
 
 
 def bundle_test(options: argparse.Namespace) -> None:
-    """Bundle a test that was measured before."""
+    """Bundle a test that was measured earlier."""
     path = options.results / FILE_NAME if options.results.is_dir() else options.results
     scenario, parameters, progress = open_progress(path, SCENARIOS)
     if progress.car is None or not progress.results:
@@ -29,12 +29,12 @@ def bundle_test(options: argparse.Namespace) -> None:
 
 def write_for(path: pathlib.Path, scenario: AnyScenario, progress: Progress, assessment: Assessment | None,
               target: pathlib.Path | None = None) -> str:
-    """Write the bundle of a test; what is said of it."""
-    # Needs a package of its own, which no other command needs.
+    """Write the bundle of a test; return a sentence on it."""
+    # The import needs a package that no other command needs.
     from mtr_operator.evidence.bundle import BundleWatch, bundle_path, write_bundle
 
     class Missing(BundleWatch):
-        """Keeps a line for each file that is left out."""
+        """Collects a line for each omitted file."""
 
         def __init__(self) -> None:
             self.lines: list[str] = []
@@ -51,7 +51,7 @@ def write_for(path: pathlib.Path, scenario: AnyScenario, progress: Progress, ass
 
 
 def verify_bundles(options: argparse.Namespace) -> int:
-    """Say of each bundle what is intact, by whom and when; the exit code."""
+    """Print the state, signer and date of each bundle; return the exit code."""
     from mtr_operator.evidence.verification import chain_problems, verify_bundle
     found = [verify_bundle(path) for path in options.bundles]
     for path, each in zip(options.bundles, found):

@@ -1,4 +1,4 @@
-"""The command that computes the distances of a recorded test anew."""
+"""Command that recomputes the distances of a recorded test."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from ..exit_codes import EXIT_CHANGED, EXIT_PASS
 
 
 def replay_test(options: argparse.Namespace) -> int:
-    """Print what would change; the exit code."""
-    # Reads the database of a bus: not needed where nothing is replayed.
+    """Print the changes; return the exit code."""
+    # This reads the database of a bus, which is needed only for a replay.
     from mtr_operator.replay.replay_file import replay_file
     with unpacked(options.results) as results:
         path = results / FILE_NAME if results.is_dir() else results
