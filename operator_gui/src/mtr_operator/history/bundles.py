@@ -17,15 +17,15 @@ from mtr_operator.storage.progress_file import FILE_NAME
 
 
 def is_bundle(path: pathlib.Path) -> bool:
-    """By its name."""
+    """Return True for a bundle, by its name."""
     return path.name.endswith(SUFFIX)
 
 
 @contextlib.contextmanager
 def progress_file_of(path: pathlib.Path) -> Iterator[pathlib.Path]:
-    """Context with the progress file of a test: the path itself, of a bundle a copy that lasts as long.
+    """Context with the progress file of a test: the path itself, or a temporary copy of a bundle.
 
-    ProgressFileError, also for one that was raised of the copy, names the bundle.
+    ProgressFileError, also for a fault of the copy, names the bundle.
     """
     if not is_bundle(path):
         yield path
@@ -39,7 +39,7 @@ def progress_file_of(path: pathlib.Path) -> Iterator[pathlib.Path]:
 
 
 def _verify(path: pathlib.Path) -> None:
-    # Needs a package of its own, which only bundles need.
+    # The import needs a package that only bundles need.
     from mtr_operator.evidence.verification import is_newer, verify_bundle
     if not path.is_file():
         raise ProgressFileError(f"{path} is no file.")
@@ -54,7 +54,7 @@ def _copied(path: pathlib.Path, folder: pathlib.Path) -> pathlib.Path:
     try:
         with zipfile.ZipFile(path) as container:
             sizes = {info.filename: info.file_size for info in container.infolist()}
-            # A test whose file has a name of its own gives it to the bundle, too.
+            # A progress file with its own name gives it to the bundle, too.
             record = next((name for name in (FILE_NAME, path.name[:-len(SUFFIX)] + ".json") if name in sizes), "")
             if not record:
                 raise ProgressFileError(f"The bundle {path} holds no {FILE_NAME}.")

@@ -1,4 +1,4 @@
-"""What is done with tests that were chosen from the history, wherever they lie."""
+"""Actions on tests that were selected from the history, wherever they are stored."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -25,21 +25,21 @@ IsCancelled = Callable[[], bool]
 
 
 def side_of(entry: TestEntry) -> Side:
-    """The test; OperatorError says why it cannot be read."""
+    """Open the test; OperatorError states why it cannot be read."""
     with file_of(entry) as path:
         return open_side(path)
 
 
 def compared(first: TestEntry, second: TestEntry) -> Comparison:
-    """Both tests; OperatorError when they cannot be read or compared."""
+    """Compare both tests; OperatorError if they cannot be read or compared."""
     return compare_sets([side_of(first)], [side_of(second)])
 
 
 def spread_of_chosen(entries: Sequence[TestEntry], alike: TestEntry | None,
                      is_cancelled: IsCancelled) -> TestSpread | None:
-    """Of these tests, oldest first; None when there is but one. alike: leave out those with other parameters than this
-    one has."""
-    # Its solvers are needed for nothing else of a window.
+    """Return the spread of these tests, oldest first; None for a single one. alike: omit tests whose parameters differ
+    from this one."""
+    # Its solvers are not needed for anything else in a window.
     from .spread import spread_of
     sides = [side_of(entry) for entry in entries if not is_cancelled()]
     if alike is not None:
@@ -49,15 +49,15 @@ def spread_of_chosen(entries: Sequence[TestEntry], alike: TestEntry | None,
 
 
 def replayed(entry: TestEntry) -> ReplayedTest:
-    """The test computed anew."""
-    # Reads logs and databases of buses, which nothing else of a window needs.
+    """Recompute the test."""
+    # The import reads logs and databases of buses, which nothing else in a window needs.
     from mtr_operator.replay.replay_file import replay_file
     with file_of(entry) as path:
         return replay_file(path)[1]
 
 
 def brought(entry: TestEntry, folder: pathlib.Path) -> pathlib.Path:
-    """File of a test that can be gone on with on this computer; one of the store is copied into the folder."""
+    """Return the file of a test that can be resumed on this computer; a test of the store is copied to the folder."""
     if not entry.store:
         return entry.file
     moment = entry.started[:_SECOND].replace("T", "_").replace(":", "-")

@@ -1,4 +1,4 @@
-"""In what tests differ beside their distances: whose car and key, which parameters, which software."""
+"""Differences between tests other than their distances: car, key, parameters, software."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from .line_pairs import Side
 
 _SESSION = ("car profile", "robot", "software", ROBOT_SOFTWARE)
 _IDENTITY = tuple(name for name in TITLES if name not in ("notes", "photos"))
-# Of a set more values of one thing are counted only.
+# If a set has more values of one item, only their number is shown.
 _MAX_VALUES = 4
 
 
 class Circumstance(NamedTuple):
-    """Something that is not the same. is_parameter: name is a key of parameter files."""
+    """A difference. is_parameter: name is a key of parameter files."""
 
     name: str
     first: str
@@ -26,7 +26,7 @@ class Circumstance(NamedTuple):
 
 
 def circumstances_of_sets(first: Sequence[Side], second: Sequence[Side]) -> list[Circumstance]:
-    """Everything in which any two tests of two sets differ, with all that the tests of each say."""
+    """Return all items in which any two tests of two sets differ, with the values of each set."""
     told = [[_told(side) for side in sides] for sides in (first, second)]
     names = dict.fromkeys(name for each in told for test in each for name in test)
     parameters = {name for side in (*first, *second) for name in side.parameters.to_mapping()}
@@ -39,12 +39,12 @@ def circumstances_of_sets(first: Sequence[Side], second: Sequence[Side]) -> list
 
 
 def differing_names(sides: Sequence[Side]) -> tuple[str, ...]:
-    """Of everything in which any of the tests differ."""
+    """Return the names of all items in which any of the tests differ."""
     return tuple(row.name for row in circumstances_of_sets(sides, ()))
 
 
 def _told(side: Side) -> dict[str, str]:
-    """All that a test says of itself, by its name."""
+    """Return all recorded circumstances of a test, by name."""
     return {**{TITLES[name]: _text(side, name) for name in _IDENTITY}, "Car measured": _size(side),
             **{name: side.progress.session.get(name, "") for name in _SESSION},
             **{name: _shown(value) for name, value in side.parameters.to_mapping().items()}}

@@ -1,4 +1,4 @@
-"""What a list of tests says of each."""
+"""Entry of a test in a list."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from mtr_operator.domain.results.document import read_record
 
 @dataclass(frozen=True)
 class TestEntry:
-    """One test, or a file that holds none.
+    """One test, or a file without one.
 
     Attributes:
-        path: of the progress file, or of the journal where that is all there is; in a store the test's number there.
-        problem: why it cannot be read; empty when it can. Without one the others mean something.
-        test_id: the same in each copy of the test. entries: how far this copy reaches.
-        started: as in the record. scenario: its name. parameters: the same for tests with the same ones.
-        car, key, operator, place: as they are told apart, empty where nobody said it.
-        done, total, invalid: lines. is_complete: none is left to be measured.
+        path: of the progress file, or of a journal without one; for a test in a store, its number there. problem:
+        reason why it cannot be read; empty if it can. The other attributes are valid only without a problem. test_id:
+        the same in each copy of the test. entries: extent of this copy.
+        started: as in the record. scenario: its name. parameters: equal for tests with equal ones.
+        car, key, operator, place: identifying texts, empty if not recorded.
+        done, total, invalid: lines. is_complete: all lines are measured.
         verdict: word of the test's verdict, empty without limits.
-        words: all that a search looks at, in small letters.
-        store: in which the test is, empty for one in a file.
+        words: searchable text, in lower case.
+        store: that contains the test, empty for a test in a file.
     """
 
-    # The name would make pytest collect it.
+    # Otherwise pytest would collect it because of its name.
     __test__ = False
 
     path: str
@@ -51,25 +51,25 @@ class TestEntry:
 
     @property
     def file(self) -> pathlib.Path:
-        """See path; of a test in a store it is none."""
+        """Path of the test; meaningless for a test in a store."""
         return pathlib.Path(self.path)
 
     @property
     def name(self) -> str:
-        """By which a sentence tells a person which test it is about."""
+        """Name of the test in sentences."""
         return f"{self.scenario} {self.moment}" if self.store else self.file.name
 
     @functools.cached_property
     def moment(self) -> str:
-        """When it began, to the minute, local time: "2026-11-22 15:36"."""
+        """Start of the test, to the minute, local time: "2026-11-22 15:36"."""
         return self.started.replace("T", " ")[:16]
 
     def to_document(self) -> dict[str, Any]:
-        """Plain values for a file: what is not empty."""
+        """Return the attributes that are not empty as plain values for a file."""
         defaults = {field.name: field.default for field in dataclasses.fields(self)}
         return {name: getattr(self, name) for name, default in defaults.items() if getattr(self, name) != default}
 
 
 def entry_from(document: Any) -> TestEntry:
-    """Entry in a document; KeyError, TypeError or ValueError when it is damaged."""
+    """Return the entry in a document; KeyError, TypeError or ValueError if it is damaged."""
     return read_record(TestEntry, document)

@@ -1,8 +1,8 @@
-"""A quantity as one test or a set of tests knows it: a value with its 95 % interval, or an end of it alone.
+"""Estimate of a quantity by one test or a set of tests: a value with its 95 % interval, or only one end of it.
 
-The mean of repeated tests has the interval of Student's t from their spread, widened by what no repetition shows (the
-errors of robot and calibration, and what passes cannot tell of a Car, which all tests have alike). Where a test knows
-only that the quantity lies beyond an end, that end stands for it: the mean then has one end as well, and no value.
+The mean of repeated tests has the interval of Student's t from their spread, widened by errors that repetition does not
+show: errors of robot and calibration, and the part of a Car's timing that passes cannot resolve. If a test knows only
+that the quantity lies beyond an end, it counts with that end: the mean then has one end as well, and no value.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -21,14 +21,15 @@ NOT_MEASURED = "No test measured it."
 
 @dataclass(frozen=True)
 class Known:
-    """Of one test. value: None where only ends are known; low, high: between which it lies for sure, the value itself
-    where there is one. ends: 95 % interval, None where the method gives none.
+    """Result of one test. value: None if only ends are known; low, high: certain bounds, equal to the value if there is
+    one. ends: 95 % interval, None if the method gives none.
 
-    reason: why nothing is known although something was measured, a sentence; empty when it is.
+    reason: sentence why nothing is known despite a measurement; empty otherwise.
 
-    Parts of the errors, 1 sigma, each a part of the one before: coherent: what all lines of the test have alike, so
-    that their mean has it as well. shared: what repeating the test does not show. alike: what each test of the same
-    Car has again, for sure; alike_timing: the same of its timing."""
+    Parts of the errors, 1 sigma, each included in the previous one: coherent: common to all lines of the test, and thus
+    to their mean. shared: not shown by repeating the test. alike: common to all tests of the same Car; alike_timing:
+    the timing part of it.
+    """
 
     value: float | None
     low: float
@@ -43,9 +44,9 @@ class Known:
 
 @dataclass(frozen=True)
 class Estimate:
-    """Of one test, or the mean of several. count: of tests. freedom: degrees of freedom of the interval. spread: 1
-    sigma between the tests, None for one. low, high: 95 % interval, infinite where an end is open. alike: see Known.
-    reason: why there is no interval, a sentence; empty when there is one."""
+    """Result of one test, or the mean of several. count: of tests. freedom: degrees of freedom of the interval. spread:
+    1 sigma between the tests, None for one. low, high: 95 % interval, infinite for an open end. alike: see Known.
+    reason: sentence why there is no interval; empty if there is one."""
 
     value: float | None
     low: float
@@ -58,12 +59,12 @@ class Estimate:
 
     @property
     def is_open(self) -> bool:
-        """An end of the interval is not known."""
+        """True if an end of the interval is unknown."""
         return not (math.isfinite(self.low) and math.isfinite(self.high))
 
 
 def estimate(known: Sequence[Known], without: str = NOT_MEASURED) -> Estimate:
-    """What tests say together of one quantity. without: reason if no test knows anything of it."""
+    """Combine the results of several tests. without: reason if no test has a result."""
     if not known:
         return Estimate(None, -math.inf, math.inf, 0, reason=without)
     unknown = next((each.reason for each in known if each.reason), "")

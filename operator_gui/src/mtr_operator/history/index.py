@@ -1,4 +1,4 @@
-"""The tests in some folders, read once each: what did not change since is taken from a cache."""
+"""Index of the tests in some folders; each file is read once, and unchanged ones come from a cache."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,25 +20,25 @@ from .reading import read_entry
 from .search import listed
 
 FORMAT, VERSION = "mtr-operator history", 2
-# What is read so far is told this often, in s of wall time.
+# Period of progress reports while reading, in s of wall time.
 TOLD_PERIOD_S = 0.5
-# 100,000 tests; a larger file is something else.
+# Size of 100,000 tests; a larger file is not such a cache.
 _MAX_BYTES = 128 * 1024 * 1024
 _APPLICATION = "mtr-operator"
 _Known = dict[str, tuple[Stamp, TestEntry]]
 
 
 def cache_path(folders: Sequence[pathlib.Path]) -> pathlib.Path:
-    """File of the cache for these folders, where the system keeps what can be made anew."""
+    """Return the cache file for these folders, in the system's folder for reproducible data."""
     name = hashlib.sha256("\n".join(str(folder.absolute()) for folder in folders).encode("utf-8")).hexdigest()[:16]
     return platformdirs.user_cache_path(_APPLICATION, appauthor=False) / f"history_{name}.json"
 
 
 class Index:
-    """Tests in folders. cache: file, None to do without.
+    """Tests in folders. cache: file, None for no cache.
 
-    Attributes: entries: newest first, one for each test; those that cannot be read are at the end. read: how many files
-    were read at the last refresh.
+    Attributes: entries: newest first, one for each test; unreadable ones are at the end. read: number of files that the
+    last refresh read.
     """
 
     def __init__(self, folders: Sequence[pathlib.Path], cache: pathlib.Path | None = None):
@@ -50,7 +50,7 @@ class Index:
 
     def refresh(self, tell: Callable[[list[TestEntry]], None] = lambda _: None,
                 is_cancelled: Callable[[], bool] = lambda: False) -> list[TestEntry]:
-        """Read what is new or changed; tell is called with what is known so far. The entries."""
+        """Read new and changed files, and return the entries; tell is called with the entries so far."""
         before = self._load() if self._known is None else self._known
         found = look(self._folders)
         there = found.stamps
@@ -59,7 +59,7 @@ class Index:
                          if path in before and before[path][0] == stamp}
         self.read = 0
         told_s = time.monotonic()
-        # The newest are wanted first.
+        # The newest are needed first.
         for path in sorted(there.keys() - known.keys(), key=lambda path: there[path], reverse=True):
             if is_cancelled():
                 break
@@ -75,7 +75,7 @@ class Index:
         return self.entries
 
     def _load(self) -> _Known:
-        """A cache that is damaged, or of another version, is as good as none."""
+        """Return the cached entries; a damaged cache, or one of a different version, counts as empty."""
         known: _Known = {}
         with contextlib.suppress(OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
             if self._cache is not None and self._cache.is_file() and self._cache.stat().st_size <= _MAX_BYTES:
@@ -91,10 +91,10 @@ class Index:
             return
         document = {"format": FORMAT, "version": VERSION,
                     "tests": [(stamp, entry.to_document()) for stamp, entry in known.values()]}
-        # Without a cache the next start takes longer, and that is all.
+        # Without a cache only the next start lasts longer.
         with contextlib.suppress(OSError, OutputError):
             self._cache.parent.mkdir(parents=True, exist_ok=True)
-            # In ASCII: names of files need not be valid UTF-8.
+            # ASCII, because names of files may be invalid UTF-8.
             write_bytes(self._cache, json.dumps(document).encode("ascii"))
 
 

@@ -1,4 +1,4 @@
-"""The store of a laboratory's tests, as far as the application sees it: a package beside it, which need not be there.
+"""Interface to the store of a laboratory's tests, which is a separate, optional package.
 
 The package names its class in the entry point group of this module; nothing of it is imported before that.
 """
@@ -17,33 +17,33 @@ from mtr_operator.storage.progress_file import FILE_NAME
 from .entry import TestEntry
 
 GROUP = "mtr_operator.laboratory"
-# Stands where a store's own name is not known.
+# Placeholder for an unknown name of the store.
 _PROBLEM = "store"
 
 
 class Laboratory(Protocol):
-    """A store that is there. Attributes: where: it is, as it may be shown."""
+    """Available store. Attributes: where: its location, as shown to people."""
 
     where: str
 
     def entries(self) -> list[TestEntry]:
-        """All tests; OperatorError when the store cannot be read. Each has the store's number as its path."""
+        """Return all tests; OperatorError if the store cannot be read. Each has the store's number as its path."""
 
     def fetch(self, entry: TestEntry, path: pathlib.Path) -> None:
-        """Write a test there, with what belongs to it beside it; OperatorError when that fails."""
+        """Write a test to this path, with its files next to it; OperatorError if that fails."""
 
 
-# None where the package is there, and nobody keeps tests with it.
+# Result None: the package is installed, but not in use.
 Opener = Callable[[], Optional[Laboratory]]
 
 
 def laboratory(points: Iterable[importlib.metadata.EntryPoint] | None = None) -> Laboratory | None:
-    """The store of this computer, None without one. points: instead of those that are installed."""
+    """Return the store of this computer, None without one. points: replace the installed ones."""
     for point in _installed() if points is None else points:
         try:
             opener: Opener = point.load()
         except ImportError:
-            # The application is installed without what its store needs.
+            # The application is installed without the packages that its store needs.
             continue
         return opener()
     return None
@@ -51,12 +51,12 @@ def laboratory(points: Iterable[importlib.metadata.EntryPoint] | None = None) ->
 
 def _installed() -> Iterable[importlib.metadata.EntryPoint]:
     found = importlib.metadata.entry_points()
-    # Python 3.9 hands out a plain dictionary.
+    # Python 3.9 returns a plain dictionary.
     return found.select(group=GROUP) if hasattr(found, "select") else found.get(GROUP, ())
 
 
 def kept_entries(points: Iterable[importlib.metadata.EntryPoint] | None = None) -> list[TestEntry]:
-    """Tests of the store, none without one; one entry with a problem when it cannot be read."""
+    """Return the tests of the store, empty without one; one entry with a problem if it cannot be read."""
     try:
         found = laboratory(points)
         return [] if found is None else found.entries()
@@ -66,7 +66,7 @@ def kept_entries(points: Iterable[importlib.metadata.EntryPoint] | None = None) 
 
 @contextlib.contextmanager
 def file_of(entry: TestEntry) -> Iterator[pathlib.Path]:
-    """Context with the file of a test; of one in a store a copy that lasts as long. OperatorError without one."""
+    """Context with the file of a test; for a test in a store a temporary copy. OperatorError without a store."""
     if not entry.store:
         yield entry.file
         return
@@ -77,7 +77,7 @@ def file_of(entry: TestEntry) -> Iterator[pathlib.Path]:
 
 
 def fetch(entry: TestEntry, path: pathlib.Path) -> None:
-    """Write a test of the store there, with what belongs to it beside it; OperatorError when that fails."""
+    """Write a test of the store to this path, with its files next to it; OperatorError if that fails."""
     found = laboratory()
     if found is None:
         raise ProgressFileError(f"The store {entry.store} is gone.")

@@ -1,4 +1,4 @@
-"""Where tests are: each file that may be one, with a stamp that is another one when the file is."""
+"""Locations of tests: each candidate file with a stamp that changes with the file."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,26 +14,28 @@ from mtr_operator.report.files import FILE_NAMES
 from mtr_operator.storage.journal.journal_file import SUFFIX
 from mtr_operator.storage.progress_file import FILE_NAME
 
-# Sizes and times of the progress file and its journal; zeros where one is missing.
+# Sizes and times of the progress file and its journal; zeros if one is missing.
 Stamp = tuple[int, ...]
 _NOTHING = (0, 0)
 _RECORD = ".json"
-# What is not there holds nothing, and is no fault: a folder is made with its first test, and others delete files.
+# A missing path is not a fault: folders are created with their first test, and files may be deleted by others.
 _GONE = (errno.ENOENT, errno.ENOTDIR)
 
 
 @dataclass
 class Places:
-    """Attributes:
+    """Found tests.
+
+    Attributes:
         stamps: of each test by the path of its progress file, journal or bundle.
-        problems: why something holds tests that nobody can list, a sentence by its path.
+        problems: sentences on unreadable locations of tests, by path.
     """
 
     stamps: dict[str, Stamp] = field(default_factory=dict)
     problems: dict[str, str] = field(default_factory=dict)
 
     def look_into(self, folder: str) -> None:
-        """Files of their own in a folder, and one test in each folder within it."""
+        """Search a folder for files, and each folder within it for one test."""
         names = set(self._names(folder))
         folders = set(filter(self._is_folder, names))
         for path in folders:
@@ -55,17 +57,17 @@ class Places:
             return []
 
     def _is_folder(self, path: str) -> bool:
-        """False too for what cannot be looked at: the others count nevertheless."""
+        """Return False also for an inaccessible path, so that the others are still searched."""
         try:
             return stat.S_ISDIR(os.stat(path).st_mode)
         except OSError as error:
-            # A link to itself leads to no test.
+            # A link to itself contains no test.
             if error.errno not in (*_GONE, errno.ELOOP):
                 self.problems[path] = f"The folder {path} cannot be read: {error.strerror or error}."
             return False
 
     def _look_at_test(self, path: str) -> None:
-        """A test by the path of its progress file, or of a journal that may be all that there is of it."""
+        """Add a test by the path of its progress file, or of a journal without one."""
         record = _record_of(path)
         journal = record[:-len(_RECORD)] + SUFFIX
         of_record, of_journal = self._stamp(record), self._stamp(journal)
@@ -78,7 +80,7 @@ class Places:
             self.stamps[path] = stamp
 
     def _look_at_report(self, folder: str) -> None:
-        """A report without its test is told: nobody would find what is missing."""
+        """Record a problem for a report without its test, because the missing test would remain unnoticed."""
         held = [os.path.join(folder, name) for name in
                 (FILE_NAME, FILE_NAME[:-len(_RECORD)] + SUFFIX, os.path.basename(folder) + BUNDLE)]
         if any(path in self.stamps or path in self.problems for path in held):
@@ -89,7 +91,7 @@ class Places:
                                      "be read there, and is no test that can be opened.")
 
     def _stamp(self, path: str) -> Stamp:
-        """Empty for what is not there."""
+        """Return the stamp; empty for a missing file."""
         try:
             found = os.stat(path)
         except OSError as error:
@@ -104,7 +106,7 @@ def _record_of(path: str) -> str:
 
 
 def look(folders: Iterable[pathlib.Path]) -> Places:
-    """What is in these folders."""
+    """Return the tests in these folders."""
     found = Places()
     for folder in dict.fromkeys(folders):
         found.look_into(str(folder))
@@ -112,5 +114,5 @@ def look(folders: Iterable[pathlib.Path]) -> Places:
 
 
 def stamps(folders: Iterable[pathlib.Path]) -> dict[str, Stamp]:
-    """Stamp of each test that is not in a bundle, by its path."""
+    """Return the stamp of each test outside of bundles, by its path."""
     return {path: stamp for path, stamp in look(folders).stamps.items() if not path.endswith(BUNDLE)}

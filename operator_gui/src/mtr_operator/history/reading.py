@@ -1,4 +1,4 @@
-"""A test's entry from its files."""
+"""Reads a test's entry from its files."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from mtr_operator.report.identity.identity_rows import identity_rows
 from .entry import TestEntry
 from .line_pairs import Side, open_side
 
-# Of 64 bits: no two of ten thousand tests have the same by chance.
+# 64 bits: collisions among ten thousand tests are improbable.
 _MARK_LETTERS = 16
 
 
 def read_entry(path: pathlib.Path) -> TestEntry:
-    """The entry of the test in a progress file or journal; one with a problem where there is none."""
+    """Return the entry of the test in a progress file or journal; an entry with a problem if it cannot be read."""
     try:
         return entry_of(path, open_side(path))
     except OperatorError as error:
         return TestEntry(str(path), str(error))
-    # One file must not keep the others from being seen, whatever is in it.
+    # One faulty file, whatever its content, must not hide the others.
     except Exception as error:
         return TestEntry(str(path), f"The test in {path} cannot be read: {type(error).__name__}: {error}")
 
 
 def entry_of(path: pathlib.Path, side: Side) -> TestEntry:
-    """The entry of a test that has been read from a file."""
+    """Return the entry of a test that has been read from a file."""
     scenario, parameters, progress = side.scenario, side.parameters, side.progress
     identity, results = progress.identity or NOBODY, progress.results
     total = 0 if progress.car is None else len(scenario.lines(parameters, progress.car))
@@ -50,7 +50,7 @@ def entry_of(path: pathlib.Path, side: Side) -> TestEntry:
 
 
 def _mark_of(parameters: ScenarioParameters) -> str:
-    """The same for equal parameters, also of a file that leaves some at their defaults."""
+    """Return a mark that is equal for equal parameters, also for a file that leaves some at their defaults."""
     plain = json.dumps(parameters.to_mapping(), sort_keys=True)
     return hashlib.sha256(plain.encode("utf-8")).hexdigest()[:_MARK_LETTERS]
 

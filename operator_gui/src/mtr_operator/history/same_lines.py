@@ -1,4 +1,4 @@
-"""The same line in many tests: each test's results beside those of the first one."""
+"""The same line in many tests: assigns each test's results to the lines of the first one."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ UNLIKE = ("The tests tell different things here, such as a boundary and the plac
 
 
 class Tests:
-    """Tests of one scenario, with what each says of the lines of the first one.
+    """Tests of one scenario, with their results for the lines of the first one.
 
     Attributes:
-        sides: the tests. first: whose lines are the places. results: of each test, by the first one's number of a line.
-        alone: of each test the names of lines that the first one has not.
+        sides: the tests. first: its lines are the reference. results: of each test, by the first one's number of a
+        line. alone: of each test the names of lines that the first one lacks.
     """
 
-    # The name would make pytest collect it.
+    # Otherwise pytest would collect it because of its name.
     __test__ = False
 
     def __init__(self, sides: Sequence[Side]):
@@ -60,11 +60,11 @@ class Tests:
 
     @property
     def words(self) -> tuple[str, ...]:
-        """What the distances of a line are called."""
+        """Names of the distances of a line."""
         return self.first.scenario.distance_words
 
     def ray(self, line: int) -> Ray:
-        """Where a line lies in the first test."""
+        """Return the ray of a line in the first test."""
         return self._rays[line]
 
     def figure(self, test: int, line: int, word: str) -> Figure:
@@ -73,21 +73,21 @@ class Tests:
         return self._readers[test].figure(result, result.distances[self.words.index(word)])
 
     def assessment(self, test: int) -> Assessment:
-        """Budgets and verdicts of a test."""
+        """Return budgets and verdicts of a test."""
         if test not in self._assessments:
             self._assessments[test] = self._readers[test].assessment()
         return self._assessments[test]
 
     def verdict(self, test: int) -> Verdict:
-        """Of a test by its limits; without any nothing is judged."""
+        """Return the verdict of a test by its limits; NOT_SET without limits."""
         judgement = None if self.sides[test].progress.limits is None else self.assessment(test).judgement
         return Verdict.NOT_SET if judgement is None else judgement.verdict
 
     def distance(self, test: int, line: int, word: str) -> Known | None:
-        """What a test says of a distance, nothing but a reason where that is another one than in the other tests; None
-        where that is invalid or not there, or the key may have slept."""
+        """Return a distance of a test, or only a reason if it is a different quantity than in the other tests. None if
+        it is invalid or missing, or the key may have been asleep."""
         key = test, line, word
-        # Asked for by its line, and by the area that it is a corner of.
+        # Requested by its line, and by the area of which it is a corner.
         if key not in self._distances:
             self._distances[key] = self._distance(*key)
         return self._distances[key]
@@ -105,7 +105,7 @@ class Tests:
             return None
         distance = result.distances[self.words.index(word)]
         reader = self._readers[test]
-        # What was reached nowhere in a test may have been asleep.
+        # If a distance was reached on no line of a test, the key may have been asleep.
         if distance.status is LineStatus.INVALID or not reader.is_alive(word):
             return None
         if self._measurand(test, line, word) not in (None, self._common_measurand(line, word)):
@@ -119,14 +119,15 @@ class Tests:
                      shared_m, *self._alike_m(line, lasting))
 
     def _measurand(self, test: int, line: int, word: str) -> str | None:
-        """See Judging.measurand; None where nothing was measured: an end that was not reached bounds all of them."""
+        """See Judging.measurand; None without a measurement: an end that was not reached bounds all measurands."""
         result, side = self.results[test].get(line), self.sides[test]
         if result is None or result.distances[self.words.index(word)].status is not LineStatus.OK:
             return None
         return part(side.scenario, Judging).measurand(side.parameters, result, word)
 
     def _common_measurand(self, line: int, word: str) -> str:
-        """What a distance is in the tests that are compared: the boundary where one tells it, else what most tell."""
+        """Return the common quantity of the compared tests: the boundary if one test has it, else the most frequent
+        one."""
         key = line, word
         if key not in self._measurands:
             found = [each for test in range(len(self.sides)) if (each := self._measurand(test, *key)) is not None]
@@ -134,7 +135,8 @@ class Tests:
         return self._measurands[key]
 
     def _alike_m(self, line: int, lasting: LastingSigmas) -> tuple[float, float]:
-        """The outline of the same Car as far as it was mapped alike, and its timing while its software is the same."""
+        """Return the common errors: the outline of the same Car as far as it was mapped alike, and its timing while its
+        software is unchanged."""
         if not self.is_same_car:
             return 0.0, 0.0
         scatter_m = self.outline_scatter_m(line)
@@ -144,7 +146,7 @@ class Tests:
         return outline_m, lasting.timing_m if len(software) == 1 else 0.0
 
     def outline_scatter_m(self, line: int) -> float:
-        """How far apart the tests have mapped the Car's outline where a line begins."""
+        """Return the scatter between the tests of the Car's mapped outline at the start of a line."""
         ray = self.ray(line)
         if (ray.origin_x, ray.origin_y) == (0.0, 0.0):
             return 0.0
@@ -154,22 +156,23 @@ class Tests:
         return float(abs(ray.direction_x) * length_m + abs(ray.direction_y) * width_m) / 2.0
 
     def lasting_sigmas(self, test: int, line: int, word: str) -> LastingSigmas:
-        """What of a distance's errors other lines, or other tests, have as well."""
+        """Return the errors of a distance that other lines or other tests have in common with it."""
         key = test, line, word
-        # Asked for by the distance, and by each side that its line is of.
+        # Requested by the distance, and by each side with its line.
         if key not in self._lasting:
             self._lasting[key] = self._readers[test].lasting_sigmas(self.results[test][line], word)
         return self._lasting[key]
 
     @functools.cached_property
     def is_same_car(self) -> bool:
-        """All tests name the same Car: its VIN, or where none has one its model."""
+        """True if all tests name the same Car: by its VIN, or its model if none has a VIN."""
         identities = [side.progress.identity or NOBODY for side in self.sides]
         named = {(identity.car_vin, "" if identity.car_vin else identity.car_model) for identity in identities}
         return len(named) == 1 and named != {("", "")}
 
     def coverage(self, test: int, line: int) -> Known | None:
-        """Part of the area of a zone where at least half of the presses work; None where the scenario has none."""
+        """Return the part of a zone's area where at least half of the presses work; None for scenarios without
+        zones."""
         result = self.results[test].get(line)
         share, low, high = (getattr(result, f"coverage{end}", None) for end in ("", "_low", "_high"))
         if share is None:
@@ -178,7 +181,7 @@ class Tests:
 
 
 def check(sides: Sequence[Side]) -> None:
-    """Raise OperatorError for tests that cannot be looked at together."""
+    """Raise OperatorError for tests that cannot be compared."""
     if not sides:
         raise OperatorError("No test fits.")
     if len(sides) > MAX_TESTS:
@@ -191,7 +194,7 @@ def check(sides: Sequence[Side]) -> None:
 
 
 def _ends(figure: Figure) -> tuple[float, float]:
-    """Between which distances a boundary lies, in m."""
+    """Return the bounds of a boundary, in m."""
     first_m, second_m = figure.first_m, figure.second_m
     if first_m is None:
         return _NOWHERE

@@ -1,4 +1,4 @@
-"""Which tests a person looks for, and in which order they are listed."""
+"""Search for tests, and the order of the list."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .same_lines import MAX_TESTS
 
 
 def listed(entries: Iterable[TestEntry]) -> list[TestEntry]:
-    """One entry for each test, the copy that reaches farthest, newest first; then what cannot be read, by its path."""
+    """Return one entry for each test, its most complete copy, newest first; then unreadable ones, by path."""
     tests: dict[str, TestEntry] = {}
     broken = []
     for entry in entries:
@@ -28,8 +28,8 @@ def listed(entries: Iterable[TestEntry]) -> list[TestEntry]:
 
 def matching(entries: Sequence[TestEntry], text: str = "", *, car: str = "", key: str = "",
              verdict: str = "") -> list[TestEntry]:
-    """Tests in which each word of a text occurs, of this car, key and verdict; an empty text fits all. What cannot be
-    read fits nothing."""
+    """Return tests that contain each word of a text, of this car, key and verdict; an empty text matches all.
+    Unreadable files match nothing."""
     words = text.lower().split()
     wanted = {name: value for name, value in (("car", car), ("key", key), ("verdict", verdict)) if value}
     return [entry for entry in entries if not entry.problem
@@ -38,9 +38,9 @@ def matching(entries: Sequence[TestEntry], text: str = "", *, car: str = "", key
 
 
 def repetitions(entries: Sequence[TestEntry], entry: TestEntry) -> list[TestEntry]:
-    """Tests of an entry's car and key with its parameters that have measured something, itself among them, oldest
-    first; of very many the newest. What nobody said of car and key is the same as what nobody said. Which
-    parameters a test of the store has shows when it is read."""
+    """Return tests of an entry's car and key with its parameters and with measurements, itself included, oldest first;
+    of very many the newest. Unrecorded cars and keys count as equal. Parameters of a test in the store are known only
+    after reading."""
     alike = [each for each in entries if not each.problem and each.done
              and all(getattr(each, name) == getattr(entry, name) for name in ("scenario", "car", "key"))
              and (each.parameters == entry.parameters or "" in (each.parameters, entry.parameters))]
@@ -48,29 +48,29 @@ def repetitions(entries: Sequence[TestEntry], entry: TestEntry) -> list[TestEntr
 
 
 def unreadable(entries: Sequence[TestEntry], text: str = "") -> list[TestEntry]:
-    """What cannot be read, and each word of a text occurs in why not."""
+    """Return unreadable files whose reason contains each word of a text."""
     words = text.lower().split()
     return [entry for entry in entries if entry.problem and all(word in entry.problem.lower() for word in words)]
 
 
 def values_of(entries: Sequence[TestEntry], name: str) -> list[str]:
-    """Values of car, key or verdict that there are, sorted."""
+    """Return the existing values of car, key or verdict, sorted."""
     return sorted({getattr(entry, name) for entry in entries} - {""})
 
 
 def problems_of(entries: Sequence[TestEntry]) -> list[str]:
-    """A sentence for each file that cannot be read."""
+    """Return a sentence for each unreadable file."""
     return [entry.problem for entry in entries if entry.problem]
 
 
 def _moment(entry: TestEntry) -> tuple[str, str, str]:
-    """Local times repeat when clocks are set back, and differ between time zones."""
+    """Return a sort key in UTC, because local times repeat when clocks are set back, and differ between time zones."""
     return in_utc(entry.started), entry.started, entry.path
 
 
 def _reach(entry: TestEntry) -> tuple[int, int]:
-    """Of copies that reach equally far, the original counts: it has the journal beside it. The others in this order: a
-    file of a name of its own, the copy in a report, one in a bundle, and one of the store, which has to be fetched."""
+    """Return a sort key of copies. Among equally complete ones the original, with its journal next to it, has priority.
+    Then follow a file with its own name, the copy in a report, one in a bundle, and one of the store."""
     if entry.store:
         return entry.entries, -1
     if is_bundle(entry.file):

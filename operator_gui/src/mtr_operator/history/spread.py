@@ -1,4 +1,4 @@
-"""Repeated tests: mean and spread of each distance, with their 95 % intervals, and in what the tests differ."""
+"""Repeated tests: mean and spread of each distance, with 95 % intervals, and differing circumstances."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ from .same_lines import Tests
 
 @dataclass(frozen=True)
 class DistanceSpread:
-    """Of one distance of one line.
+    """Spread of one distance of one line.
 
     Attributes:
-        line: its result in the first test. ray: where it lies. word: of the distance.
-        tests: how many there are. values_m: of those that have one, in their order.
-        mean: of all that know something of it. spread: what repetition adds, and each factor by which tests differ.
+        line: its result in the first test. ray: its position. word: of the distance.
+        tests: their number. values_m: of the tests with a value, in their order.
+        mean: of all tests with a result. spread: variance of repetition, and of each differing factor.
     """
 
     line: LineResult
@@ -37,19 +37,19 @@ class DistanceSpread:
 
     @property
     def without(self) -> int:
-        """Tests that have no value: invalid, not reached, or known from one side only."""
+        """Tests without a value: invalid, not reached, or known from one side only."""
         return self.tests - len(self.values_m)
 
     @property
     def sigma_m(self) -> float | None:
-        """Standard deviation of the same car and key again; None of less than two values."""
+        """Standard deviation of repetitions with the same car and key; None for fewer than two values."""
         if self.spread.components:
             return self.spread.repeatability
         return statistics.stdev(self.values_m) if len(self.values_m) > 1 else None
 
     @property
     def sigma_ends_m(self) -> Ends | None:
-        """95 % interval of sigma_m, the upper end infinite where it is not bounded; None where nothing is known."""
+        """95 % interval of sigma_m, the upper end infinite if unbounded; None without a result."""
         if not self.spread.components:
             return None
         repeated = self.spread.components[-1]
@@ -58,10 +58,10 @@ class DistanceSpread:
 
 @dataclass(frozen=True)
 class TestSpread:
-    """Attributes: tests: oldest first. distances: line by line. differing: names of that in which the tests are not
-    alike."""
+    """Spread of several tests. Attributes: tests: oldest first. distances: line by line. differing: names of differing
+    circumstances."""
 
-    # The name would make pytest collect it.
+    # Otherwise pytest would collect it because of its name.
     __test__ = False
 
     tests: Tests
@@ -69,12 +69,12 @@ class TestSpread:
     differing: tuple[str, ...]
 
     def of(self, word: str) -> list[DistanceSpread]:
-        """Those of one word."""
+        """Return the distances of one word."""
         return [distance for distance in self.distances if distance.word == word]
 
 
 def spread_of(sides: Sequence[Side]) -> TestSpread:
-    """Of tests of one scenario; OperatorError when they cannot be looked at together."""
+    """Return the spread of tests of one scenario; OperatorError if they cannot be compared."""
     tests = Tests(sides)
     found = tuple(distance_spread(tests, result, word, {}) for result in tests.first.progress.results
                   for word in tests.words)
@@ -83,7 +83,7 @@ def spread_of(sides: Sequence[Side]) -> TestSpread:
 
 def distance_spread(tests: Tests, line: LineResult, word: str,
                     factors: Mapping[str, Sequence[str]]) -> DistanceSpread:
-    """Of a distance of a line of the first test. factors: name -> of each test the level that it has."""
+    """Return the spread of a distance of a line of the first test. factors: name -> level of each test."""
     every = [tests.distance(test, line.number, word) for test in range(len(tests.sides))]
     kept = [index for index, each in enumerate(every) if each is not None and each.value is not None]
     values = tuple(each.value for each in every if each is not None and each.value is not None)
