@@ -24,7 +24,7 @@ _MAX_WAITING = 6000
 
 
 class SourceLost(Exception):
-    """The connection to the source is lost; the text is the reason, without the source's name and without a full stop."""
+    """The source is disconnected; the text is the reason, without the source's name and without a full stop."""
 
 
 class Source(ABC):
