@@ -1,2 +1,2 @@
-"""What measurements say of a Car: distances with intervals that hold when the test is repeated. Pure numpy."""
+"""Estimates from measurements of a Car: distances with intervals that hold when the test is repeated. Pure numpy."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,9 +1,9 @@
-"""Where the spread between tests comes from: variance components of key, car, place ..., and of mere repetition.
+"""Variance components of the spread between tests: of key, car, place ..., and of repetition.
 
-A distance of test i is the mean, plus one random number for each factor's level that the test has, plus a random number
-of its own. The variances of these are found by restricted maximum likelihood (Patterson and Thompson 1971), which is
-unbiased for the balanced tables of ISO 5725-2 and holds for unbalanced ones; their 95 % intervals are those that the
-profile of the likelihood leaves. Repeatability is the spread of repetition alone, reproducibility that of all together.
+A distance of test i is the mean, plus a random number for the level of each factor, plus a random number of its own.
+The variances are estimated by restricted maximum likelihood (Patterson and Thompson 1971), which is unbiased for the
+balanced tables of ISO 5725-2 and also valid for unbalanced ones; their 95 % intervals follow from the profile
+likelihood. Repeatability is the spread of repetition alone, reproducibility the spread of all components together.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -21,18 +21,18 @@ from .interval import SIGMAS_OF_LEVEL
 
 Floats = npt.NDArray[np.float64]
 REPEAT = "repeat"
-# Of chi-square with one degree of freedom: the square of a normal number.
+# Quantile of chi-square with one degree of freedom, the square of a normal number.
 _DROP = SIGMAS_OF_LEVEL ** 2
-# Of the whole spread: below it a component is as good as none, beyond it its end is not known.
+# Limits relative to the whole spread: below a component is negligible, beyond its end is unknown.
 _LEAST, _MOST = 1e-4, 1e3
-# Where the search ends at a smaller part, the likelihood is flat towards none.
+# If the search ends below this part, the likelihood is flat towards zero.
 _NONE = 0.01
 _MIN_TESTS = 3
 
 
 @dataclass(frozen=True)
 class Component:
-    """1 sigma that a factor adds, with its 95 % interval; high is infinite where the tests do not bound it."""
+    """1 sigma of a factor, with its 95 % interval; high is infinite if the tests do not bound it."""
 
     factor: str
     levels: int
@@ -43,8 +43,8 @@ class Component:
 
 @dataclass(frozen=True)
 class Spread:
-    """Attributes: mean: of the quantity. components: of each factor, repetition last. left_out: factors that cannot be
-    told apart, each with a sentence. reason: why there is nothing to say, empty when there is."""
+    """Result of the analysis. Attributes: mean: of the quantity. components: of each factor, repetition last. left_out:
+    indistinguishable factors, each with a sentence. reason: why there is no result, empty if there is one."""
 
     count: int
     mean: float = math.nan
@@ -54,17 +54,17 @@ class Spread:
 
     @property
     def repeatability(self) -> float:
-        """1 sigma of the same car, key and place again."""
+        """1 sigma of repetitions with the same car, key and place."""
         return self.components[-1].sigma if self.components else math.nan
 
     @property
     def reproducibility(self) -> float:
-        """1 sigma of another level of every factor."""
+        """1 sigma with a different level of every factor."""
         return math.hypot(*(component.sigma for component in self.components)) if self.components else math.nan
 
 
 def components(values: Sequence[float], factors: Mapping[str, Sequence[str]]) -> Spread:
-    """Of values, one for each test, and the level of each factor in each test."""
+    """Estimate the components of values, one for each test, from the level of each factor in each test."""
     if len(values) < _MIN_TESTS:
         return Spread(len(values), reason=f"{len(values)} tests have a value here; {_MIN_TESTS} are the fewest.")
     measured = np.asarray(values, dtype=np.float64)
@@ -100,7 +100,7 @@ def _told_apart(count: int, factors: Mapping[str, Sequence[str]]) -> tuple[list[
 
 
 def _shared(levels: Sequence[str]) -> Floats:
-    """1 where two tests have the same level."""
+    """Return a matrix with 1 if two tests have the same level."""
     return np.array([[float(mine == its) for its in levels] for mine in levels])
 
 
@@ -119,12 +119,12 @@ class _Model:
         return float(2.0 * np.sum(np.log(np.diag(factor[0]))) + math.log(total) + rest @ cho_solve(factor, rest))
 
     def mean(self, logarithms: Floats) -> float:
-        """By generalized least squares."""
+        """Return the mean by generalized least squares."""
         _, weights, total = self._solved(logarithms)
         return self._mean(weights, total)
 
     def best(self, index: int | None = None, fixed: float = 0.0, start: Floats | None = None) -> Floats:
-        """Where the likelihood is greatest, with the component of an index as it is given."""
+        """Return the maximum of the likelihood, optionally with a fixed component of this index."""
         begin = np.full(len(self._parts), math.log(0.5)) if start is None else start.copy()
         bounds = list(self._bounds)
         if index is not None:
@@ -132,7 +132,7 @@ class _Model:
         return np.asarray(minimize(self.loss, begin, method="L-BFGS-B", bounds=bounds).x, dtype=np.float64)
 
     def interval(self, found: Floats, index: int) -> tuple[float, float]:
-        """Sigmas at which the profile has fallen by what 95 % allows."""
+        """Return the sigmas at which the profile likelihood has fallen by the 95 % quantile."""
         least, most = self._bounds[index]
 
         def above(value: float) -> float:

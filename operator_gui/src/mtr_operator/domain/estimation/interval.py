@@ -1,7 +1,6 @@
-"""A value with the interval that holds it with a stated probability.
+"""A value with the interval that contains it with a given probability.
 
-Intervals are credible ones with equal tails: below and above lies the same share, (1 - level) / 2, of what the
-measurements leave possible.
+Intervals are credible intervals with equal tails: each tail has the probability (1 - level) / 2 of the posterior.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -23,8 +22,8 @@ SIGMAS_OF_LEVEL = 1.959964
 class Interval:
     """Median and 95 % interval of a distance, in m; sigma_m is one standard deviation.
 
-    shared_m: the part of sigma_m, in squares, that measurements of the same Car have alike, again and again: what they
-    cannot tell of it.
+    shared_m: part of sigma_m, in squares, that repeated measurements of the same Car have in common, because they
+    cannot resolve it.
     """
 
     value_m: float
@@ -35,13 +34,13 @@ class Interval:
 
     @property
     def half_width_m(self) -> float:
-        """Half of the distance between the ends; NaN when nothing is known."""
+        """Half of the distance between the ends; NaN if unknown."""
         return (self.high_m - self.low_m) / 2.0
 
     def widened(self, sigma_m: float, sigmas: float = SIGMAS_OF_LEVEL) -> Interval:
-        """With an independent normal error of this sigma added; NaN leaves nothing known of the ends.
+        """Add an independent normal error of this sigma; NaN makes the ends unknown.
 
-        sigmas: how many of them the interval reaches to each side, by default those of 95 %.
+        sigmas: reach of the interval to each side, by default for 95 %.
         """
         reach_m = sigmas * sigma_m
         return Interval(self.value_m, self.value_m - math.hypot(self.value_m - self.low_m, reach_m),
@@ -49,7 +48,7 @@ class Interval:
                         math.hypot(self.sigma_m, sigma_m), self.shared_m)
 
     def holds(self, value_m: float) -> bool:
-        """True when a value lies within; never for NaN."""
+        """Return True if the value lies within; False for NaN."""
         return self.low_m <= value_m <= self.high_m
 
 
@@ -57,7 +56,8 @@ UNKNOWN = Interval(*5 * (math.nan,))
 
 
 def interval_of(edges_m: FloatArray, weights: FloatArray, level: float = LEVEL) -> Interval:
-    """Of a histogram: weights between edges, with even density in between; UNKNOWN without a finite weight."""
+    """Return the interval of a histogram: weights between edges, uniform in between; UNKNOWN without a finite
+    weight."""
     total = float(np.sum(weights))
     if not math.isfinite(total) or total <= 0.0:
         return UNKNOWN
@@ -72,9 +72,9 @@ def interval_of(edges_m: FloatArray, weights: FloatArray, level: float = LEVEL) 
 
 
 def difference_holds(first: Interval, second: Interval) -> bool:
-    """True when two values of one Car agree: zero lies within the 95 % interval of their difference.
+    """Return True if two values of one Car agree: zero lies within the 95 % interval of their difference.
 
-    What both share goes with each other and leaves its difference; the rest of both is independent.
+    The shared error cancels in the difference; the remaining errors are independent.
     """
     alone = (math.sqrt(max(each.sigma_m ** 2 - each.shared_m ** 2, 0.0)) for each in (first, second))
     sigma_m = math.hypot(*alone, first.shared_m - second.shared_m)
@@ -82,7 +82,7 @@ def difference_holds(first: Interval, second: Interval) -> bool:
 
 
 def interval_of_draws(values_m: FloatArray, level: float = LEVEL) -> Interval:
-    """Of values that are equally likely."""
+    """Return the interval of equally probable values."""
     tail = (1.0 - level) / 2.0
     low, value, high = np.quantile(values_m, [tail, 0.5, 1.0 - tail])
     return Interval(float(value), float(low), float(high), float(np.std(values_m)))

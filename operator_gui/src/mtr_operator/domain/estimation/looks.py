@@ -1,10 +1,11 @@
-"""How strict each look at a line is, so that all looks together err as rarely as a single one.
+"""Confidence levels of repeated looks at a line, such that all looks together err as rarely as a single one.
 
-A line whose limit is not decided gets more attempts and is looked at again. One 95 % interval at each look would pass
-and fail wrongly far more often than 2.5 % each. So the error probability is spent over the looks: by the share t of
-the most attempts a line may get, ERROR_PER_SIDE * t^2 has been spent. The deviate of a look leaves what is spent at it
-to a Brownian motion that no earlier look has stopped; the density of that is followed from look to look on a grid.
-When no more attempts are made, the last look spends what is left. A single look has the deviate of a 95 % interval.
+An undecided line gets more attempts and is judged again. A 95 % interval at each look would pass and fail wrongly far
+more often than 2.5 % each. The error probability is therefore spent over the looks: at the share t of the maximum
+number of attempts, ERROR_PER_SIDE * t^2 is spent. The deviate of a look is the boundary that a Brownian motion, not
+stopped by an earlier look, exceeds with the probability spent at this look. Its density is computed from look to look
+on a grid. If no further attempts follow, the last look spends the rest. A single look has the deviate of a 95 %
+interval.
 
 Sources: Lan and DeMets, Biometrika 70 (1983); Jennison and Turnbull, Group Sequential Methods, 2000, chapters 7, 19.
 """
@@ -22,12 +23,12 @@ from scipy.special import ndtr
 
 from .interval import LEVEL, SIGMAS_OF_LEVEL, FloatArray
 
-# Of a wrong pass, and likewise of a wrong fail.
+# Probability of a wrong pass, and likewise of a wrong fail.
 ERROR_PER_SIDE = (1.0 - LEVEL) / 2.0
 _POWER = 2.0
-# Beyond this many sigmas, one look in 10^9, no posterior is known.
+# Beyond this many sigmas, one look in 10^9, the posterior is inaccurate.
 MAX_DEVIATE = 6.0
-# Error probabilities below it are rounding, as are differences between the shares of two looks.
+# Smaller error probabilities are rounding, and so are smaller differences between the shares of two looks.
 _NOTHING = 1e-9
 _NODES = 257
 
@@ -37,8 +38,8 @@ class Look:
     """One look at a line.
 
     Attributes:
-        share: of the most attempts that the line may get, those made by then; above 0, at most 1.
-        spent: error probability of each side that is spent by then.
+        share: attempts so far relative to the maximum of the line; above 0, at most 1.
+        spent: error probability of each side that is spent so far.
     """
 
     share: float
@@ -46,7 +47,7 @@ class Look:
 
 
 def with_look(looks: Sequence[Look], share: float) -> tuple[Look, ...]:
-    """One look more, with a share of the attempts; without more attempts than before it is the same look."""
+    """Append a look with a share of the attempts; without more attempts than before it is the same look."""
     before = looks[-1] if looks else Look(0.0, 0.0)
     share = min(share, 1.0)
     if share <= before.share + _NOTHING:
@@ -55,30 +56,30 @@ def with_look(looks: Sequence[Look], share: float) -> tuple[Look, ...]:
 
 
 def last_look(looks: Sequence[Look]) -> tuple[Look, ...]:
-    """The same looks when no more attempts are made: the last one spends what is left."""
+    """Return the looks if no further attempts follow: the last one spends the rest."""
     return (*looks[:-1], Look(looks[-1].share, ERROR_PER_SIDE)) if looks else ()
 
 
 def are_possible(looks: Sequence[Look]) -> bool:
-    """False for looks from a file that cannot be: each rests on more attempts than the one before."""
+    """Return False for invalid looks of a file: each must have more attempts than the previous one."""
     shares, spent = [0.0, *(look.share for look in looks)], [0.0, *(look.spent for look in looks)]
     return (all(later - earlier > _NOTHING for earlier, later in zip(shares, shares[1:])) and shares[-1] <= 1.0
             and sorted(spent) == spent and spent[-1] <= ERROR_PER_SIDE + _NOTHING)
 
 
 def is_spent(looks: Sequence[Look]) -> bool:
-    """True when another look could decide nothing."""
+    """Return True if another look could not decide anything."""
     return bool(looks) and looks[-1].spent >= ERROR_PER_SIDE - _NOTHING
 
 
 def deviate(looks: Sequence[Look]) -> float:
-    """How many sigmas from a limit the last look decides; that of a 95 % interval without any, infinite when earlier
-    looks have spent everything."""
+    """Return the deviate in sigmas at which the last look decides; without looks the one of a 95 % interval, infinite
+    if earlier looks have spent everything."""
     return _deviate(tuple(looks)) if looks else SIGMAS_OF_LEVEL
 
 
 def confidence_percent(looks: Sequence[Look]) -> float:
-    """Of the interval that reaches so many sigmas to each side."""
+    """Return the confidence of the interval with this many sigmas to each side."""
     return float(100.0 * (1.0 - 2.0 * ndtr(-deviate(looks))))
 
 
@@ -96,7 +97,7 @@ def _deviate(looks: tuple[Look, ...]) -> float:
 
 
 def _boundary(places: FloatArray, weights: FloatArray, sigma: float, spends: float, farthest: float) -> float:
-    """The score that is exceeded with the probability to be spent."""
+    """Return the score that is exceeded with the probability to be spent."""
     def excess(limit: float) -> float:
         return float(weights @ ndtr((places - limit) / sigma)) - spends
 
@@ -106,7 +107,7 @@ def _boundary(places: FloatArray, weights: FloatArray, sigma: float, spends: flo
 
 
 def _continued(places: FloatArray, weights: FloatArray, sigma: float, limit: float) -> tuple[FloatArray, FloatArray]:
-    """Of a score that has not reached the limits of this look: nodes, and the probability of each (Simpson)."""
+    """Continue a score that has not reached the limits of this look: nodes, and the probability of each (Simpson)."""
     nodes = np.linspace(-limit, limit, _NODES)
     simpson = np.full(_NODES, 2.0)
     simpson[1::2], simpson[0], simpson[-1] = 4.0, 1.0, 1.0

@@ -1,4 +1,4 @@
-"""The calibration record of a robot: how far it may be from its drawing, where no sensor of its own tells."""
+"""Calibration record of a robot: its possible deviations from the drawing that its own sensors cannot detect."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from typing import Any
 
 MAST_LEAN, FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW = "mast_lean_deg", "floor_slope_deg", "key_lever_m", "lidar_yaw_deg"
-# Every record has all of them.
+# Names of the terms that each record must contain.
 TERM_NAMES = (MAST_LEAN, FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW)
-# Checks that count although they are no terms: tape less what the robot says, and the least strength of a press to
-# which the Car answered each time.
+# Checks with an effect other than terms: tape measure less reported height, and the least strength of a press to which
+# the Car reacted each time.
 LIFT_HEIGHT, PRESS_STRENGTH = "lift_height_m", "press_strength"
 
 
 class Distribution(enum.Enum):
-    """Of an error; what its uncertainty is: 1 sigma of a normal one, half the width of the others."""
+    """Distribution of an error. Its uncertainty is 1 sigma of a normal one, half the width of the others."""
 
     NORMAL = "normal"
     RECTANGULAR = "rectangular"
@@ -26,20 +26,20 @@ class Distribution(enum.Enum):
 
     @property
     def sigma_per_uncertainty(self) -> float:
-        """GUM 4.3.7 and 4.3.9."""
+        """Sigma per uncertainty, GUM 4.3.7 and 4.3.9."""
         return {Distribution.NORMAL: 1.0, Distribution.RECTANGULAR: 1.0 / math.sqrt(3.0),
                 Distribution.TRIANGULAR: 1.0 / math.sqrt(6.0)}[self]
 
 
 @dataclass(frozen=True)
 class CalibratedTerm:
-    """One error of the robot, in the unit that its name ends with.
+    """Error of the robot, in the unit of its name's suffix.
 
     Attributes:
-        value: what is known of it and not corrected at its home; it counts in full.
+        value: known error that is not corrected at its source; it counts in full.
         uncertainty: see Distribution.
-        degrees_of_freedom: infinite where it is no statistic.
-        source: how it was found.
+        degrees_of_freedom: infinite without a statistic.
+        source: method of determination.
     """
 
     value: float
@@ -50,18 +50,18 @@ class CalibratedTerm:
 
     @property
     def sigma(self) -> float:
-        """Standard uncertainty, with what is known and not corrected (GUM F.2.4.5)."""
+        """Standard uncertainty, including the known but uncorrected error (GUM F.2.4.5)."""
         return math.hypot(self.uncertainty * self.distribution.sigma_per_uncertainty, self.value)
 
 
 @dataclass(frozen=True)
 class RobotCheck:
-    """One thing that was measured at the robot, in the unit that its name ends with; scales have none.
+    """Measurement at the robot, in the unit of its name's suffix; scales are dimensionless.
 
     Attributes:
-        name: of a term, or of what is in no budget: wheel_scale, gyro_scale, lift_height_m, press_force_n,
+        name: of a term, or of a quantity outside the budget: wheel_scale, gyro_scale, lift_height_m, press_force_n,
             press_strength.
-        made: date. by: who. uncertainty: 1 sigma. source: how it was found.
+        made: date. by: person. uncertainty: 1 sigma. source: method of determination.
     """
 
     name: str
@@ -72,16 +72,17 @@ class RobotCheck:
     source: str
 
     def to_document(self) -> dict[str, Any]:
-        """Plain values as in the file."""
+        """Return plain values as in the file."""
         return {"name": self.name, "date": self.made.isoformat(), "by": self.by, "value": self.value,
                 "uncertainty": self.uncertainty, "source": self.source}
 
 
 @dataclass(frozen=True)
 class CalibrationRecord:
-    """Attributes: robot: which one. made: date. by: who. valid_days: None without end. key_ahead_m: of base_link.
+    """Calibration of a robot. Attributes: robot: its name. made: date. by: person. valid_days: None for unlimited.
+    key_ahead_m: of base_link.
 
-    terms: by their names, all of TERM_NAMES. checks: what was measured when, as far as the record says.
+    terms: by their names, all of TERM_NAMES. checks: recorded measurements.
     """
 
     robot: str
@@ -93,17 +94,17 @@ class CalibrationRecord:
     checks: tuple[RobotCheck, ...] = ()
 
     def check_named(self, name: str) -> RobotCheck | None:
-        """What was measured under a name last; None when it was never."""
+        """Return the last measurement of this name; None without one."""
         return next((check for check in reversed(self.checks) if check.name == name), None)
 
     @property
     def key_height_offset_m(self) -> float:
-        """How much higher the key is than the robot reports, by a tape measure; 0 where nobody has measured it."""
+        """Excess of the key's height over the reported one, by a tape measure; 0 if it was not measured."""
         check = self.check_named(LIFT_HEIGHT)
         return 0.0 if check is None else check.value
 
     def cautions(self, parameters: object, today: datetime.date) -> tuple[str, ...]:
-        """Sentences on what speaks against a test with these parameters today: age, and a press that is too weak."""
+        """Return sentences on objections to a test with these parameters today: expired record, too weak press."""
         strength = getattr(parameters, "press_strength", None)
         weak = "" if strength is None else self._press_caution(strength)
         return tuple(filter(None, (self.warning(today), weak)))
@@ -116,7 +117,7 @@ class CalibrationRecord:
                 f"answered from {check.value:g} on. Press at least as strongly, or calibrate again.")
 
     def warning(self, today: datetime.date) -> str:
-        """Sentence when the record is not of today's robot any more, else empty."""
+        """Return a sentence if the record is outdated, else empty."""
         age_days = (today - self.made).days
         if self.valid_days is not None and age_days > self.valid_days:
             return (f"The robot's calibration record of {self.made.isoformat()} is {age_days} days old; it was valid "
@@ -131,7 +132,7 @@ class CalibrationRecord:
                 "Calibrate the robot again.")
 
     def to_document(self) -> dict[str, Any]:
-        """Plain values as in the file."""
+        """Return plain values as in the file."""
         terms = {}
         for name, term in self.terms.items():
             values = {**dataclasses.asdict(term), "distribution": term.distribution.value}

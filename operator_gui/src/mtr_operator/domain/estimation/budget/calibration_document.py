@@ -33,12 +33,12 @@ _MAX_TEXT = 200
 _VALID_DAYS = Limit("valid_days", 1, 3650, "days")
 _KEY_AHEAD = Limit("key_ahead_m", -3.0, 3.0, "m")
 _FREEDOM = Limit("degrees_of_freedom", 1.0, 1e9)
-# A mast that leans by 10 degrees, or a key 10 cm beside its place, is to be mended and not to be recorded.
+# A mast that leans by 10 degrees, or a key that is 10 cm off, must be fixed instead of recorded.
 _LARGEST = {"deg": 10.0, "m": 0.1}
 
 
 def calibration_from(document: Any) -> CalibrationRecord:
-    """Record in a document; InvalidCalibration says what is wrong where."""
+    """Return the record in a document; InvalidCalibration states fault and position."""
     _check_table({"checks": None, **document} if isinstance(document, Mapping) else document, (*_KEYS, "checks"), "")
     valid_days = document["valid_days"]
     if valid_days is not None and (not isinstance(valid_days, int) or not _VALID_DAYS.allows(valid_days)):
@@ -107,7 +107,7 @@ def _text(value: Any, place: str) -> str:
 
 
 def _date(value: Any) -> datetime.date:
-    """YAML reads a date by itself, JSON has it as a text."""
+    """Return a date: YAML parses it, JSON contains it as a text."""
     if isinstance(value, datetime.date) and not isinstance(value, datetime.datetime):
         return value
     try:

@@ -1,4 +1,4 @@
-"""What a person reads on rule and tape measure becomes terms and checks of a calibration record."""
+"""Converts a person's readings of rule and tape measure to terms and checks of a calibration record."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -20,21 +20,21 @@ from .calibration import (
     RobotCheck,
 )
 
-# Fewer say nothing of their spread.
+# With fewer readings their spread is unknown.
 MIN_READINGS = 3
-# A rule with millimetres, its mark and the plumb line: half the width of a rectangular distribution, GUM 4.3.7.
+# Rule with millimetre marks, its mark and the plumb line: half the width of a rectangular distribution, GUM 4.3.7.
 _RULE_HALF_M = 0.001
-# Readings of one thing that differ by more were read or typed wrongly.
+# Readings of one quantity that differ by more than this are reading or typing errors.
 _MAX_RANGE_M = 0.02
 _MAX_AXLES_RANGE_M = 0.01
-# Heights that are nearer to each other say nothing of the lift's way.
+# Heights that are closer together do not test the lift's travel.
 _MIN_SPAN_M = 0.3
 _MM_PER_M, _CM_PER_M = 1000.0, 100.0
 
 
 @dataclass(frozen=True)
 class Found:
-    """Mean of readings in m, and the standard deviation of one of them."""
+    """Mean of readings in m, and the standard deviation of one reading."""
 
     count: int
     mean_m: float
@@ -42,20 +42,20 @@ class Found:
 
     @property
     def sigma_m(self) -> float:
-        """Standard uncertainty of the mean, with that of the rule."""
+        """Standard uncertainty of the mean, including the rule's."""
         return math.hypot(self.spread_m / math.sqrt(self.count), _RULE_HALF_M / math.sqrt(3.0))
 
 
 @dataclass(frozen=True)
 class Signed:
-    """By whom and when a step was done."""
+    """Person and date of a step."""
 
     made: datetime.date
     by: str
 
 
 def found_from(readings_m: Sequence[float]) -> Found:
-    """Of readings of one thing; InvalidCalibration when they are too few, or do not agree."""
+    """Evaluate readings of one quantity; InvalidCalibration if they are too few, or inconsistent."""
     if len(readings_m) < MIN_READINGS:
         raise InvalidCalibration(f"There are {len(readings_m)} readings; give at least {MIN_READINGS}.")
     range_m = max(readings_m) - min(readings_m)
@@ -66,8 +66,8 @@ def found_from(readings_m: Sequence[float]) -> Found:
 
 
 def lever_from(front_m: Sequence[float], rear_m: Sequence[float]) -> Found:
-    """How far the key is ahead of base_link, which lies midway between the axles; from how far it is ahead of each,
-    along the robot. InvalidCalibration when the readings do not agree."""
+    """Return the key's distance ahead of base_link, which lies midway between the axles, from its distances ahead of
+    both axles. InvalidCalibration if the readings are inconsistent."""
     if len(front_m) != len(rear_m):
         raise InvalidCalibration(f"There are {len(front_m)} readings to the front axle and {len(rear_m)} to the rear "
                                  "one; give as many of both.")
@@ -81,8 +81,8 @@ def lever_from(front_m: Sequence[float], rear_m: Sequence[float]) -> Found:
 
 
 def height_from(pairs_m: Sequence[tuple[float, float]]) -> Found:
-    """How much higher the key is than the robot reports; from heights by the tape measure and as reported.
-    InvalidCalibration when they say too little, or do not agree."""
+    """Return the excess of the key's height over the reported one, from tape measure and reported heights.
+    InvalidCalibration if the readings are insufficient or inconsistent."""
     found = found_from([tape_m - reported_m for tape_m, reported_m in pairs_m])
     reported = [reported_m for _, reported_m in pairs_m]
     span_m = max(reported) - min(reported)
@@ -93,8 +93,8 @@ def height_from(pairs_m: Sequence[tuple[float, float]]) -> Found:
 
 
 def with_lever(record: CalibrationRecord, found: Found, stated_m: float, signed: Signed) -> CalibrationRecord:
-    """The record with this lever; stated_m: the robot's own, with which it computes. What lies between is known and not
-    corrected, and counts in full until the robot's description is mended."""
+    """Return the record with this lever; stated_m: the lever in the robot's description. The difference is known but
+    not corrected, and counts in full until the description is fixed."""
     how, off_m = f"rule to both axles, {found.count} readings", found.mean_m - stated_m
     term = CalibratedTerm(round(off_m, 6), round(found.sigma_m, 6), Distribution.NORMAL, found.count - 1.0, how)
     changed = dataclasses.replace(record, key_ahead_m=stated_m, terms={**record.terms, KEY_LEVER: term})
@@ -102,21 +102,21 @@ def with_lever(record: CalibrationRecord, found: Found, stated_m: float, signed:
 
 
 def with_height(record: CalibrationRecord, found: Found, signed: Signed) -> CalibrationRecord:
-    """The record with how much higher the key is than the robot reports."""
+    """Return the record with the excess of the key's height over the reported one."""
     how = f"tape measure at {found.count} heights"
     return _with_check(record, LIFT_HEIGHT, (found.mean_m, found.sigma_m, how), signed)
 
 
 def with_press(record: CalibrationRecord, strength: float, step: float, presses: int,
                signed: Signed) -> CalibrationRecord:
-    """The record with the least strength at which the Car answered each time; step: of the search."""
+    """Return the record with the least strength at which the Car reacted each time; step: of the search."""
     how = f"answers of the Car, {presses} presses in steps of {step:g}"
     return _with_check(record, PRESS_STRENGTH, (strength, step / math.sqrt(12.0), how), signed)
 
 
 def _with_check(record: CalibrationRecord, name: str, told: tuple[float, float, str],
                 signed: Signed) -> CalibrationRecord:
-    """told: value, 1 sigma, and how it was found. The record is as old as the oldest check that a term rests on."""
+    """Add a check. told: value, 1 sigma, and source. The record is as old as the oldest check that a term relies on."""
     value, sigma, how = told
     check = RobotCheck(name, signed.made, signed.by, round(value, 6), round(sigma, 6), how)
     checks = (*(each for each in record.checks if each.name != name), check)

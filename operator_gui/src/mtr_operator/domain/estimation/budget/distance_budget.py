@@ -1,8 +1,8 @@
-"""The budget of one distance, and how the errors of several go together.
+"""Uncertainty budget of one distance, and the correlation of several.
 
 First order (GUM 5.1 and 5.2), by the package uncertainties: d = d0 + sum of sensitivity * error, where a common term is
-one and the same variable on every line. Degrees of freedom by Welch and Satterthwaite (GUM G.4), coverage factor by
-Student's t.
+the same variable on every line. Degrees of freedom by Welch and Satterthwaite (GUM G.4), coverage factor by Student's
+t.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,11 +19,11 @@ from .terms import Term
 
 @dataclass(frozen=True)
 class DistanceBudget:
-    """Of one distance of one line.
+    """Budget of one distance of one line.
 
     Attributes:
-        line: its number. word: what the distance is called.
-        terms: all that the uncertainty is made of.
+        line: its number. word: name of the distance.
+        terms: all parts of the uncertainty.
     """
 
     line: int
@@ -38,23 +38,23 @@ class DistanceBudget:
 
     @property
     def own_sigma_m(self) -> float:
-        """Of the errors that are this line's own."""
+        """Standard uncertainty from errors of this line alone."""
         return math.hypot(*(term.contribution_m for term in self.terms if not term.is_common))
 
     @property
     def common_sigma_m(self) -> float:
-        """Of the errors that other lines have too."""
+        """Standard uncertainty from errors that other lines share."""
         return math.hypot(*(term.contribution_m for term in self.terms if term.is_common))
 
     @property
     def degrees_of_freedom(self) -> float:
-        """Effective ones; infinite when every term's are."""
+        """Effective degrees of freedom; infinite if every term's are."""
         share = sum(term.contribution_m ** 4 / term.degrees_of_freedom for term in self.terms)
         return self.sigma_m ** 4 / share if share > 0.0 else math.inf
 
     @property
     def coverage_factor(self) -> float:
-        """By which sigma_m is multiplied for 95 %."""
+        """Factor of sigma_m for 95 % coverage."""
         return quantile(self.degrees_of_freedom)
 
     @property
@@ -64,7 +64,7 @@ class DistanceBudget:
 
 
 def correlations(budgets: Sequence[DistanceBudget]) -> list[list[float]]:
-    """Coefficients between the errors of distances, in their order; 1 on the diagonal."""
+    """Return the correlation coefficients of the distances' errors, in their order; 1 on the diagonal."""
     common: dict[str, Any] = {}
     numbers = [_number(budget, common) for budget in budgets]
     if not numbers:
@@ -73,8 +73,8 @@ def correlations(budgets: Sequence[DistanceBudget]) -> list[list[float]]:
 
 
 def _number(budget: DistanceBudget, common: dict[str, Any]) -> Any:
-    """The distance as a number with its errors; common: variables of the errors that lines share, by name."""
-    # The package warns of a number whose error is 0; one that is not known, NaN, counts.
+    """Return the distance as a number with its errors; common: variables of shared errors, by name."""
+    # The package warns of a number with zero error; an unknown error, NaN, must remain.
     terms = [term for term in budget.terms if term.sigma != 0.0]
     number: Any = budget.distance_m if terms else uncertainties.ufloat(budget.distance_m, 0.0)
     for term in terms:

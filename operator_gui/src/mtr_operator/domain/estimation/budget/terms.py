@@ -1,4 +1,4 @@
-"""What the uncertainty of one distance is made of: terms with their sensitivities, along the line."""
+"""Parts of the uncertainty of one distance: terms with their sensitivities, along the line."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from .calibration import FLOOR_SLOPE, KEY_LEVER, LIDAR_YAW, MAST_LEAN, Calibrati
 _RAD_PER_DEG = math.pi / 180.0
 STATUS, CAR_MAP, PRESSES = "robot's Status and the Car's bus", "robot's map of the Car", "attempts of the test"
 CALIBRATION = "calibration record of"
-# What is different on each line; all else is the same error on every line.
+# Terms that differ between the lines; all others are the same error on every line.
 _OWN_OF_RECORD = (FLOOR_SLOPE,)
 
 
 @dataclass(frozen=True)
 class Term:
-    """One source of error of a distance.
+    """Source of error of a distance.
 
     Attributes:
-        name: of the source; the same common term on two lines is the same error.
-        sigma: standard uncertainty, in unit. uncertainty, distribution: as recorded, see Distribution.
-        sensitivity: m of distance per unit.
-        is_common: the error is the same on all lines, up to its sensitivity.
+        name: of the source; a common term on two lines is the same error.
+        sigma: standard uncertainty, in unit. uncertainty, distribution: as recorded, see Distribution. sensitivity: m
+        of distance per unit.
+        is_common: the error is the same on all lines, except for its sensitivity.
     """
 
     name: str
@@ -39,13 +39,13 @@ class Term:
 
     @property
     def contribution_m(self) -> float:
-        """Its part of the standard uncertainty of the distance, without sign."""
+        """Part of the distance's standard uncertainty, without sign."""
         return abs(self.sensitivity) * self.sigma
 
 
 @dataclass(frozen=True)
 class Carriage:
-    """How the key was carried when something was measured. direction: unit vector of the line, away from the Car."""
+    """Position of the carried key at a measurement. direction: unit vector of the line, away from the Car."""
 
     direction: tuple[float, float]
     key_height_m: float
@@ -54,13 +54,13 @@ class Carriage:
 
 @dataclass(frozen=True)
 class Measurement:
-    """Standard uncertainties of one distance from its own measurement, in m; 0 where there is no such part.
+    """Standard uncertainties of one distance from its own measurement, in m; 0 for an absent part.
 
-    place_m: key's place and instant. attempts_m: what the attempts leave open.
-    outline_m: of the Car's length and width, by half of which the line's origin may be off; (0, 0) from the centre, and
-        where sides are known.
-    sides: of the Car where the line begins; place_m is then without them.
-    timing_m: what the attempts of all lines leave open alike for distances of this word: the Car's timing.
+    place_m: position and time of the key. attempts_m: uncertainty that remains after the attempts.
+    outline_m: of the Car's length and width, half of which may shift the line's origin; (0, 0) for lines from the
+    centre, and if the sides are known.
+    sides: of the Car where the line begins; place_m then excludes them.
+    timing_m: common uncertainty of all lines' distances of this word, from the Car's timing.
     """
 
     place_m: float
@@ -72,7 +72,7 @@ class Measurement:
 
 
 def terms_of(measurement: Measurement, carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
-    """All terms of a distance of a robot that faces the Car."""
+    """Return all terms of a distance of a robot that faces the Car."""
     half_x, half_y = (component / 2.0 for component in carriage.direction)
     own = (_measured("place and instant of the key", measurement.place_m, 1.0, STATUS, is_common=False),
            _measured("attempts", measurement.attempts_m, 1.0, PRESSES, is_common=False),
@@ -89,7 +89,8 @@ def _measured(name: str, sigma_m: float, sensitivity: float, source: str, is_com
 
 
 def _of_timing(measurement: Measurement) -> tuple[Term, ...]:
-    """One error of all lines, in its own sigmas: how far it moves a line depends on the speeds of the line's passes."""
+    """Return the timing term, an error common to all lines in its own sigmas; the effect depends on the speeds of a
+    line's passes."""
     if measurement.timing_m == 0.0:
         return ()
     return (Term(f"timing of the Car, {measurement.word}", 0.0, 1.0, "sigma", Distribution.NORMAL, math.inf,
@@ -97,7 +98,8 @@ def _of_timing(measurement: Measurement) -> tuple[Term, ...]:
 
 
 def _of_record(carriage: Carriage, record: CalibrationRecord) -> tuple[Term, ...]:
-    """A mast that leans towards the Car brings the key nearer, by its height; a yaw of the LiDAR, its lever aslant."""
+    """Return the record's terms: a mast that leans towards the Car shifts the key by its height, a LiDAR yaw turns its
+    lever."""
     height_m = carriage.key_height_m + record.key_height_offset_m
     sensitivities = {
         MAST_LEAN: -height_m * _RAD_PER_DEG,

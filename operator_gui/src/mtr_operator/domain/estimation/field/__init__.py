@@ -1,2 +1,2 @@
-"""What presses at places around the Car say of the probability that the Car reacts there."""
+"""Probability of a reaction of the Car around it, estimated from presses."""
 # SPDX-License-Identifier: Apache-2.0

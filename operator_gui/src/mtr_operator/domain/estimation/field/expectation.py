@@ -1,10 +1,10 @@
-"""Normal approximation of latent heights after presses, by expectation propagation, and how likely the presses were.
+"""Normal approximation of latent heights after presses by expectation propagation, and the evidence of the presses.
 
-Each press is replaced by a normal factor of its place's height (a site, of precision tau and shift nu), such that mean
-and variance at the place are those of the press itself beside all other sites. Rasmussen and Williams, Gaussian
-Processes for Machine Learning (2006), 3.6 and algorithm 3.5, with all sites renewed at once. Where heights are known to
-some units of the logistic only, Laplace's approximation is too narrow and its evidence wrong: Nickisch and Rasmussen,
-Approximations for binary Gaussian process classification (2008).
+Each press is replaced by a normal factor of its place's height (a site, of precision tau and shift nu). Mean and
+variance at the place then equal the moments of the press itself combined with all other sites. Rasmussen and Williams,
+Gaussian Processes for Machine Learning (2006), 3.6 and algorithm 3.5, with all sites updated at once. If heights are
+known only to some units of the logistic, Laplace's approximation is too narrow and its evidence wrong: Nickisch and
+Rasmussen, Approximations for binary Gaussian process classification (2008).
 
 The first axis of all arrays is the prior's grid.
 """
@@ -21,11 +21,11 @@ from scipy.special import log_ndtr
 
 from ..interval import FloatArray
 
-# The logistic is nearly a normal distribution's integral, of a height scaled by this (MacKay 1992).
+# The logistic approximates the normal distribution function of a height scaled by this (MacKay 1992).
 PROBIT_SCALE = math.sqrt(math.pi / 8.0)
 _MAX_STEPS = 40
 _STOP = 1e-3
-# Of a step all at once, so that sites that depend on each other do not overshoot.
+# Damping of a step of all sites, so that interdependent sites do not overshoot.
 _DAMPED = 0.8
 _MIN_PRECISION = 1e-9
 _LOG_ROOT_2_PI = 0.5 * math.log(2.0 * math.pi)
@@ -33,19 +33,19 @@ _LOG_ROOT_2_PI = 0.5 * math.log(2.0 * math.pi)
 
 @dataclass(frozen=True)
 class Sites:
-    """Normal factors in the place of the presses; axes [grid, press]."""
+    """Normal factors that replace the presses; axes [grid, press]."""
 
     tau: FloatArray
     nu: FloatArray
 
     def extended(self, rows: npt.NDArray[np.int_], presses: int) -> Sites:
-        """Of some rows of the grid, with sites that say nothing yet for the presses that were made since."""
+        """Return some rows of the grid, extended by uninformative sites for newer presses."""
         wider = ((0, 0), (0, presses - self.tau.shape[1]))
         return Sites(np.pad(self.tau[rows], wider), np.pad(self.nu[rows], wider))
 
 
 class Approximation:
-    """Of the heights at the presses.
+    """Approximation of the heights at the presses.
 
     Attributes:
         sites: of the presses.
@@ -68,7 +68,7 @@ class Approximation:
         self.log_evidence = self._log_evidence()
 
     def explained(self, cross: FloatArray) -> FloatArray:
-        """Columns whose products are what the presses take from a covariance with other places."""
+        """Return columns whose products are the reduction of a covariance with other places by the presses."""
         return _solved(self._factor, self._root[:, :, None] * cross)
 
     def _take(self, sites: Sites) -> None:
@@ -81,16 +81,16 @@ class Approximation:
         shifted = _times(self._covariance, sites.nu)
         inner = _solved(self._factor, (self._root * shifted)[:, :, None])
         self.gradient = sites.nu - self._root * _solved(self._factor, inner, transposed=True)[:, :, 0]
-        # Above the prior's mean.
+        # The height is relative to the prior's mean.
         self._height = _times(self._covariance, self.gradient)
 
     def _cavity(self) -> tuple[FloatArray, FloatArray]:
-        """Precision and shift of each height by all other presses."""
+        """Return precision and shift of each height from all other presses."""
         precision = np.maximum(1.0 / self._variance - self.sites.tau, _MIN_PRECISION)
         return precision, self._height / self._variance - self.sites.nu
 
     def _margin(self, precision: FloatArray, shift: FloatArray) -> FloatArray:
-        """Of each press's outcome, in sigmas."""
+        """Return the margin of each press's outcome, in sigmas."""
         spread = np.sqrt(1.0 + PROBIT_SCALE ** 2 / precision)
         return np.asarray(self._signs * PROBIT_SCALE * (shift / precision + self._mean) / spread)
 
@@ -107,7 +107,7 @@ class Approximation:
         return Sites(tau, (gained + curvature * shift / precision) / left)
 
     def _log_evidence(self) -> FloatArray:
-        """Equations 3.73 and 3.74."""
+        """Return the evidence, equations 3.73 and 3.74."""
         tau, nu = self.sites.tau, self.sites.nu
         precision, shift = self._cavity()
         place = shift / precision

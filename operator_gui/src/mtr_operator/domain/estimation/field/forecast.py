@@ -24,12 +24,12 @@ SHARP, USUAL, SOFT = 0.44, 0.69, 0.79
 
 @dataclass(frozen=True)
 class ZoneForecast:
-    """Of one zone.
+    """Forecast of one zone.
 
     Attributes:
         presses: until the interval is reached, or no press is left.
         half_width: of the 95 % interval of the coverage that is reached, 0 to 1.
-        is_reached: the interval that is wanted can be reached with the presses allowed.
+        is_reached: the required interval can be reached with the allowed presses.
     """
 
     presses: int
@@ -38,7 +38,7 @@ class ZoneForecast:
 
 
 def zone_forecast(half_width: float, presses_limit: int, spread: float) -> ZoneForecast:
-    """For the half width wanted, 0 to 1."""
+    """Return the forecast for the required half width, 0 to 1."""
     needed = math.ceil(spread * max(half_width ** -2 - BEFORE ** -2, 0.0))
     presses = max(needed, min(MIN_PRESSES, presses_limit))
     if presses <= presses_limit:

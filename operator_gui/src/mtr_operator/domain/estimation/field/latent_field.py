@@ -1,11 +1,11 @@
-"""The field after presses: what is possible at each place, and where a press tells most.
+"""Field after presses: the posterior at each place, and the most informative next press.
 
-For each row of the prior's grid the latent heights are approximated by a normal vector (expectation); rows count by
-how likely they made the presses: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), 5.2. A lapse
-counts as fading.
+For each row of the prior's grid the latent heights are approximated by a normal vector (expectation). Rows are weighted
+by the evidence of the presses: Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), 5.2. A random
+miss counts as fading.
 
-What a press tells of the field is the information between its outcome and the latent height: Houlsby et al., Bayesian
-active learning for classification (2011), its closed form for a normal height and the normal distribution's integral.
+The information of a press on the field is the mutual information of its outcome and the latent height: Houlsby et al.,
+Bayesian active learning for classification (2011), in its closed form for a normal height and the probit function.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -21,19 +21,19 @@ from ..interval import FloatArray
 from .expectation import PROBIT_SCALE, Approximation, Sites
 from .prior import FieldPrior
 
-# A latent height has this much of its own, by the largest variance, so that the covariance of equal places can be
-# factored.
+# Independent variance of a latent height relative to the largest variance, so that the covariance of equal places can
+# be factored.
 _JITTER = 1e-6
 _BITS = 1.0 / math.log(2.0)
-# Of the bell that approximates the entropy of an outcome over its latent height (Houlsby 2011).
+# Width of the bell curve that approximates the entropy of an outcome over its latent height (Houlsby 2011).
 _BELL = math.pi * math.log(2.0) / 2.0
-# Rows of the grid that are rarer after some presses are not looked at any more.
+# Rows of the grid below this weight after some presses are dropped.
 _RARE = 1e-4
 
 
 @dataclass(frozen=True)
 class _Heights:
-    """At places; axes [grid, place].
+    """Latent heights at places; axes [grid, place].
 
     Attributes:
         mean, smooth_mean: with fading and without.
@@ -49,16 +49,16 @@ class _Heights:
 
 
 class LatentField:
-    """After presses at places (rows of x, y, height, gap in m); worked: 1 for each that did, else 0.
+    """Field after presses at places (rows of x, y, height, gap in m); worked: 1 for each success, else 0.
 
     Attributes:
-        prior: rows of the grid that are still looked at.
-        weights: how likely each of them is.
-        presses: how many.
+        prior: remaining rows of the grid.
+        weights: probability of each row.
+        presses: their number.
     """
 
     def __init__(self, prior: FieldPrior, places: FloatArray, worked: FloatArray, earlier: LatentField | None = None):
-        """earlier: the field after the first ones of these presses."""
+        """earlier: the field after the first of these presses."""
         rows: npt.NDArray[np.int_] = np.arange(len(prior.grid))
         start = Sites(*2 * (np.zeros((len(prior.grid), 0)),))
         if earlier is not None:
@@ -74,18 +74,18 @@ class LatentField:
         self.weights: FloatArray = weights / np.sum(weights)
 
     def marginals(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Mean and standard deviation of the latent height at places."""
+        """Return mean and standard deviation of the latent height at places."""
         heights = self._heights(places)
         mean = self.weights @ heights.mean
         return mean, np.sqrt(self.weights @ (heights.total + (heights.mean - mean) ** 2))
 
     def covered(self, places: FloatArray) -> FloatArray:
-        """Probability that half of the presses work or more, over the fading of the surroundings of each place."""
+        """Return the probability that at least half of the presses work, over the fading around each place."""
         heights = self._heights(places)
         return np.asarray(self.weights @ ndtr(heights.smooth_mean / np.sqrt(heights.smooth)))
 
     def draws(self, places: FloatArray, count: int, seed: int) -> FloatArray:
-        """Fields that are possible, one a row: shares of presses that work at places."""
+        """Return random fields of the posterior, one per row: shares of successful presses at places."""
         numbers = np.diff(np.floor(count * np.cumsum([0.0, *self.weights]) + 0.5).astype(int))
         chance = np.random.default_rng(seed)
         smooth, fading = self._cross(places)
@@ -100,14 +100,15 @@ class LatentField:
         return np.asarray(expit(np.concatenate(found)))
 
     def probability(self, places: FloatArray) -> FloatArray:
-        """Share of presses that is expected to work."""
+        """Return the expected share of successful presses."""
         heights = self._heights(places)
         return np.asarray(self.weights @ ndtr(_margin(heights.mean, heights.total)))
 
     def information(self, places: FloatArray) -> FloatArray:
-        """What one more press at each place tells of the field without fading, in bits.
+        """Return the information of one more press at each place on the field without fading, in bits.
 
-        So a press at a place that was pressed at before tells little: its fading is known, and of no use elsewhere.
+        A press at a previously pressed place is therefore less informative: its fading is known, and irrelevant
+        elsewhere.
         """
         heights = self._heights(places)
         told = np.minimum(heights.common ** 2 / heights.smooth, heights.total)
@@ -119,7 +120,7 @@ class LatentField:
         return np.asarray(self.weights @ np.maximum(outcome - known, 0.0))
 
     def _cross(self, places: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Covariances between presses and places: without fading, and of the fading."""
+        """Return the covariances between presses and places: without fading, and of the fading."""
         return self.prior.smooth(self._places, places), self.prior.fading(self._places, places)
 
     def _heights(self, places: FloatArray) -> _Heights:
@@ -143,6 +144,6 @@ def _margin(mean: FloatArray, variance: FloatArray) -> FloatArray:
 
 
 def _jitter(covariance: FloatArray) -> FloatArray:
-    """For each matrix."""
+    """Return the jitter of each matrix."""
     diagonals = np.diagonal(covariance, axis1=1, axis2=2)
     return np.asarray(_JITTER * np.max(diagonals, axis=1, initial=1.0)[:, None, None] * np.eye(covariance.shape[1]))

@@ -1,8 +1,8 @@
-"""Where to press next in a zone, and what part of it is covered.
+"""Selects the next press in a zone, and estimates the covered part of the zone.
 
-The next press is the one that is expected to tell most per second of robot time. Covered is a place where at least half
-of the presses work; the part of the zone that is has an interval from fields drawn from what the presses leave possible
-(propagation of distributions, JCGM 101).
+The next press has the largest expected information per second of robot time. A place is covered if at least half of the
+presses work there; the interval of the covered part follows from random fields of the posterior (propagation of
+distributions, JCGM 101).
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,7 +19,7 @@ from .prior import FieldPrior
 
 COVERED = 0.5
 _DRAWS, _SEED = 400, 1
-# Fewer presses say nothing of how much a field differs from place to place.
+# With fewer presses the variation of the field is unknown.
 MIN_PRESSES = 6
 _AT_ONCE = 32
 
@@ -27,7 +27,7 @@ _AT_ONCE = 32
 class ZoneSearch:
     """State of one zone.
 
-    Attributes: places: that may be pressed at, rows of x, y, height, gap in m. areas_m2: that each stands for.
+    Attributes: places: allowed places, rows of x, y, height, gap in m. areas_m2: area of each place.
     """
 
     def __init__(self, prior: FieldPrior, places: FloatArray, areas_m2: FloatArray):
@@ -40,23 +40,23 @@ class ZoneSearch:
         self.presses = 0
 
     def recall(self, place: FloatArray, worked: bool) -> None:
-        """Take a press of another zone, or of before."""
+        """Add a press of another zone, or an earlier one."""
         self._pressed.append(place)
         self._worked.append(float(worked))
 
     def add(self, place: FloatArray, worked: bool) -> None:
-        """Take a press of this zone."""
+        """Add a press of this zone."""
         self.recall(place, worked)
         self.presses += 1
 
     @property
     def field(self) -> LatentField:
-        """What is possible after the presses so far."""
+        """Posterior after the presses so far."""
         pressed, worked = np.array(self._pressed).reshape(-1, 4), np.array(self._worked)
         field = self._field
         if field is None:
             field = LatentField(self._prior, pressed[:_AT_ONCE], worked[:_AT_ONCE])
-        # Of many presses at once the first ones tell which slopes and fadings are worth the others.
+        # With many presses at once, the first ones select the slopes and fadings that are evaluated for the others.
         while field.presses < len(worked):
             known = min(max(2 * field.presses, _AT_ONCE), len(worked))
             field = LatentField(self._prior, pressed[:known], worked[:known], field)
@@ -64,10 +64,10 @@ class ZoneSearch:
         return field
 
     def next_place(self, seconds: Callable[[FloatArray], FloatArray]) -> int:
-        """Index of the place to press at; seconds: that a press at each of the places would take.
+        """Return the index of the next place; seconds: duration of a press at each of the places.
 
-        Information counts by how open it is whether the place is covered: what lies deep in the zone, or far beyond
-        it, changes no outline (level set estimation: Bryan et al., Active learning for identifying function threshold
+        Information is weighted by the uncertainty of the coverage: places deep in the zone, or far beyond it, do not
+        change the outline (level set estimation: Bryan et al., Active learning for identifying function threshold
         boundaries, 2005).
         """
         covered = self.field.covered(self.places)
@@ -75,7 +75,7 @@ class ZoneSearch:
         return int(np.argmax(told / seconds(self.places)))
 
     def coverage(self) -> Interval:
-        """Part of the zone's area that is covered, from 0 to 1, with its 95 % interval."""
+        """Return the covered part of the zone's area, from 0 to 1, with its 95 % interval."""
         covered = self.field.draws(self.places, _DRAWS, _SEED) >= COVERED
         parts = covered @ self.areas_m2 / np.sum(self.areas_m2)
         tail = (1.0 - LEVEL) / 2.0
@@ -83,16 +83,16 @@ class ZoneSearch:
         return Interval(float(middle), float(low), float(high), float(np.std(parts)))
 
     def is_finished(self, interval: float, attempts_limit: int) -> bool:
-        """True when half the width of the coverage's interval is small enough, or no press is left."""
+        """Return True if half the width of the coverage's interval is small enough, or no press is left."""
         if self.presses >= attempts_limit:
             return True
         return self.presses >= MIN_PRESSES and self.coverage().half_width_m <= interval
 
     def boundary(self, places: FloatArray, distances_m: FloatArray, sigmas: float = 0.0) -> float:
-        """Distance on a ray, from near to far, where half of the presses work for the last time, over the fading of
-        the places around; NaN when nowhere.
+        """Return the largest distance on a ray, from near to far, at which half of the presses work, over the fading
+        around it; NaN without one.
 
-        places: on the ray. sigmas: of a normal distribution, for a sure boundary (below 0: a possible one).
+        places: on the ray. sigmas: of a normal distribution, for a certain boundary (below 0: a possible one).
         """
         above = np.flatnonzero(self.field.covered(places) >= ndtr(sigmas))
         return float(distances_m[above[-1]]) if len(above) else math.nan

@@ -1,2 +1,2 @@
-"""Autolock: where a standing key is noticed, and how late, from passes of a moving one."""
+"""Autolock: static detection boundary of the key and the Car's reaction time, from passes of a moving key."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,9 +1,9 @@
-"""The static boundary of each axis and the Car's reaction time, from passes at known speeds.
+"""Static boundary of each axis and the Car's reaction time, from passes at known speeds.
 
-A pass at speed v reacts at depth beyond the boundary: the boundary is its intercept at speed zero, the reaction time
-its slope. Polls, debounce, noise and delay belong to the Car: each axis' own evidence for them is its likelihood with
-the boundary integrated out, and the prior of one axis is the product of the others' evidence, as for the radials of
-Key press.
+A pass at speed v reacts at a depth beyond the boundary: the boundary is its intercept at speed zero, the reaction time
+its slope. Polls, debounce, noise and delay belong to the Car. The evidence of an axis for them is its likelihood with
+the boundary integrated out; the prior of one axis is the product of the others' evidence, as for the radials of Key
+press.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -23,16 +23,16 @@ from .timing import prior_of
 
 __all__ = ["NO_BOUNDARY", "Boundary", "BoundaryCampaign", "Pass"]
 
-# Timings less likely than the best by so much in the logarithm say nothing of the boundary.
+# Log likelihood relative to the best timing below which a timing is ignored.
 _UNLIKELY = -14.0
 
 
 @dataclass(frozen=True)
 class Boundary:
-    """What passes say of an axis.
+    """Estimate of an axis.
 
-    common_m: the part of static.sigma_m, in squares, that all axes have alike: the Car's timing. look: static with an
-    interval that reaches as many sigmas as were asked for.
+    common_m: part of static.sigma_m, in squares, that all axes have in common: the Car's timing. look: static with an
+    interval of the requested number of sigmas.
     """
 
     static: Interval
@@ -45,7 +45,7 @@ NO_BOUNDARY = Boundary(UNKNOWN, UNKNOWN, math.nan)
 
 
 class BoundaryCampaign:
-    """Axes of one Car; cycle_s: of the message that tells the state, sigma_m: of the key's place from pass to pass."""
+    """Axes of one Car; cycle_s: of the message of the state, sigma_m: of the key's position from pass to pass."""
 
     def __init__(self, cycle_s: float, sigma_m: float = 0.003):
         self._cycle_s = cycle_s
@@ -53,11 +53,11 @@ class BoundaryCampaign:
         self._passes: dict[int, tuple[Pass, ...]] = {}
 
     def keep(self, axis: int, passes: Sequence[Pass]) -> None:
-        """Take or replace all passes of an axis in one direction."""
+        """Add or replace all passes of an axis in one direction."""
         self._passes[axis] = tuple(passes)
 
     def boundary(self, axis: int, sigmas: float = SIGMAS_OF_LEVEL) -> Boundary:
-        """With what the other axes say of the Car; NO_BOUNDARY for an axis without passes."""
+        """Return the boundary, using the other axes' evidence on the Car; NO_BOUNDARY for an axis without passes."""
         if not self._passes.get(axis):
             return NO_BOUNDARY
         given = self._given()
@@ -82,7 +82,7 @@ class BoundaryCampaign:
         return Circumstances(self._cycle_s, self._sigma_m, reactions_s)
 
     def _static(self, axis: int, places_m: FloatArray, counts: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Histogram of the boundary: edges in m, and what lies between them."""
+        """Return the histogram of the boundary: edges in m, and the weights between them."""
         half_m = (places_m[1] - places_m[0]) / 2.0
         if not self._passes[axis][0].outward:
             places_m, counts = -places_m[::-1], counts[::-1]
@@ -90,6 +90,6 @@ class BoundaryCampaign:
 
 
 def _reaction(reactions_s: Sequence[float], weights: FloatArray) -> Interval:
-    """Mean reaction time, each standing for half a step around it."""
+    """Return the interval of the mean reaction time; each hypothesis represents half a step on both sides."""
     half_s = (reactions_s[1] - reactions_s[0]) / 2.0
     return interval_of(np.append(np.array(reactions_s) - half_s, reactions_s[-1] + half_s), weights)

@@ -1,6 +1,6 @@
-"""Which reaction times are worth a look: those about the slopes of the axes, however late the Car is.
+"""Hypotheses of the reaction time: values near the slopes of the axes, for any delay of the Car.
 
-Some Cars lock seconds after the key has gone, by a timer; polls and motors alone take up to a second or two.
+Some Cars lock seconds after the key has left, by a timer; polls and motors alone last up to two seconds.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,26 +12,27 @@ import numpy as np
 
 from .timing import MAX_REACTION_S
 
-# Speeds nearer to each other than this say next to nothing of the reaction time.
+# Speeds with a smaller ratio hardly determine the reaction time.
 MIN_SPEED_RATIO = 1.3
-# With fewer axes their slopes do not tell how far one of them is off.
+# With fewer axes the error of a single slope is unknown.
 _MIN_AXES = 3
-# Reaction times from the median of the slopes, in deviations of one of them, and steps to a deviation. More to the
-# lower side: noise has slow passes react early, and that makes slopes too large.
+# Range of reaction times around the median of the slopes, in deviations of one slope, and steps per deviation. The
+# lower side is larger: noise makes slow passes react early, which increases the slopes.
 _BELOW, _ABOVE, _STEPS = 3.0, 2.0, 5
 _DEVIATION_S = (0.03, 0.6)
-# Of a normal distribution, by the median of absolute deviations.
+# Sigma of a normal distribution in median absolute deviations.
 _SIGMAS_OF_MAD = 1.4826
 _STEP_S = 0.08
 
 
 def has_two_speeds(speeds_mps: Sequence[float]) -> bool:
-    """True when passes at these speeds tell the boundary from the reaction time."""
+    """Return True if passes at these speeds distinguish the boundary from the reaction time."""
     return len(speeds_mps) > 1 and max(speeds_mps) >= MIN_SPEED_RATIO * min(speeds_mps) > 0.0
 
 
 def reaction_times(axes: Sequence[Sequence[tuple[float, float]]]) -> tuple[float, ...]:
-    """Hypotheses in s, evenly spaced; each axis has the places along the way, in m, and speeds of its passes."""
+    """Return hypotheses in s, evenly spaced; each axis has the positions along the path, in m, and speeds of its
+    passes."""
     slopes_s = list(_slopes(axes))
     if len(slopes_s) < _MIN_AXES:
         return _evenly(0.0, MAX_REACTION_S, _STEP_S)

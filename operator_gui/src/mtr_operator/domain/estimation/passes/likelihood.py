@@ -1,4 +1,4 @@
-"""What the passes of one axis make of each place of the boundary, for each hypothesis on the Car's timing."""
+"""Likelihood of the boundary from the passes of one axis, for each hypothesis on the Car's timing."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,18 +14,19 @@ from .reaction import MIN_DEPTH_M, STEP_M, depths, reaction_table
 from .steps import Steps, steps_table
 from .timing import MAX_POLLED_S, TIMINGS, has_timer
 
-# Places at which the boundary may be.
+# Number of possible positions of the boundary.
 _BINS = 400
-# Tables are made for speeds that differ by this; depths in between are scaled, as most of them goes with the speed.
+# Ratio of the speeds for which tables are computed; depths in between are scaled, because they are mainly proportional
+# to the speed.
 _SPEED_RATIO = 1.06
 ALL_TIMINGS = tuple(range(len(TIMINGS)))
 
 
 @dataclass(frozen=True)
 class Pass:
-    """One event: the key's distance at it, and its speed. outward: the key went away (lock), else it came (unlock).
+    """One event: distance and speed of the key. outward: the key moved away (lock), else it approached (unlock).
 
-    steps: of an approach in steps, whose speed says nothing; None for a key that moves.
+    steps: of an approach in steps, for which the speed is ignored; None for a moving key.
     """
 
     distance_m: float
@@ -35,16 +36,16 @@ class Pass:
 
     @property
     def along_m(self) -> float:
-        """Place along the way: it grows outward and inward, so that depth is boundary to event."""
+        """Position along the path: it increases both outward and inward, so that depth is from boundary to event."""
         return self.distance_m if self.outward else -self.distance_m
 
 
 @dataclass(frozen=True)
 class Circumstances:
-    """What all passes have in common.
+    """Common properties of all passes.
 
-    cycle_s: of the message that tells the state. sigma_m: of the key's place. reactions_s: mean reaction times, evenly
-    spaced, that are hypotheses beside the timings.
+    cycle_s: of the message of the state. sigma_m: of the key's position. reactions_s: mean reaction times, evenly
+    spaced, that are hypotheses in addition to the timings.
     """
 
     cycle_s: float
@@ -54,7 +55,7 @@ class Circumstances:
 
 def likelihood_of(passes: tuple[Pass, ...], given: Circumstances,
                   timings: tuple[int, ...] = ALL_TIMINGS) -> tuple[FloatArray, FloatArray]:
-    """Places along the way, and the logarithm of what the passes make of each; axes [timing, reaction, boundary]."""
+    """Return positions along the path, and the log likelihood of each; axes [timing, reaction, boundary]."""
     first_m, last_m = (pick(end) for pick, end in zip((max, min), zip(*(_ends(each, given) for each in passes))))
     boundary_m = np.linspace(first_m, max(last_m, first_m + _BINS * STEP_M), _BINS)
     rows = np.array(timings)
@@ -63,19 +64,19 @@ def likelihood_of(passes: tuple[Pass, ...], given: Circumstances,
 
 @functools.lru_cache(maxsize=1024)
 def evidence_of(passes: tuple[Pass, ...], given: Circumstances) -> FloatArray:
-    """The same with the boundary integrated out; axes [timing, reaction]."""
+    """Return the log likelihood with the boundary integrated out; axes [timing, reaction]."""
     boundary_m, log = likelihood_of(passes, given)
     return np.asarray(logsumexp(log, axis=-1) + math.log(boundary_m[1] - boundary_m[0]))
 
 
 def _ends(each: Pass, given: Circumstances) -> tuple[float, float]:
-    """Where the boundary of a pass may be, along the way."""
+    """Return the possible range of a pass' boundary along the path."""
     way_m = each.speed_mps * (given.reactions_s[-1] + MAX_POLLED_S) if each.steps is None else each.steps.step_m
     return each.along_m - way_m + MIN_DEPTH_M / 4.0, each.along_m - MIN_DEPTH_M
 
 
 def _log(each: Pass, depth_m: FloatArray, given: Circumstances, timings: FloatArray) -> FloatArray:
-    """Axes [timing, reaction, boundary]."""
+    """Return the log likelihood of a pass; axes [timing, reaction, boundary]."""
     reactions_s = np.array(given.reactions_s)[:, None]
     if each.steps is None:
         number = round(math.log(each.speed_mps) / math.log(_SPEED_RATIO))
@@ -84,7 +85,8 @@ def _log(each: Pass, depth_m: FloatArray, given: Circumstances, timings: FloatAr
         rows, columns = np.nonzero(has_timer(np.array(given.reactions_s))[timings])
         if not len(rows):
             return np.asarray(table[:, bins])
-        # Another table where a timer starts again, looked up there alone: elsewhere it would be half of all work.
+        # A timer that restarts needs a different table. Only these entries are looked up, because all of them would
+        # double the time.
         found, again = table.take(bins, axis=1), _pass_table(number, given.cycle_s, given.sigma_m, True)
         found[rows, columns] = again[timings[rows][:, None], bins[columns]]
         return np.asarray(found)

@@ -1,11 +1,11 @@
-"""What of a boundary's uncertainty is the axis' own, the campaign's, and the Car's.
+"""Splits the uncertainty of a boundary into parts of the axis, the campaign, and the Car.
 
-By the law of total variance the variance of a boundary is the mean of its variances given the Car's timing (own: phases
-and noise of its passes), and the variance of its means given the timing (common: all axes move together). Of the
-common part a further campaign on the same Car repeats some: what passes cannot tell of a Car, whatever their number,
-they never tell. The rest is the scatter of the campaign's axes, which another campaign has anew. To first order an
-axis i more or less moves the mean of the boundary by the covariance, over the timings, of its mean given the timing
-and the axis' evidence, so that the scatter is
+By the law of total variance, the variance of a boundary has two parts. The mean of its variances given the Car's timing
+is the axis' own (phases and noise of its passes). The variance of its means given the timing is common: all axes move
+together. A part of the common variance repeats in each further campaign on the same Car, because passes cannot resolve
+it in any number. The rest is the scatter of the campaign's axes, which is independent in another campaign. To first
+order, omitting or repeating an axis i moves the mean of the boundary by the covariance, over the timings, of its mean
+given the timing and the axis' evidence. The scatter is therefore
 
     sum over axes i of (influence_i - mean influence)^2,    influence_i = cov(mean | timing, log evidence_i)
 
@@ -23,9 +23,10 @@ from ..interval import FloatArray
 
 
 def parts_of(boundary_m: FloatArray, weights: FloatArray, evidence: Sequence[FloatArray]) -> tuple[float, float]:
-    """1 sigma in m of what all axes have alike, and of what of it all campaigns on the Car have alike.
+    """Return 1 sigma in m of the error common to all axes, and of the part that all campaigns on the Car have in
+    common.
 
-    weights: of the places boundary_m, axes [timing, reaction, boundary]. evidence: of each axis, [timing, reaction].
+    weights: of the positions boundary_m, axes [timing, reaction, boundary]. evidence: of each axis, [timing, reaction].
     """
     given = np.sum(weights, axis=2)
     share = given / np.sum(given)

@@ -1,16 +1,16 @@
-"""How far beyond the static boundary a moving key is when the Car reacts.
+"""Depth of a moving key beyond the static boundary when the Car reacts.
 
-The key moves by v * poll_s from poll to poll, the first of which finds it at an even random depth (the phase). The
-chain of polls that agree gives the probability of each depth; the instant that the bus tells is uncertain by its
-cycle, even within +- v * cycle_s / 2, and the place of the key by a normal of sigma_m:
+The key moves by v * poll_s from poll to poll; its depth at the first poll is uniformly random (the phase). The chain of
+agreeing polls gives the probability of each depth. The time on the bus is uncertain by its cycle, uniform within +- v *
+cycle_s / 2, and the position of the key is normal with sigma_m:
 
     P(depth) = sum over phase, poll k of  P(k-th poll is the debounce-th in a row)  U(v cycle_s) * N(sigma_m)
 
-Depths are told from v times the mean time that the polls take without noise, so that all timings are compared at the
+Depths are relative to v times the mean duration of the polls without noise, so that all timings are compared at the
 same reaction time.
 
-A timer starts when enough polls agree that the key has gone, and again when they have found it in between: what counts
-is the last departure,
+A timer starts when enough polls agree that the key has left, and restarts if they have detected it in between. The last
+departure counts:
 
     P(k-th poll is the last departure) = P(it is a departure)  P(no `debounce` polls in a row find the key after it).
 """
@@ -28,41 +28,42 @@ from ..interval import FloatArray
 from .timing import DEBOUNCES, NOISES_M, POLLS_S
 
 _PHASES = 24
-# Depths of which a table tells, in steps of 2 mm.
+# Depths of a table, in steps of 2 mm.
 STEP_M = 0.002
 MIN_DEPTH_M, MAX_DEPTH_M = -1.2, 2.8
-# Beyond this many sigmas a poll does what the sign of the depth says.
+# Beyond this many sigmas the result of a poll is certain.
 _CERTAIN_SIGMAS = 4.0
-# A pass that no timing explains (the Car was disturbed) leaves all places alike.
+# A pass that fits no timing (the Car was disturbed) gives all positions the same likelihood.
 OUTLIER = 1e-4
 
 
 def depths() -> FloatArray:
-    """Middles of the table's bins."""
+    """Return the centres of the table's bins."""
     return np.arange(MIN_DEPTH_M, MAX_DEPTH_M, STEP_M) + STEP_M / 2.0
 
 
 def reaction_table(speed_mps: float, cycle_s: float, sigma_m: float, has_timer: bool = False) -> FloatArray:
-    """Density of the depth beyond that at the mean reaction time, in 1/m; axes [timing, depth]."""
+    """Return the density of the depth beyond the mean reaction time, in 1/m; axes [timing, depth]."""
     return np.stack([_told(row, speed_mps * cycle_s, sigma_m) for poll_s, debounce in itertools.product(
         POLLS_S, DEBOUNCES) for row in _polled(speed_mps * poll_s, debounce, has_timer)])
 
 
 def _polled(step_m: float, debounce: int, has_timer: bool) -> list[FloatArray]:
-    """Probability of each bin of depth at the poll that decides, for each noise; step_m is the way between polls."""
+    """Return the probability of each depth bin at the deciding poll, for each noise; step_m: distance between polls."""
     noises_m = np.array(NOISES_M)[:, None]
     polls = math.ceil(2.0 * _CERTAIN_SIGMAS * max(NOISES_M) / step_m) + debounce + 1
     first_m = -_CERTAIN_SIGMAS * max(NOISES_M) + (np.arange(_PHASES) + 0.5) / _PHASES * step_m
     notices = np.stack([ndtr((first_m + number * step_m) / noises_m) for number in range(polls)])
     decided = _last(notices, debounce) if has_timer else _first(notices, debounce)
     depth_m = (first_m + np.arange(polls)[:, None] * step_m).ravel() - (debounce - 0.5) * step_m
-    # A phase stands for its part of the way between polls.
+    # A phase represents its part of the distance between polls.
     return [_spread(depth_m, decided[:, number].ravel() / _PHASES, step_m / _PHASES)
             for number in range(len(NOISES_M))]
 
 
 def _first(notices: FloatArray, debounce: int) -> FloatArray:
-    """Probability that so many polls agree for the first time, poll by poll, as are the probabilities of one."""
+    """Return the probability, per poll, that `debounce` polls in a row agree for the first time. notices: probability
+    of each poll."""
     agreeing = np.zeros((debounce, *notices.shape[1:]))
     agreeing[0] = 1.0
     decided = np.zeros_like(notices)
@@ -73,7 +74,8 @@ def _first(notices: FloatArray, debounce: int) -> FloatArray:
 
 
 def _last(notices: FloatArray, debounce: int) -> FloatArray:
-    """Probability that so many polls agree for the last time, before as many say otherwise."""
+    """Return the probability, per poll, that `debounce` polls in a row agree for the last time, before the same number
+    disagrees."""
     near, gone = np.zeros((2, debounce, *notices.shape[1:]))
     near[0] = 1.0
     departures = np.zeros_like(notices)
@@ -89,13 +91,13 @@ def _last(notices: FloatArray, debounce: int) -> FloatArray:
 
 
 def _agree(agreeing: FloatArray, notice: FloatArray, arrives: FloatArray | float) -> FloatArray:
-    """Probability of each number of polls in a row that agree, one poll later; arrives: begin to count there."""
+    """Return the probability of each number of consecutive agreeing polls, one poll later; arrives: added at zero."""
     missed = np.sum(agreeing, axis=0) * (1.0 - notice) + arrives
     return np.concatenate((missed[None], agreeing[:-1] * notice))
 
 
 def _spread(depth_m: FloatArray, weights: FloatArray, width_m: float) -> FloatArray:
-    """Bins of evenly wide pieces."""
+    """Distribute pieces of equal width to the bins."""
     edges = np.append(depths() - STEP_M / 2.0, MAX_DEPTH_M)
     order = np.argsort(depth_m)
     starts, ends = depth_m[order] - width_m / 2.0, depth_m[order] + width_m / 2.0
@@ -105,7 +107,7 @@ def _spread(depth_m: FloatArray, weights: FloatArray, width_m: float) -> FloatAr
 
 
 def _told(polled: FloatArray, cycle_m: float, sigma_m: float) -> FloatArray:
-    """With the bus' cycle and the place's error; a density."""
+    """Return the density including the bus cycle and the error of the position."""
     bins = max(1, round(cycle_m / STEP_M) | 1)
     even = np.convolve(polled, np.full(bins, 1.0 / bins), mode="same")
     blurred = gaussian_filter1d(even, sigma_m / STEP_M, mode="constant")

@@ -1,11 +1,11 @@
-"""An approach in steps: the key stands after each until the Car has had its time, and reacts at one of them.
+"""Approach in steps: the key stops after each step for the Car's reaction time, and the Car reacts at one of the stops.
 
-That the Car reacts at a depth, and did not at the places before, says that the boundary lies about within the last
-step, however slowly it polls:
+A reaction at a depth, but not at the previous stops, locates the boundary approximately within the last step, at any
+poll period:
 
     P(depth) = q(depth) * product over k of (1 - q(depth - k * step)),
 
-where q is the probability that `debounce` of the polls of one stand agree in a row.
+q is the probability that `debounce` consecutive polls of one stop agree.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -24,14 +24,14 @@ from .timing import TIMINGS, CarTiming
 
 @dataclass(frozen=True)
 class Steps:
-    """step_m: between two stands, each of which lasts stand_s."""
+    """Stops of an approach. step_m: distance between stops, each of which lasts stand_s."""
 
     step_m: float
     stand_s: float
 
 
 def steps_table(steps: Steps, sigma_m: float) -> FloatArray:
-    """Density of the depth, in 1/m; axes [timing, depth]."""
+    """Return the density of the depth, in 1/m; axes [timing, depth]."""
     return np.stack([_decided(steps, timing, sigma_m) for timing in TIMINGS])
 
 
@@ -47,7 +47,8 @@ def _decided(steps: Steps, timing: CarTiming, sigma_m: float) -> FloatArray:
 
 
 def _reacts(notices: FloatArray, polls: float, debounce: int) -> FloatArray:
-    """Enough of the polls that fit into a stand agree in a row; what is left over is the chance of one more."""
+    """Return the probability that enough consecutive polls of a stop agree; the fractional rest is the probability of
+    one more poll."""
     whole = math.floor(polls)
     agreeing, done = np.zeros((debounce, len(notices))), [np.zeros_like(notices)]
     agreeing[0] = 1.0

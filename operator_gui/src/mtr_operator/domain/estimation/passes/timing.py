@@ -1,8 +1,8 @@
-"""What a Car's passive entry may be like: how often it polls, how often polls have to agree, how late it tells.
+"""Hypotheses on a Car's passive entry: poll period, number of agreeing polls, and delay.
 
-A Car asks for the key every poll_s and reacts when `debounce` polls in a row agree; a poll notices the key with
-probability Phi(depth / noise_m), where depth is how far the key is beyond the static boundary, the place at which
-half of the polls notice a standing key. The rest, from the poll to the instant that the bus tells, takes delay_s.
+A Car polls the key every poll_s and reacts when `debounce` polls in a row agree. A poll detects the key with
+probability Phi(depth / noise_m), where depth is the key's distance beyond the static boundary, at which half of the
+polls detect a stationary key. The delay from the poll to the time on the bus is delay_s.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -15,24 +15,24 @@ import numpy.typing as npt
 
 from ..interval import FloatArray
 
-# Polls of real cars come every 100 to 700 ms; faster ones are as good as continuous.
+# Polls of real cars come every 100 to 700 ms; faster ones are practically continuous.
 POLLS_S = (0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.36, 0.43, 0.5, 0.6, 0.7, 0.85)
 DEBOUNCES = (1, 2, 3)
-# Of 0.1 to 1 dB of noise in time at 60 dB a decade and 1.5 m; inductive fields of low frequency hardly fade.
+# Effect of 0.1 to 1 dB of noise in time at 60 dB per decade and 1.5 m; inductive low-frequency fields hardly fade.
 NOISES_M, NOISE_PRIOR = (0.005, 0.012, 0.03, 0.07, 0.15, 0.3), (0.25, 0.25, 0.2, 0.15, 0.1, 0.05)
-# Motors of locks and their control units take up to some tenths of a second; one Car in twenty has a timer beside them,
+# Motors of locks and their control units need up to some tenths of a second. One Car in twenty has an additional timer,
 # of any length up to half a minute.
 USUAL_DELAY_S, TIMER_SHARE, LONGEST_TIMER_S = 0.4, 0.05, 30.0
-# What a longer timer does while polls still disagree, it does again.
+# A longer timer restarts while polls still disagree.
 _RESTARTED_FROM_S = 1.0
-# Longest wait for polls, and longest reaction without a timer.
+# Longest duration of polls, and longest reaction without a timer.
 MAX_POLLED_S = max(POLLS_S) * max(DEBOUNCES)
 MAX_REACTION_S = MAX_POLLED_S + USUAL_DELAY_S
 
 
 @dataclass(frozen=True)
 class CarTiming:
-    """One hypothesis."""
+    """One hypothesis on the timing."""
 
     poll_s: float
     debounce: int
@@ -40,19 +40,19 @@ class CarTiming:
 
     @property
     def polled_s(self) -> float:
-        """Mean time from the boundary to the poll that decides, without noise."""
+        """Mean time from the boundary to the deciding poll, without noise."""
         return self.poll_s * (self.debounce - 0.5)
 
 
-# All hypotheses, and how likely each is before anything is measured, by its noise.
+# All hypotheses, and their prior probabilities, which depend on the noise.
 TIMINGS = tuple(CarTiming(*each) for each in itertools.product(POLLS_S, DEBOUNCES, NOISES_M))
 PRIOR = tuple(NOISE_PRIOR[NOISES_M.index(timing.noise_m)] for timing in TIMINGS)
 
 
 def prior_of(reactions_s: FloatArray) -> FloatArray:
-    """How likely each timing with each mean reaction time is before anything is measured; axes [timing, reaction].
+    """Return the prior probability of each timing with each mean reaction time; axes [timing, reaction].
 
-    The delay is what the reaction time is beyond the polls; a timer's logarithm is even.
+    The delay is the reaction time less the polls; the logarithm of a timer's delay is uniform.
     """
     delays_s = _delays(reactions_s)
     usual = (1.0 - TIMER_SHARE) / USUAL_DELAY_S * ((delays_s >= 0.0) & (delays_s <= USUAL_DELAY_S))
@@ -62,7 +62,7 @@ def prior_of(reactions_s: FloatArray) -> FloatArray:
 
 
 def has_timer(reactions_s: FloatArray) -> npt.NDArray[np.bool_]:
-    """True where a delay is so long that it starts again when the key is found in between; axes as of prior_of."""
+    """Return True for delays of timers that restart when the key is detected in between; axes as in prior_of."""
     return np.asarray(_delays(reactions_s) > _RESTARTED_FROM_S)
 
 

@@ -1,17 +1,17 @@
-"""What the radials of a campaign have in common: the transition's shape, and roughly where it lies.
+"""Common properties of the radials of a campaign: the transition's shape, and its approximate position.
 
-Shape: each radial's own evidence is its likelihood with d50 integrated out. Widths of radials differ a little around a
-common one (the antenna's pattern, the way's loss), by a normal of SPREAD in the logarithm, K:
+Shape: the evidence of a radial is its likelihood with d50 integrated out. Widths of radials differ slightly from a
+common one (the antenna's pattern, the path loss), by a normal of SPREAD in the logarithm, K:
 
     prior of r(shape) = sum over common of  K(shape | common) * prior(common) *
                         product over the other radials of  sum over theirs of  K(theirs | common) * evidence(theirs)
 
-Place: a radial's d50 is taken to be near that of another one, within NEAR of the range that is searched. That holds for
-distances from the Car's centre; from its sides and corners they differ by more, and nothing is taken from the others.
+Position: d50 of a radial is assumed near d50 of another one, within NEAR of the searched range. That holds for
+distances from the Car's centre. From its sides and corners they differ more, and the other radials are ignored.
 
-Both are mixed with the chance that a radial is unlike the others, so that one behind a pillar is not argued away. No
-radial's presses count twice. Sources: Gelman et al., Bayesian Data Analysis, chapter 5 (hierarchy); Schmidli et al.,
-Biometrics 70 (2014) (robust mixture).
+Both are mixed with the probability that a radial differs from the others, so that one behind a pillar is not
+suppressed. No radial's presses count twice. Sources: Gelman et al., Bayesian Data Analysis, chapter 5 (hierarchy);
+Schmidli et al., Biometrics 70 (2014) (robust mixture).
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -25,15 +25,15 @@ from .one_boundary import RARE, are_uneven
 
 # Standard deviation of the logarithm of the width among the radials of a Car.
 SPREAD = 0.1
-# Of the difference between the d50 of radials, by the range.
+# Sigma of the difference between the d50 of radials, relative to the range.
 NEAR = 0.05
-# Probability that a radial's width, and its place, have nothing in common with the others.
+# Probabilities that width and position of a radial are independent of the others.
 UNLIKE_WIDTH, UNLIKE_PLACE = 0.01, 0.2
 _TINY = float(np.finfo(float).tiny)
 
 
 class Campaign:
-    """What is known of each radial, by its number."""
+    """State of each radial, by its number."""
 
     def __init__(self, hypotheses: Hypotheses, are_near: bool = True):
         """are_near: the d50 of the radials are near each other."""
@@ -50,38 +50,38 @@ class Campaign:
         self._discord: dict[int, float] = {}
 
     def keep_evidence(self, radial: int, log_evidence: FloatArray) -> None:
-        """Take or replace what a radial says of the shape; axes [shared, lapse, width]."""
+        """Add or replace the evidence of a radial on the shape; axes [shared, lapse, width]."""
         evidence = np.exp(log_evidence - np.max(log_evidence))
         self._evidence[radial] = np.log(np.maximum(evidence @ self._kernel, _TINY))
         self._forget_priors_beside(radial)
 
     def keep_place(self, radial: int, d50: FloatArray, hypotheses: Hypotheses | None = None) -> None:
-        """Take or replace a radial's probabilities of d50, on its own grid or on the campaign's."""
+        """Add or replace a radial's probabilities of d50, on its own grid or on the campaign's."""
         self._places[radial] = hypotheses or self._hypotheses, d50
         self._forget_priors_beside(radial)
 
     def keep_discord(self, radial: int, probability: float) -> None:
-        """Take or replace how probable the order of a radial's presses is on falling curves."""
+        """Add or replace the probability of the order of a radial's presses on falling curves."""
         self._discord[radial] = probability
 
     def is_uneven(self, radial: int) -> bool:
-        """True when one falling curve does not describe a radial, or none of the Car's."""
+        """Return True if a single falling curve does not describe a radial, or describes none of the Car's."""
         return self._discord.get(radial, 1.0) < RARE or are_uneven(self._discord.values())
 
     def log_shape_prior(self, radial: int) -> FloatArray:
-        """What all other radials say of the shape of one; axes [shared, lapse, width]."""
+        """Return the prior of a radial's shape from all other radials; axes [shared, lapse, width]."""
         if radial not in self._shape_priors:
             self._shape_priors[radial] = self._log_shape_prior(radial)
         return self._shape_priors[radial]
 
     def log_place_prior(self, radial: int, hypotheses: Hypotheses | None = None) -> FloatArray:
-        """What all other radials say of where one's d50 lies, on that one's grid; a radial has but one."""
+        """Return the prior of a radial's d50 from all other radials, on this radial's only grid."""
         if radial not in self._place_priors:
             self._place_priors[radial] = self._log_place_prior(radial, hypotheses or self._hypotheses)
         return self._place_priors[radial]
 
     def _forget_priors_beside(self, radial: int) -> None:
-        """What a radial says does not change its own prior."""
+        """Discard the priors of the other radials: a radial's evidence does not change its own prior."""
         for priors in (self._shape_priors, self._place_priors):
             for number in [number for number in priors if number != radial]:
                 del priors[number]
@@ -105,7 +105,7 @@ class Campaign:
 
 
 def _on_grid(places: FloatArray, own: Hypotheses, wanted: Hypotheses) -> FloatArray:
-    """The probabilities of d50 on another grid over the same range, with even density in each step."""
+    """Return the probabilities of d50 on another grid over the same range, uniform within each step."""
     if own is wanted or len(own.d50_m) == len(wanted.d50_m):
         return places
     below = np.concatenate(([0.0], np.cumsum(places)))

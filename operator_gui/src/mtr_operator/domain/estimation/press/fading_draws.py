@@ -1,11 +1,11 @@
-"""Draws of the fading along a line, as all presses leave it possible, wherever they were made.
+"""Random draws of the fading along a line from its posterior after all presses.
 
-The fading is a normal process whose correlation is the sinc of the distance in half wavelengths: its spectrum ends
-there, so that its values at places half a wavelength apart are independent and determine all others (Whittaker and
-Shannon's sampling theorem). Presses at such places are explained by the grid of hypotheses, each place for itself. A
-press between them depends on the fading of several places: draws that explain the others are weighted by it, in steps
-that leave half of the draws of use, renewed, and moved about so that equal ones become different again (sequential
-Monte Carlo). Fading moves by elliptical slices, the mean boundary by Metropolis' steps.
+The fading is a normal process whose correlation is the sinc of the distance in half wavelengths. Its spectrum is band
+limited, so values at places half a wavelength apart are independent and determine all others (sampling theorem of
+Whittaker and Shannon). The grid of hypotheses explains presses at such places, each place separately. A press between
+them depends on the fading of several places. Draws that explain the others are weighted by it, in steps that keep half
+of the draws effective, resampled, and moved, so that equal ones become different (sequential Monte Carlo). Fading moves
+by elliptical slices, the mean boundary by Metropolis steps.
 
 Sources: Del Moral, Doucet and Jasra, Sequential Monte Carlo samplers, J. R. Statist. Soc. B 68 (2006); Murray, Adams
 and MacKay, Elliptical slice sampling (2010).
@@ -24,7 +24,7 @@ from ..interval import FloatArray
 from .likelihood import Press
 from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE
 
-# Of the draws that remain of use before they are renewed.
+# Share of effective draws at which they are resampled.
 _USEFUL_SHARE = 0.5
 _MOVES, _MAX_SHRINKS, _HALVINGS = 3, 12, 20
 _MIN_PROBABILITY = 1e-9
@@ -32,7 +32,7 @@ _MIN_PROBABILITY = 1e-9
 
 @dataclass(frozen=True)
 class FadingDraws:
-    """Hypotheses, one of each in a row; fading: in sigmas, of the places in columns."""
+    """Draws of hypotheses, one per row; fading: in sigmas, of the places in columns."""
 
     d50_m: FloatArray
     width_m: FloatArray
@@ -42,7 +42,7 @@ class FadingDraws:
 
     @property
     def fading_m(self) -> FloatArray:
-        """Sigma of the boundary's displacement by the fading that stays."""
+        """Sigma of the boundary's displacement by the permanent fading."""
         return np.asarray(np.sqrt(self.shared) * SIGMA_PER_SCALE * self.width_m / WIDTH_PER_SCALE)
 
     @property
@@ -51,14 +51,14 @@ class FadingDraws:
         return np.asarray(np.sqrt(1.0 - self.shared) * self.width_m)
 
     def chosen(self, rows: npt.NDArray[np.int_]) -> FadingDraws:
-        """Some of the draws, again and again."""
+        """Return some of the draws, possibly repeated."""
         return FadingDraws(self.d50_m[rows], self.width_m[rows], self.lapse[rows], self.shared[rows], self.fading[rows])
 
 
 class _Explained:
-    """How well draws explain presses.
+    """Likelihood of presses for draws.
 
-    Attributes: part: of the likelihood of the presses between the places that counts so far.
+    Attributes: part: exponent of the likelihood of presses between the places.
     """
 
     def __init__(self, presses: Sequence[Press], are_between: Sequence[bool], weights: FloatArray):
@@ -69,15 +69,15 @@ class _Explained:
         self.part = 0.0
 
     def displaced(self, fading: FloatArray) -> FloatArray:
-        """Fading at the presses, in sigmas."""
+        """Return the fading at the presses, in sigmas."""
         return np.asarray(fading @ self._weights)
 
     def log(self, draws: FadingDraws, displaced: FloatArray) -> FloatArray:
-        """Of each draw, all presses."""
+        """Return the log likelihood of each draw, for all presses."""
         return np.asarray(self._logs(draws, displaced) @ np.where(self._are_between, self.part, 1.0))
 
     def log_between(self, draws: FadingDraws) -> FloatArray:
-        """Of each draw, the presses between the places in full."""
+        """Return the full log likelihood of each draw, for presses between the places."""
         return np.asarray(self._logs(draws, self.displaced(draws.fading))[:, self._are_between].sum(axis=1))
 
     def _logs(self, draws: FadingDraws, displaced: FloatArray) -> FloatArray:
@@ -89,7 +89,7 @@ class _Explained:
 
 def explaining(draws: FadingDraws, presses: Sequence[Press], are_between: Sequence[bool], weights: FloatArray,
                chance: np.random.Generator) -> FadingDraws:
-    """Draws that explain the presses at the places, made to explain those between them too.
+    """Return draws that explain all presses, from draws that explain the presses at the places.
 
     weights: of the fading's columns at each press.
     """
@@ -106,7 +106,7 @@ def explaining(draws: FadingDraws, presses: Sequence[Press], are_between: Sequen
 
 
 def _step(between: FloatArray, left: float) -> float:
-    """Largest part of the likelihood that leaves enough draws of use."""
+    """Return the largest part of the likelihood that keeps enough draws effective."""
     if _useful_share(left * between) >= _USEFUL_SHARE:
         return left
     low, high = 0.0, left
@@ -122,14 +122,14 @@ def _useful_share(log_weights: FloatArray) -> float:
 
 
 def _renewed(weights: FloatArray, chance: np.random.Generator) -> npt.NDArray[np.int_]:
-    """Systematic draws."""
+    """Return the rows of systematic resampling."""
     below = np.cumsum(weights)
     wanted = (np.arange(len(weights)) + chance.random()) / len(weights) * below[-1]
     return np.asarray(np.minimum(np.searchsorted(below, wanted), len(weights) - 1))
 
 
 def _with_other_fading(draws: FadingDraws, explained: _Explained, chance: np.random.Generator) -> FadingDraws:
-    """An elliptical slice of each draw."""
+    """Move each draw by an elliptical slice."""
     count = len(draws.fading)
     other = chance.standard_normal(draws.fading.shape)
     here, there = explained.displaced(draws.fading), explained.displaced(other)
@@ -144,14 +144,14 @@ def _with_other_fading(draws: FadingDraws, explained: _Explained, chance: np.ran
         low, high = np.where(refused & (angle < 0.0), angle, low), np.where(refused & (angle >= 0.0), angle, high)
         angle = np.where(refused, low + (high - low) * chance.random(count), angle)
     else:
-        # A draw that found no other place stays where it is.
+        # A draw without a new position keeps its current one.
         moved = here * np.cos(angle)[:, None] + there * np.sin(angle)[:, None]
         angle = np.where(explained.log(draws, moved) < least, 0.0, angle)
     return replace(draws, fading=draws.fading * np.cos(angle)[:, None] + other * np.sin(angle)[:, None])
 
 
 def _with_other_boundary(draws: FadingDraws, explained: _Explained, chance: np.random.Generator) -> FadingDraws:
-    """Mean boundaries, all as likely as each other before the presses, a little beside those of now."""
+    """Move mean boundaries, which have a uniform prior, by small random steps."""
     displaced = explained.displaced(draws.fading)
     moved = replace(draws, d50_m=draws.d50_m + draws.own_width_m * chance.standard_normal(len(draws.d50_m)) / 2.0)
     gained = explained.log(moved, displaced) - explained.log(draws, displaced)

@@ -1,14 +1,14 @@
-"""What a campaign of Key press will take, before it is started and while it runs: presses, robot time, interval.
+"""Forecast of a Key press campaign, before it starts and while it runs: presses, robot time, interval.
 
-Of a search: first the range is halved until the transition's width is left, then each press near d50 tells at most
-1 / (4 scale^2), of which a search that also learns the width gets EFFICIENCY:
+First the range is halved until the transition's width is left. Then a press near d50 has an information of at most 1 /
+(4 scale^2), of which a search that also estimates the width gets EFFICIENCY:
 
     presses = SEARCH + log2(range / max(width, 2 interval)) + (2 scale * 1.96 / interval)^2 / EFFICIENCY
 
-but MIN_PRESSES at least. Fading that stays in its place belongs to the line and takes fewer presses, not more.
+with a minimum of MIN_PRESSES. Permanent fading belongs to the line and reduces the number of presses.
 
-Information of the logit model: Finney, Probit Analysis; EFFICIENCY and SEARCH fit the medians of radials of the range
-benchmark's kind, on seeds that it does not use.
+Information of the logit model: Finney, Probit Analysis; EFFICIENCY and SEARCH fit the medians of radials as in the
+range benchmark, on seeds that it does not use.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -23,18 +23,18 @@ from .transition import WIDTH_PER_SCALE
 
 EFFICIENCY = 0.9
 SEARCH = 2.0
-# Of the ways between presses near d50, beside the first one from the far end.
+# Mean distance between presses near d50, without the first path from the far end.
 _WAY_HALF_WAVELENGTHS = 1.5
 
 
 @dataclass(frozen=True)
 class RadialForecast:
-    """Of one radial.
+    """Forecast of one radial.
 
     Attributes:
         presses, robot_time_s: until the interval is reached, or no press is left.
         interval_m: half the width of the 95 % interval of d50 that is reached.
-        is_reached: the interval that is wanted can be reached with the presses allowed.
+        is_reached: the required interval can be reached with the allowed presses.
     """
 
     presses: int
@@ -44,7 +44,8 @@ class RadialForecast:
 
 
 def radial_forecast(plan: SearchPlan, width_m: float) -> RadialForecast:
-    """For a transition of a width from 90 to 10 %; robot_time_s takes d50 in the middle of the range."""
+    """Return the forecast for a transition of this width from 90 to 10 %; robot_time_s assumes d50 in the middle of the
+    range."""
     scale_m, span_m = width_m / WIDTH_PER_SCALE, plan.maximum_m - plan.minimum_m
     search = SEARCH + max(0.0, math.log2(span_m / max(width_m, 2.0 * plan.interval_m)))
     one_press_m = 2.0 * scale_m * SIGMAS_OF_LEVEL / math.sqrt(EFFICIENCY)

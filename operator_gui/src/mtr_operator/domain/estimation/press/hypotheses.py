@@ -1,7 +1,7 @@
-"""What is possible for a radial: a grid over distance, width, lapse and the part of the fading that stays in its place.
+"""Hypotheses on a radial: a grid over distance, width, rate of random misses (lapse), and permanent part of the fading.
 
-An array over the grid has the axes [shared, lapse, width, d50]. The first three are the shape of the transition: they
-belong to Car and key, and the radials of a campaign have them in common; d50 is the radial's own.
+An array over the grid has the axes [shared, lapse, width, d50]. The first three are the shape of the transition, which
+belongs to Car and key and is common to the radials of a campaign; d50 belongs to the radial.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -12,8 +12,8 @@ import numpy as np
 
 from ..interval import FloatArray
 
-# Widths beyond these are not told apart: the pose of the key is known to 2 mm, and 10 m is wider than what fading of
-# 8 dB leaves at a range of 10 m (docs of the range benchmark).
+# Widths beyond these are indistinguishable: the pose of the key is known to 2 mm, and 10 m is wider than the effect of
+# 8 dB fading at a range of 10 m (docs of the range benchmark).
 MIN_WIDTH_M, MAX_WIDTH_M = 0.05, 12.0
 WIDTH_RATIO = 1.25
 LAPSES, LAPSE_PRIOR = (0.0, 0.03), (0.7, 0.3)
@@ -23,7 +23,7 @@ SHARED = (0.0, 0.85)
 # Prior probability of fading. Few UHF radios have no standing waves. A low-frequency field has none: its wavelength is
 # kilometres. Steel nearby distorts it, and with a smaller probability the intervals of Handle request were too wide.
 UHF_FADING, LF_FADING = 0.85, 0.35
-# d50 may lie outside the range that is searched, by this share of it.
+# Share of the searched range by which d50 may lie outside it.
 MARGIN_SHARE = 0.25
 
 
@@ -40,7 +40,7 @@ class Hypotheses:
 
     @property
     def shape_size(self) -> tuple[int, int, int]:
-        """Numbers of shared parts, lapses and widths."""
+        """Numbers of shared parts, rates of random misses and widths."""
         return len(self.shared), len(self.lapse), len(self.width_m)
 
     @property
@@ -49,14 +49,14 @@ class Hypotheses:
         return np.append(self.d50_m - self.step_m / 2.0, self.d50_m[-1] + self.step_m / 2.0)
 
     def shape_prior(self) -> FloatArray:
-        """Before anything is measured: all widths alike in their logarithm; axes [shared, lapse, width]."""
+        """Return the prior: uniform in the logarithm of the width; axes [shared, lapse, width]."""
         widths = np.full(len(self.width_m), 1.0 / len(self.width_m))
         shared = (1.0 - self.fading, self.fading)
         return np.asarray(np.multiply.outer(np.multiply.outer(shared, LAPSE_PRIOR), widths))
 
 
 def hypotheses_for(minimum_m: float, maximum_m: float, step_m: float, fading: float = UHF_FADING) -> Hypotheses:
-    """For a range that is searched, which step_m divides finely against the interval that is wanted."""
+    """Return the grid for a searched range; step_m must be fine compared with the required interval."""
     margin_m = MARGIN_SHARE * (maximum_m - minimum_m)
     low_m, high_m = max(0.0, minimum_m - margin_m), maximum_m + margin_m
     count = int(np.ceil((high_m - low_m) / step_m))

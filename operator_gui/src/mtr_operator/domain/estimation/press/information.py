@@ -1,10 +1,11 @@
-"""How much a press at a place would tell: expected information on d50 and on the width, in nats.
+"""Expected information of a press on d50 and on the width, in nats.
 
     I(x; q) = H(mean of p(x)) - mean over q of H(mean of p(x) given q),   H(p) = -p ln p - (1-p) ln (1-p),
 
-for q = d50 and q = width, added. Not that on both together: it would go on counting what presses at one place tell of
-combinations of the two that leave d50 open. Sources: Lindley, Annals of Mathematical Statistics 27 (1956); Kontsevich
-and Tyler, Bayesian adaptive estimation of psychometric slope and threshold, Vision Research 39 (1999).
+for q = d50 and q = width, added. The joint information on both would also count combinations of the two that repeated
+presses at one place determine, but that leave d50 uncertain. Sources: Lindley, Annals of Mathematical Statistics 27
+(1956); Kontsevich and Tyler, Bayesian adaptive estimation of psychometric slope and threshold, Vision Research 39
+(1999).
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -16,18 +17,18 @@ from ..interval import FloatArray
 from .posterior import RadialPosterior
 from .transition import falling_single
 
-# A summary of the posterior is enough for a choice: so many places of the boundary, and widths that matter.
+# A summary of the posterior suffices for the selection: number of boundary positions, and least share of a width.
 _BINS = 30
 _MIN_SHARE = 3e-3
 _TAIL = 1e-4
 _MIN_WEIGHT = 1e-300
-# Of the information on the width against that on d50: less of it saves one press in fifteen, and the pooled width, with
-# it the 95 % distance, is known worse.
+# Weight of the information on the width relative to d50. A smaller one saves one press in fifteen, but the pooled
+# width, and thus the 95 % distance, becomes less accurate.
 WIDTH_PART = 1.0
 
 
 class PressInformation:
-    """Summary of a posterior; probability and information of a press at places."""
+    """Summary of a posterior that gives probability and information of presses."""
 
     def __init__(self, posterior: RadialPosterior):
         grid = posterior.hypotheses
@@ -45,7 +46,7 @@ class PressInformation:
         self._works = 1.0 - posterior.lapse
 
     def at(self, places_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Probability that a press works, and its information, at each place."""
+        """Return the probability that a press works, and its information, at each place."""
         works = np.float32(self._works) * falling_single(places_m, self._d50_m[:, None], self._width_m[:, None, None])
         mean = np.tensordot(self._weights, works, axes=2)
         joint = self._weights[..., None] * works

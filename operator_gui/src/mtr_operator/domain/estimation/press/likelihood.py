@@ -1,13 +1,13 @@
-"""How well each hypothesis explains the presses of a radial.
+"""Likelihood of each hypothesis from the presses of a radial.
 
-Presses at places half a wavelength apart are independent (lattice). Those at one place share its fading: it moves the
-boundary there by a normal of sigma sqrt(shared) * sigma of the transition, and what is left to time makes a steeper
-curve of scale sqrt(1 - shared) * scale. For a place with several presses that is
+Presses at places half a wavelength apart are independent (lattice). Presses at one place share its fading. It displaces
+the boundary there by a normal of sigma sqrt(shared) * sigma of the transition; the noise in time leaves a steeper curve
+of scale sqrt(1 - shared) * scale. For a place with several presses the likelihood is
 
     L(d50) = integral of  prod_i p_steep(y_i; d50 + f)  N(f; 0, sigma_f)  df,
 
 a convolution along d50; for one press it is the curve itself. A press between the places depends on the fading of
-several: what it tells of the line's own end is in line_boundary, what it would tell of the grid is left out.
+several places. line_boundary evaluates it for the line's own boundary; the grid ignores it.
 
 The product of n undecided presses is near 0.5^n. It is convolved relative to its peak over d50, so that the evidence
 for fading does not depend on the number of presses at a place.
@@ -27,9 +27,11 @@ from .hypotheses import Hypotheses
 from .lattice import Lattice
 from .transition import SIGMA_PER_SCALE, WIDTH_PER_SCALE, falling
 
-# Of a probability: a transition of 5 cm would make one press at the wrong side refute all else.
+# Lower bound of a probability: with a transition of 5 cm, a single press on the wrong side would refute everything
+# else.
 _MIN_PROBABILITY = 1e-6
-# Of the peak over d50: what the convolution leaves of an impossible course, beyond the rounding of its transform.
+# Lower bound relative to the peak over d50: result of the convolution for an impossible sequence, above rounding
+# errors.
 _MIN_BLURRED = 1e-12
 # The widest fading reaches this many sigmas beyond the grid.
 _EDGE_SIGMAS = 2.0
@@ -37,7 +39,7 @@ _EDGE_SIGMAS = 2.0
 
 @dataclass(frozen=True)
 class Press:
-    """One press of the button: where the key was, and whether the Car did what it should."""
+    """One press of the button: position of the key, and success of the reaction."""
 
     distance_m: float
     worked: bool
@@ -58,10 +60,10 @@ class _Place:
 
 
 class PressLikelihood:
-    """Logarithm of the likelihood over the grid.
+    """Log likelihood over the grid.
 
     Attributes:
-        lattice: places that share no fading.
+        lattice: places with independent fading.
         log: axes [shared, lapse, width, d50].
     """
 
@@ -73,13 +75,13 @@ class PressLikelihood:
         self.log: FloatArray = np.zeros((*hypotheses.shape_size, len(hypotheses.d50_m)))
 
     def presses_beside(self, distance_m: float) -> int:
-        """Presses so far that share the fading with a distance."""
+        """Return the number of presses that share the fading with a distance."""
         number = self.lattice.place_of(distance_m)
         place = self._places.get(number)
         return self._between[number] + (0 if place is None else len(place.presses))
 
     def add(self, *presses: Press) -> None:
-        """Take presses; one between the places is only counted."""
+        """Add presses; one between the places is only counted."""
         changed = {}
         for press in presses:
             number = self.lattice.place_of(press.distance_m)
@@ -94,21 +96,22 @@ class PressLikelihood:
             place.log = log
 
     def without(self, distance_m: float) -> FloatArray:
-        """The logarithm without the presses that share the fading of a place."""
+        """Return the log likelihood without the presses that share the fading of a place."""
         place = self._places.get(self.lattice.place_of(distance_m))
         return self.log if place is None else self.log - place.log
 
     def _log_at(self, place: _Place, share: float) -> FloatArray:
-        """Logarithm for the presses of a place, for one part of the fading that stays; axes [lapse, width, d50]."""
+        """Return the log likelihood of a place's presses, for one permanent part of the fading; axes [lapse, width,
+        d50]."""
         if share <= 0.0 or len(place.presses) == 1:
-            # The fading of one press alone is part of the curve.
+            # The fading of a single press is part of the curve.
             return self._sum(place, 1.0)
         steep = self._sum(place, math.sqrt(1.0 - share))
         peak = np.max(steep, axis=-1, keepdims=True)
         return np.asarray(np.log(self._blurred(np.exp(steep - peak), share)) + peak)
 
     def _sum(self, place: _Place, steepness: float) -> FloatArray:
-        """Of the logarithms of the presses' likelihoods, before the convolution."""
+        """Return the sum of the presses' log likelihoods, before the convolution."""
         count, total = place.sums.get(steepness, (0, 0.0))
         for press in place.presses[count:]:
             total = total + self._log_factor(press, steepness)
@@ -116,24 +119,24 @@ class PressLikelihood:
         return np.asarray(total)
 
     def _log_factor(self, press: Press, steepness: float) -> FloatArray:
-        """Logarithm of the likelihood of one press; axes [lapse, width, d50]."""
+        """Return the log likelihood of one press; axes [lapse, width, d50]."""
         grid = self._hypotheses
         width_m, lapse = steepness * grid.width_m[:, None], grid.lapse[:, None, None]
         if press.worked:
             likely = (1.0 - lapse) * falling(press.distance_m, grid.d50_m, width_m)
         else:
-            # Beyond the curve, not 1 less the curve: that would lose its digits where the curve is near 1.
+            # Computed as the complementary curve, because 1 less the curve loses digits near 1.
             likely = lapse + (1.0 - lapse) * falling(grid.d50_m, press.distance_m, width_m)
         return np.asarray(np.log(np.maximum(likely, _MIN_PROBABILITY)))
 
     def _blurred(self, product: FloatArray, shared: float) -> FloatArray:
-        """The convolution along d50 of a product whose peak is 1; what lies outside the grid is as its edge."""
+        """Convolve a product whose peak is 1 along d50; outside the grid it has the value of its edge."""
         grid = self._hypotheses
         sigmas = np.sqrt(shared) * SIGMA_PER_SCALE * grid.width_m / WIDTH_PER_SCALE / grid.step_m
         edge = int(_EDGE_SIGMAS * sigmas[-1])
         padded = np.pad(product, ((0, 0), (0, 0), (edge, edge)), mode="edge")
         size = fft.next_fast_len(padded.shape[-1], real=True)
-        # Sampled, not its spectrum: where the fading is narrower than a step that would have negative lobes.
+        # The kernel is sampled, because its analytic spectrum has negative lobes if the fading is narrower than a step.
         kernel = np.exp(-0.5 * (size * fft.fftfreq(size) / sigmas[:, None]) ** 2)
         transfer = fft.rfft(kernel / np.sum(kernel, axis=-1, keepdims=True))
         blurred = fft.irfft(fft.rfft(padded, size) * transfer, size)[..., edge:edge + product.shape[-1]]

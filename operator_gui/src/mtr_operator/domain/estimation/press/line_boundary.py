@@ -1,13 +1,13 @@
-"""Where, on this very line, half of the presses and 95 % of them work: fading that stays in its place included.
+"""Distances on one line at which 50 and 95 % of the presses work, including its permanent fading.
 
-A line's own p(d) neither falls steadily nor crosses a level once. Its range at a level is that of the falling curve
-that is nearest to it (antitonic regression), which lies where the sum of what exceeds the level is largest:
+The p(d) of a line is not monotonic and may cross a level several times. Its range at a level is defined by the nearest
+falling curve (antitonic regression), which is where the integral of the excess over the level is largest:
 
     d_level = argmax over D of  integral from 0 to D of  (p(x) - level) dx.
 
-Of each hypothesis (d50 and width of the mean curve, lapse, part of the fading that stays) the line's own curve is
-drawn, with a fading that explains the presses (fading_draws). The draws' places of the levels are what is possible.
-Source: Barlow et al., Statistical Inference under Order Restrictions, 1972.
+For each hypothesis (d50 and width of the mean curve, rate of random misses, permanent part of the fading) a curve of
+the line is drawn, with a fading that explains the presses (fading_draws). The level positions of the draws are the
+posterior. Source: Barlow et al., Statistical Inference under Order Restrictions, 1972.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -29,18 +29,18 @@ HALF, SURE = 0.5, 0.95
 # Nodes of the fading at one place, in its own sigmas, and half their distance.
 _NODES = np.linspace(-3.2, 3.2, 33, dtype=np.float32)
 _HALF_NODE = float(_NODES[1] - _NODES[0]) / 2.0
-# Of the information on d95 against that on d50: it is d50 that ends a radial.
+# Weight of the information on d95 relative to d50; d50 ends a radial.
 SURE_PART = 1.0
-# Parts of equally many draws, by their distance, in which a press's outcome is looked at.
+# Number of equally large groups of draws, by distance, for the entropy of a press's outcome.
 _PARTS = 20
 _SEED = 1
-# Places beyond the ends of the grid whose fading is drawn too.
+# Number of places beyond the ends of the grid whose fading is drawn too.
 _BEYOND = 4
 _TINY = 1e-9
 
 
 class LineBoundary:
-    """Draws of the line's own curve after the presses made; as many as count.
+    """Draws of the line's own curve after the presses so far.
 
     part: draws of different parts are independent. d50_m, d95_m: of each draw.
     """
@@ -62,19 +62,19 @@ class LineBoundary:
         self.d50_m, self.d95_m = self._crossing(below, HALF), self._crossing(below, SURE)
 
     def d50(self) -> Interval:
-        """Of the distance at which half of the presses work, lapses apart."""
+        """Return the distance at which half of the presses work, without random misses."""
         return interval_of_draws(self.d50_m)
 
     def d95(self) -> Interval:
-        """Of the distance at which 95 % of them work."""
+        """Return the distance at which 95 % of the presses work."""
         return interval_of_draws(self.d95_m)
 
     def likely_ends_m(self, quantiles: FloatArray) -> FloatArray:
-        """Quantiles of the distance at which half of the presses work."""
+        """Return quantiles of the distance at which half of the presses work."""
         return np.asarray(np.quantile(self.d50_m, quantiles))
 
     def information(self, places_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Probability that a press works, and what it would tell of d50 and d95 in nats, at each place."""
+        """Return the probability that a press works, and its information on d50 and d95 in nats, at each place."""
         columns = np.minimum(np.searchsorted(self._distances_m, places_m), len(self._distances_m) - 1)
         works = self._sure_of_button * self._works[:, columns]
         mean = np.mean(works, axis=0, dtype=np.float64)
@@ -83,21 +83,21 @@ class LineBoundary:
         return mean, np.maximum(told, 0.0)
 
     def _crossing(self, below: FloatArray, level: float) -> FloatArray:
-        """Of each draw the distance at which its falling curve passes the level, at an end when it does not.
+        """Return the distance at which each draw's falling curve crosses the level, or an end if it does not.
 
         below: sums of the curve up to each distance.
         """
         logits, distances_m = self._logits, self._distances_m
         last = np.argmax(below - level * np.arange(1.0, below.shape[1] + 1.0), axis=1)
         rows, following = np.arange(len(logits)), np.minimum(last + 1, logits.shape[1] - 1)
-        # Between two distances the logit is a straight line, however steep the curve is.
+        # Between two distances the logit is linear, at any slope of the curve.
         here, after = logits[rows, last].astype(float), logits[rows, following].astype(float)
         part = np.clip((here - logit(level)) / np.maximum(here - after, _TINY), 0.0, 1.0)
         return np.asarray(distances_m[last] + part * (distances_m[following] - distances_m[last]))
 
 
 def _mean_entropy_within(works: SingleArray, distance_m: FloatArray) -> FloatArray:
-    """Entropy of a press's outcome when it is known in which part of its draws the distance lies."""
+    """Return the entropy of a press's outcome if the group of draws with the distance is known."""
     order = np.argsort(distance_m, kind="stable")
     parts = np.array_split(works[order], _PARTS)
     means = np.stack([np.mean(part, axis=0, dtype=np.float64) for part in parts])
@@ -111,7 +111,7 @@ def _entropy(probability: FloatArray) -> FloatArray:
 
 
 def drawn(posterior: RadialPosterior, count: int, places: int, chance: np.random.Generator) -> FadingDraws:
-    """Systematic draws, evenly over the distance: of a thousand hypotheses each comes as often as is likely."""
+    """Return systematic draws, evenly over the distance: each hypothesis occurs in proportion to its probability."""
     grid = posterior.hypotheses
     by_place = np.moveaxis(posterior.probability, -1, 0)
     below = np.cumsum(by_place.ravel())
@@ -124,7 +124,7 @@ def drawn(posterior: RadialPosterior, count: int, places: int, chance: np.random
 
 def _faded(draws: FadingDraws, presses: Sequence[Press], lattice: Lattice, numbers: npt.NDArray[np.int_],
            chance: np.random.Generator) -> FadingDraws:
-    """With the fading that explains the presses, those at the places first."""
+    """Add the fading that explains the presses, first the presses at the places."""
     at_places: dict[int, list[Press]] = {}
     for press in presses:
         if not lattice.is_between(press.distance_m):
@@ -140,7 +140,7 @@ def _faded(draws: FadingDraws, presses: Sequence[Press], lattice: Lattice, numbe
 
 
 def _known_fading(draws: FadingDraws, presses: Sequence[Press], chance: np.random.Generator) -> SingleArray:
-    """Of one place, in sigmas, as the presses there leave it possible."""
+    """Draw the fading of one place, in sigmas, from its posterior after the presses there."""
     log = np.broadcast_to(-0.5 * _NODES.astype(np.float64) ** 2, (len(draws.d50_m), len(_NODES)))
     moved_m = draws.d50_m[:, None] + draws.fading_m[:, None] * _NODES
     for press in presses:

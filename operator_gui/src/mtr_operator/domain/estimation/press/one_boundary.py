@@ -1,14 +1,15 @@
-"""Whether a radial has one boundary: where the ground's reflection cancels the wave, presses work again beyond a hole.
+"""Test for a single boundary of a radial: where the ground reflection cancels the wave, presses work again beyond a
+hole.
 
-A search that comes from far may end on an island beyond such a hole, metres too far. Presses in equal parts of the way
-show it: parts that fail nearer than parts that work. How often that is so on falling curves that explain the presses,
-each with other fading, is the posterior predictive probability of
+A search from the far end may stop on an island beyond such a hole, metres too far. Presses in equal parts of the path
+show it: near parts fail, and farther parts work. Its frequency on falling curves that explain the presses, each with
+different fading, is the posterior predictive probability of
 
     T = sum over parts i nearer than j of  (1 - share of i) * share of j.
 
-Below RARE one curve does not describe the radial; where that is so on several radials, it describes none of the Car's.
-Their interval is then also that of no curve at all: the share of presses near each distance, drawn again and again,
-and of each draw the falling curve that is nearest (see line_boundary).
+Below RARE, one curve does not describe the radial; if several radials are affected, it describes none of the Car's.
+Their interval is then the one without a curve: the share of presses near each distance is drawn repeatedly, and for
+each draw the nearest falling curve is used (see line_boundary).
 
 Sources: Gelman et al., Bayesian Data Analysis, chapter 6 (posterior predictive checks); Efron and Tibshirani, An
 Introduction to the Bootstrap, 1993; T. S. Rappaport, Wireless Communications, 2nd ed., 4.6 (two rays).
@@ -30,27 +31,27 @@ from .line_boundary import drawn
 from .posterior import RadialPosterior
 from .transition import WIDTH_PER_SCALE
 
-# On falling curves fewer than so many radials are below it: posterior predictive probabilities gather about a half.
+# On falling curves less than this share of radials is below it: posterior predictive probabilities concentrate near
+# 0.5.
 RARE = 0.1
-# So many radials, and this share of them, show that no radial of the Car falls along one curve.
+# This number of radials, and this share of them, show that no radial of the Car has a falling curve.
 _SEVERAL, _SHARE = 2, 0.2
-# Length of a part of the way: a null at 868 MHz is some 2 m wide, and narrower ones decide no range.
+# Length of a part of the path: a null at 868 MHz is about 2 m wide, and narrower ones do not affect the range.
 PART_M = 1.0
 _HALF = 0.5
 _DRAWS, _SEED, _ROUNDING = 2000, 1, 1e-9
-# Of the share of presses near a distance: 1 sigma of their weights, steps, and presses that work half the time which
-# it is taken to know besides.
+# For the share of presses near a distance: 1 sigma of their weights, step, and weight of a prior share of one half.
 _NEAR_M, _STEP_M, _BESIDES = 0.7, 0.1, 0.5
 
 
 @dataclass(frozen=True)
 class Uneven:
-    """A radial that no falling curve describes.
+    """Radial that no falling curve describes.
 
     Attributes:
         low_m, high_m: ends of the interval of d50 without a curve.
-        hole_m: from the farthest press that worked before the nearest hole, None without one, to the nearest that
-            worked beyond it; None where no hole is seen.
+        hole_m: from the farthest successful press before the nearest hole, None without one, to the nearest successful
+            one beyond it; None without a hole.
     """
 
     low_m: float
@@ -59,19 +60,20 @@ class Uneven:
 
 
 def parts_m(minimum_m: float, maximum_m: float) -> FloatArray:
-    """Borders of equal parts of a way."""
+    """Return the borders of equal parts of a path."""
     return np.linspace(minimum_m, maximum_m, max(1, round((maximum_m - minimum_m) / PART_M)) + 1)
 
 
 def are_uneven(probabilities: Iterable[float]) -> bool:
-    """True when so many radials of a test are rare that no radial of the Car falls along one curve."""
+    """Return True if enough radials of a test are rare, so that no radial of the Car has a falling curve."""
     rare = [probability < RARE for probability in probabilities]
     return sum(rare) >= max(_SEVERAL, _SHARE * len(rare))
 
 
 def probability_of(posterior: RadialPosterior, presses: Sequence[Press], lattice: Lattice,
                    edges_m: FloatArray) -> float:
-    """That the same presses on a falling curve with other fading are at least as discordant."""
+    """Return the probability that the same presses on a falling curve with different fading are at least as
+    discordant."""
     places_m, worked = _arrays(presses)
     part = _parts(places_m, edges_m)
     chance = np.random.default_rng(_SEED)
@@ -84,7 +86,7 @@ def probability_of(posterior: RadialPosterior, presses: Sequence[Press], lattice
 
 
 def uneven(presses: Sequence[Press], edges_m: FloatArray, sigmas: float = SIGMAS_OF_LEVEL) -> Uneven:
-    """What presses say without a curve; sigmas: how many of them the interval reaches."""
+    """Evaluate presses without a curve; sigmas: reach of the interval."""
     places_m, worked = _arrays(presses)
     distances_m = np.arange(edges_m[0], edges_m[-1] + _STEP_M, _STEP_M)
     chance = np.random.default_rng(_SEED)
@@ -108,7 +110,7 @@ def _parts(places_m: FloatArray, edges_m: FloatArray) -> npt.NDArray[np.int_]:
 
 
 def _shares(distances_m: FloatArray, places_m: FloatArray) -> FloatArray:
-    """Weight of each press for the share at each distance; what is left to 1 is of what is known besides."""
+    """Return the weight of each press for the share at each distance; the remainder to 1 is the prior's weight."""
     near = np.exp(-0.5 * ((distances_m[:, None] - places_m) / _NEAR_M) ** 2)
     return np.asarray(near / (np.sum(near, axis=1, keepdims=True) + _BESIDES))
 
@@ -128,7 +130,7 @@ def _nearest_hole(places_m: FloatArray, worked: FloatArray,
 
 
 def _discordant(worked: FloatArray, part: npt.NDArray[np.int_]) -> FloatArray:
-    """T of each row of presses."""
+    """Return T of each row of presses."""
     shares = np.stack([np.mean(worked[:, part == number], axis=1) for number in np.unique(part)], axis=1)
     beyond = np.cumsum(shares[:, ::-1], axis=1)[:, ::-1] - shares
     return np.asarray(np.sum((1.0 - shares) * beyond, axis=1))

@@ -1,4 +1,4 @@
-"""What presses and the campaign's other radials leave possible for one radial."""
+"""Posterior of one radial from its presses and the campaign's other radials."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ..interval import FloatArray, Interval, interval_of
 from .hypotheses import Hypotheses
 from .transition import SingleArray, falling_single
 
-# Below the best place of its shape a likelihood counts as this, in logarithms: single precision ends at -87.
+# Lower bound of a log likelihood relative to the best position of its shape: single precision ends at -87.
 _MIN_LOG = -80.0
 
 
@@ -24,7 +24,7 @@ class RadialPosterior:
     def __init__(self, hypotheses: Hypotheses, log_likelihood: FloatArray, log_shape_prior: FloatArray,
                  log_place_prior: FloatArray):
         self.hypotheses = hypotheses
-        # One exponential serves evidence and posterior; single precision takes an eighth of the time.
+        # One exponential serves evidence and posterior; single precision needs an eighth of the time.
         peak = log_likelihood.max(axis=-1)
         below: SingleArray = (log_likelihood - peak[..., None]).astype(np.float32)
         self._likelihood: SingleArray = np.exp(np.maximum(below, _MIN_LOG, out=below), out=below)
@@ -43,25 +43,25 @@ class RadialPosterior:
 
     @property
     def probability(self) -> FloatArray:
-        """Of each hypothesis; axes [shared, lapse, width, d50]."""
+        """Return the probability of each hypothesis; axes [shared, lapse, width, d50]."""
         return np.asarray(self._weights[..., None] * self._likelihood * self._place_prior)
 
     def d50(self) -> Interval:
-        """Distance at which half of the presses work on the mean curve: over lines that fade otherwise."""
+        """Return the distance at which half of the presses work on the mean curve, over lines with different fading."""
         return self._d50
 
     def places(self) -> FloatArray:
-        """Probability of each d50."""
+        """Return the probability of each d50."""
         return self._places
 
     def works(self, distance_m: float) -> float:
-        """Probability that a press works."""
+        """Return the probability that a press works."""
         grid = self.hypotheses
         curves = falling_single(distance_m, grid.d50_m, grid.width_m[:, None])
         return (1.0 - self.lapse) * float(np.sum(self.by_width * curves))
 
     def widths(self) -> FloatArray:
-        """Probability of each width."""
+        """Return the probability of each width."""
         result: FloatArray = np.sum(self.shapes, axis=(0, 1))
         return result
 

@@ -1,6 +1,6 @@
-"""What is recorded of a radial: distances with intervals, the farthest success, the nearest failure, and doubts.
+"""Result of a radial: distances with intervals, the farthest success, the nearest failure, and doubts.
 
-Fit quality: the presses' surprise S = -sum ln P(y) against its expectation and spread by the median curve,
+Fit quality: the presses' surprise S = -sum ln P(y) relative to its expectation and spread on the median curve,
 
     z = (S - sum H(p)) / sqrt(sum p (1-p) ln^2(p / (1-p))),   quality = 1 - Phi(z):
 
@@ -26,12 +26,12 @@ from .posterior import RadialPosterior
 from .radial_search import PRESSES_IN_DOUBT, SURE_TO_WORK, RadialSearch
 from .transition import falling
 
-# A place is called a hole when so many failures would be rarer than this on the curve.
+# A place is a hole if its number of failures has a smaller probability than this on the curve.
 _RARE = 0.005
 
 
 class Reach(enum.Enum):
-    """Where the boundary lies, as likely as not."""
+    """Most probable location of the boundary."""
 
     MEASURED = "measured"
     NEARER = "nearer"  # than the nearest place: only an upper bound is known
@@ -41,16 +41,16 @@ class Reach(enum.Enum):
 
 @dataclass(frozen=True)
 class RadialEstimate:
-    """Of one radial; distances in m.
+    """Estimate of one radial; distances in m.
 
     Attributes:
-        d50, d95: of this very line, see line_boundary.
-        farthest_success_m, nearest_failure_m: of the presses made; None without one.
-        holes_m: places inside that failed again and again although farther ones worked.
+        d50, d95: of this line, see line_boundary.
+        farthest_success_m, nearest_failure_m: of the presses so far; None without one.
+        holes_m: places inside with repeated failures, although farther ones worked.
         lapse: share of presses that fail at any distance.
-        quality: share of radials on the curve found that would fit worse.
-        uneven: where one falling curve does not describe the radial; d50 is of the one that fits best.
-        look: d50 and d95 with intervals that reach as many sigmas as the last look at the line asks for; None without.
+        quality: share of radials on the estimated curve that would fit worse.
+        uneven: set if one falling curve does not describe the radial; d50 is of the curve that fits best. look: d50 and
+        d95 with the intervals of the last look at the line; None without.
     """
 
     reach: Reach
@@ -68,14 +68,14 @@ class RadialEstimate:
 
 
 def estimate(plan: SearchPlan, search: RadialSearch) -> RadialEstimate:
-    """With what the other radials say by now."""
+    """Estimate with the current state of the other radials."""
     search.revisit()
     boundary = search.boundary()
     return _estimated(plan, search, boundary.d50(), boundary.d95())
 
 
 def estimate_at_look(plan: SearchPlan, search: RadialSearch, sigmas: float) -> Generator[None, None, RadialEstimate]:
-    """The same, with the intervals that reach so many sigmas besides; a part of the work with each step."""
+    """Estimate with additional intervals of this many sigmas; each step of the generator does a part of the work."""
     search.revisit()
     d50_m, d95_m = [], []
     tail = float(ndtr(-sigmas))
@@ -99,7 +99,7 @@ def _estimated(plan: SearchPlan, search: RadialSearch, d50: Interval, d95: Inter
 
 
 def answers_nowhere(plan: SearchPlan, presses: Sequence[Press]) -> bool:
-    """True when nothing worked, again and again not at the nearest place either: nobody knows why."""
+    """Return True if no press worked, including repeated ones at the nearest place; the cause is unknown."""
     at_nearest = sum(press.distance_m <= plan.minimum_m + plan.half_wavelength_m / 2.0 for press in presses)
     return not any(press.worked for press in presses) and at_nearest >= PRESSES_IN_DOUBT
 
@@ -113,15 +113,15 @@ def _reach(plan: SearchPlan, d50: Interval, presses: Sequence[Press]) -> Reach:
 
 
 def _curve(posterior: RadialPosterior, distance_m: float) -> float:
-    """Probability that a press works, by the medians."""
+    """Return the probability that a press works on the median curve."""
     width_m = math.exp(float(posterior.widths() @ np.log(posterior.hypotheses.width_m)))
     return (1.0 - posterior.lapse) * float(falling(distance_m, posterior.d50().value_m, width_m))
 
 
 def _holes(search: RadialSearch) -> tuple[float, ...]:
-    """Places that fail more often than what is known without them allows.
+    """Return places with more failures than the other presses allow.
 
-    A place within the interval that d50 has without it is none: failures there may be the boundary itself.
+    A place within the interval that d50 has without it is excluded: failures there may be the boundary itself.
     """
     presses, found = search.presses, []
     farthest_m = max((press.distance_m for press in presses if press.worked), default=0.0)
@@ -137,7 +137,7 @@ def _holes(search: RadialSearch) -> tuple[float, ...]:
 
 
 def _is_rare(posterior: RadialPosterior, distance_m: float, failures: int, count: int) -> bool:
-    """True for a place nearer than the boundary where so many failures are rare over all curves that are possible."""
+    """Return True for a place before the boundary whose number of failures is rare over all possible curves."""
     grid = posterior.hypotheses
     works = (1.0 - posterior.lapse) * falling(distance_m, grid.d50_m, grid.width_m[:, None])
     tail = bdtrc(failures - 1, count, 1.0 - np.minimum(works, SURE_TO_WORK))

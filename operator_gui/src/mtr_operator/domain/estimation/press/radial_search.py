@@ -1,9 +1,9 @@
-"""One radial measured by Bayesian search: the next press is the one that is expected to tell most per second.
+"""Bayesian search on one radial: the next press has the largest expected information per second.
 
-It ends when the 95 % interval of the line's own d50 is as narrow as wanted, or after the presses allowed. Three things
-go before: a press that failed where it should have worked is repeated there, so that a hole is told from a lapse; one
-that worked where it should not counts only if it does so again, so that another key's button is no range; and where
-nothing worked at all the nearest place is tried several times, so that a key that sleeps is no range of zero.
+It ends when the 95 % interval of the line's own d50 is as narrow as required, or after the allowed presses. Three rules
+have priority. An unexpected failure is repeated, which distinguishes a hole from a random miss. An unexpected success
+counts only if it repeats, so that another key's button does not extend the range. If no press worked, the nearest place
+is tried several times, so that a sleeping key is not mistaken for a range of zero.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -23,26 +23,27 @@ from .one_boundary import Uneven, parts_m, probability_of, uneven
 from .plan import SearchPlan
 from .posterior import RadialPosterior
 
-# A press has to tell this share of what the best place would: one that costs nothing, as the key is there, is no use.
+# Minimum information of a press relative to the best place: a press at the current position is cheap but may be
+# useless.
 MIN_SHARE = 0.7
-# Of what is still possible for d50: places that are tried when an interval below half a wavelength is wanted.
+# Quantiles of d50 that are tried if an interval below half a wavelength is required.
 _QUANTILES = np.linspace(0.1, 0.9, 9)
-# A press that fails although it should work with this probability is repeated, until there are so many at its place.
+# A press that fails despite at least this probability of success is repeated, up to this number at its place.
 SURE_TO_WORK = 0.95
 PRESSES_IN_DOUBT = 3
-# A press that works although it should with this probability at most is repeated likewise. What leaves it out when it
-# does not work again is a bias of that size in the far tail of the curve; believing another key's button is metres.
+# A press that works despite at most this probability is repeated as well. Omitting it without a repetition causes a
+# bias of that size in the far tail of the curve; accepting another key's button would cause metres.
 UNLIKELY_TO_WORK = 0.05
-# Fewer presses look sharp by luck where the width is not known from other radials yet.
+# Fewer presses look sharp by chance while the width is not known from other radials.
 MIN_PRESSES = 9
-# A smaller share of lapses is not looked for: an end that one of them made would be rarer than one in a hundred. Before
-# anything is measured more is taken for likely.
+# A smaller rate of random misses is ignored: an end caused by one would have a probability below 1 %. Before any
+# measurement a higher rate is assumed.
 _LAPSES_RARELY = 0.01
-# The line's own interval is drawn, which takes some hundredths of a second: whenever the mean curve's is no wider than
-# this times what is wanted, and at the end.
+# Drawing the line's own interval needs some hundredths of a second. It is done at the end, and if the mean curve's
+# interval is at most this times the required one.
 _WORTH_DRAWING = 3.0
 _DRAWS, _FINAL_DRAWS = 200, 1000
-# A look at a line before its last one decides by tails of 0.3 %, of which 1000 draws have three: 20 000 at most.
+# A look before the last one decides by tails of 0.3 %, of which 1000 draws have three: 20 000 at most.
 _DRAWS_IN_TAIL, _LEAST_TAIL = 30, 1.5e-3
 
 
@@ -50,8 +51,8 @@ class RadialSearch:
     """State of one radial.
 
     Attributes:
-        presses: so far that count, in order.
-        place_m: where the key is.
+        presses: counted presses so far, in order.
+        place_m: position of the key.
     """
 
     def __init__(self, plan: SearchPlan, hypotheses: Hypotheses, campaign: Campaign, radial: int, place_m: float):
@@ -70,7 +71,7 @@ class RadialSearch:
         self.place_m = place_m
 
     def posterior(self) -> RadialPosterior:
-        """What is possible after the presses so far."""
+        """Return the posterior after the presses so far."""
         if self._posterior is None:
             self._posterior = self._given(self._likelihood.log)
             if self.presses:
@@ -79,25 +80,25 @@ class RadialSearch:
         return self._posterior
 
     def posterior_without(self, distance_m: float) -> RadialPosterior:
-        """What all presses but those at a place say."""
+        """Return the posterior from all presses except those at a place."""
         return self._given(self._likelihood.without(distance_m))
 
     def revisit(self) -> RadialPosterior:
-        """The posterior anew, when other radials have been measured since."""
+        """Recompute the posterior after other radials were measured."""
         self._posterior = self._boundary = None
         return self.posterior()
 
     @property
     def unconfirmed(self) -> list[Press]:
-        """Presses that worked against all expectation and not again, or not yet: they do not count."""
+        """Uncounted presses: unexpected successes whose repetition failed or is pending."""
         return self._unconfirmed if self._awaiting is None else [*self._unconfirmed, self._awaiting]
 
     def boundary(self) -> LineBoundary:
-        """See line_boundary: the line's own d50 and d95."""
+        """Return the line's own d50 and d95, see line_boundary."""
         return self._boundary_of(_FINAL_DRAWS)
 
     def boundaries(self, tail: float) -> Iterator[LineBoundary]:
-        """So many draws that a tail of this probability is known, in parts of some hundredths of a second each."""
+        """Yield enough draws for a tail of this probability, in parts of some hundredths of a second each."""
         parts = math.ceil(_DRAWS_IN_TAIL / (max(tail, _LEAST_TAIL) * _FINAL_DRAWS))
         for part in range(parts):
             yield self._boundary_of(_FINAL_DRAWS, part)
@@ -111,7 +112,7 @@ class RadialSearch:
         return LineBoundary(self.posterior(), self.presses, self._likelihood.lattice, draws, part)
 
     def add(self, press: Press) -> None:
-        """Take what a press did."""
+        """Add the result of a press."""
         if self._awaiting is not None:
             self._confirm(self._awaiting, press)
         elif press.worked and self.posterior().works(press.distance_m) <= UNLIKELY_TO_WORK:
@@ -120,7 +121,7 @@ class RadialSearch:
             self._count(press)
 
     def _confirm(self, awaiting: Press, press: Press) -> None:
-        """Another press at the place of an unlikely one."""
+        """Add another press at the place of an unlikely one."""
         if press.worked:
             self._awaiting = None
             self._count(awaiting)
@@ -140,18 +141,18 @@ class RadialSearch:
         self.revisit()
 
     def place_of(self, distance_m: float) -> int:
-        """Number of the half wavelength in whose midst a distance lies: presses there count as made at one place."""
+        """Return the number of the half wavelength around a distance: its presses count as made at one place."""
         return self._likelihood.lattice.place_of(distance_m)
 
     def recall(self, presses: Sequence[Press]) -> None:
-        """Take presses of a radial that has come to its end; nothing is doubted any more."""
+        """Restore the presses of a finished radial, without further confirmations."""
         self._likelihood.add(*presses)
         self.presses.extend(presses)
         self.revisit()
         self._note_discord()
 
     def is_finished(self) -> bool:
-        """True when the interval is reached, or no press is left."""
+        """Return True if the interval is reached, or no press is left."""
         if len(self.presses) + len(self.unconfirmed) >= self._plan.attempts_limit:
             return True
         if len(self.presses) < MIN_PRESSES or self._place_in_doubt() is not None:
@@ -159,7 +160,7 @@ class RadialSearch:
         return self._is_narrow() and self._place_to_prove() is None and not self._places_to_check_m()
 
     def next_place_m(self) -> float:
-        """Where the next press tells most per second of robot time."""
+        """Return the place of the next press, with the largest information per second of robot time."""
         doubted_m = self._place_in_doubt()
         if doubted_m is not None:
             return doubted_m
@@ -192,11 +193,12 @@ class RadialSearch:
         wanted_m = self._plan.interval_m
         if not self._is_end_within(self.posterior(), wanted_m):
             return False
-        # Few draws are narrow by luck, now and then in so many presses.
+        # The interval of a few draws is sometimes narrow by chance, given the number of presses.
         return not self._plan.is_fine or self.boundary().d50().half_width_m <= wanted_m
 
     def _place_to_prove(self) -> float | None:
-        """The nearest place beyond the boundary, as long as it has failed but once: a lapse would be a wrong end."""
+        """Return the nearest place beyond the boundary that has failed only once: a random miss would be a wrong
+        end."""
         if self.posterior().lapse < _LAPSES_RARELY:
             return None
         d50_m = self._boundary_so_far().d50().value_m
@@ -205,7 +207,8 @@ class RadialSearch:
         return nearest_m if nearest_m is not None and self._likelihood.presses_beside(nearest_m) == 1 else None
 
     def _place_to_check(self, is_narrow: bool) -> float | None:
-        """The nearest place to be checked, when the boundary is known or the presses that are left are for that."""
+        """Return the nearest place to be checked, if the boundary is known or the remaining presses are needed for
+        checks."""
         plan = self._plan
         left = plan.attempts_limit - len(self.presses) - len(self.unconfirmed)
         places_m = self._places_to_check_m()
@@ -214,8 +217,8 @@ class RadialSearch:
         return min(places_m, key=lambda place_m: abs(place_m - self.place_m))
 
     def _places_to_check_m(self) -> list[float]:
-        """One in each part of the way without a press, as far as holes are possible: on both sides of the boundary, for
-        the hole may be the end that was found."""
+        """Return a place in each part of the path without a press, as far as holes are possible: on both sides of the
+        boundary, because the hole may be the end that was found."""
         plan = self._plan
         edges_m = parts_m(plan.minimum_m, plan.maximum_m)
         places_m = plan.places_m()
@@ -224,7 +227,8 @@ class RadialSearch:
         return [float(places_m[np.argmin(np.abs(places_m - middle_m))]) for middle_m in open_m]
 
     def uneven(self, sigmas: float = SIGMAS_OF_LEVEL) -> Uneven | None:
-        """See one_boundary: what the presses say where one falling curve does not describe them, else None."""
+        """Return the result without a curve if one falling curve does not describe the presses, else None; see
+        one_boundary."""
         self._note_discord()
         if not self._campaign.is_uneven(self._radial):
             return None
@@ -249,7 +253,8 @@ class RadialSearch:
         return None
 
     def _candidates(self, posterior: RadialPosterior) -> FloatArray:
-        """Places half a wavelength apart; not the present one before the boundary is known that well."""
+        """Return places half a wavelength apart, without the current one until the boundary is known to that
+        resolution."""
         plan = self._plan
         step_m = plan.half_wavelength_m
         places_m = plan.places_m()

@@ -1,11 +1,11 @@
-"""How the probability that a press works falls with the distance.
+"""Probability that a press works as a function of the distance.
 
     p(d) = (1 - lapse) / (1 + exp((d - d50) / scale))
 
-d50         m       where half of the presses work; lapses are told apart from it
+d50         m       half of the presses work, without random misses
 scale       m       width / (2 ln 9); width: from 90 to 10 %
-d95         m       d50 - scale ln 19: where 95 % of the presses work
-lapse       share   presses that fail at any distance: the button's contact, the bus, a disturbance of the moment
+d95         m       d50 - scale ln 19: 95 % of the presses work
+lapse       share   random misses at any distance: contact of the button, bus, temporary disturbance
 
 The logistic curve has heavier tails than the normal one that follows from fading in dB: its d95 lies nearer to the Car,
 on the safe side, by 0.03 of the width. Sources: Wichmann and Hill, The psychometric function, Perception and
@@ -31,13 +31,13 @@ SIGMA_PER_SCALE = math.pi / math.sqrt(3.0)
 
 
 def falling(distance_m: float | FloatArray, d50_m: float | FloatArray, width_m: float | FloatArray) -> FloatArray:
-    """Share of the presses that work, without lapses."""
+    """Return the share of successful presses, without random misses."""
     result: FloatArray = expit((d50_m - distance_m) * WIDTH_PER_SCALE / width_m)
     return result
 
 
 def falling_single(distance_m: float | FloatArray, d50_m: FloatArray, width_m: FloatArray) -> SingleArray:
-    """The same for many hypotheses at once: 1e-7 beside it, in a seventh of its time."""
+    """Return the same for many hypotheses at once: accurate to 1e-7, in a seventh of the time."""
     half = (d50_m - distance_m).astype(np.float32) * (0.5 * WIDTH_PER_SCALE / width_m).astype(np.float32)
     result: SingleArray = np.tanh(half, out=half)
     result *= np.float32(0.5)

@@ -1,2 +1,2 @@
-"""What distances that somebody else reports are worth beside measured ones."""
+"""Accuracy of reported distances, such as a phone's, compared with measured ones."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Errors of reported distances at many places, in figures: bias, spread, and what 95 % of them keep."""
+"""Statistics of the errors of reported distances at many places: bias, spread, and bound of 95 % of them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -17,13 +17,12 @@ _SHARE = 0.95
 
 @dataclass(frozen=True)
 class ErrorSummary:
-    """In m; errors are reported less measured distance.
+    """Statistics in m; errors are reported less measured distance.
 
-    bias_m: their mean, with the ends of its 95 % interval, None of one place; what the robot may be off everywhere
-    alike is in it. spread_m: their standard deviation, None
-    of one place. within_m: 95 % of the places have at most this error without its sign; within_low_m, within_high_m:
-    its 95 % interval without any assumption on how errors are distributed. The upper end is None with fewer than 72
-    places: then nobody knows what the worst twentieth would be.
+    bias_m: mean error, with the ends of its 95 % interval, None for one place; it includes the robot's common error.
+    spread_m: standard deviation, None for one place. within_m: bound of the absolute error at 95 % of the places;
+    within_low_m, within_high_m: its 95 % interval for any distribution of the errors. The upper end is None with fewer
+    than 72 places, because the worst twentieth is then unknown.
     """
 
     count: int
@@ -37,10 +36,9 @@ class ErrorSummary:
 
 
 def summarize(errors_m: Sequence[float], common_sigma_m: float = 0.0) -> ErrorSummary | None:
-    """None without an error. common_sigma_m: 1 sigma of an error that all places may have alike.
+    """Summarize errors; None without one. common_sigma_m: 1 sigma of an error that all places may have in common.
 
-    Places count as independent: of a field that is smooth around the Car the intervals are too narrow where places lie
-    closer to each other than it varies.
+    Places count as independent. If they are closer together than the field varies, the intervals are too narrow.
     """
     count = len(errors_m)
     if not count:
@@ -59,9 +57,10 @@ def summarize(errors_m: Sequence[float], common_sigma_m: float = 0.0) -> ErrorSu
 
 
 def _ranks(count: int) -> tuple[int | None, int | None]:
-    """Ranks, from 1, of the ordered errors between which their 95 % quantile lies with 95 %; None where no rank does.
+    """Return ranks, from 1, of the ordered errors that bound their 95 % quantile with 95 % confidence; None without
+    such a rank.
 
-    So many of the errors as are below the quantile follow a binomial distribution: each tail has at most 2.5 %.
+    The number of errors below the quantile is binomial: each tail has at most 2.5 %.
     """
     tail = (1.0 - LEVEL) / 2.0
     low = max((rank for rank in range(1, count + 1) if bdtr(rank - 1, count, _SHARE) <= tail), default=None)

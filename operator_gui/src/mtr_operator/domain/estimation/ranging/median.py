@@ -1,4 +1,4 @@
-"""The median of distances that were reported while nothing moved, and how sure it is."""
+"""Median of distances that were reported at standstill, and its uncertainty."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -10,19 +10,19 @@ from typing import Sequence
 from ..interval import SIGMAS_OF_LEVEL
 from ..student import quantile
 
-# Filtered figures that hardly move say little more than one of them.
+# Filtered values that hardly vary contain little more information than a single one.
 _MAX_CORRELATION = 0.95
 _MIN_COUNT = 2.0
-# The correction of the bias from so many values on; with fewer it is itself too uncertain and makes intervals too wide.
+# Minimum number of values for the bias correction; with fewer, it is too uncertain and makes intervals too wide.
 _FULL_CORRECTION = 12
 
 
 @dataclass(frozen=True)
 class Median:
-    """In m.
+    """Median in m.
 
-    spread_m: standard deviation of the figures. sigma_m: 1 sigma of the median, as if it were normal: half the width of
-    its 95 % interval in sigmas of a normal distribution, so that few figures count by Student's t.
+    spread_m: standard deviation of the values. sigma_m: 1 sigma of the median in normal equivalents: half the width of
+    its 95 % interval in sigmas of a normal distribution, so that few values are treated by Student's t.
     """
 
     value_m: float
@@ -31,10 +31,11 @@ class Median:
 
 
 def median_of(values_m: Sequence[float], resolution_m: float) -> Median:
-    """Of figures in the order in which they came; resolution_m: their step. One figure has an infinite sigma.
+    """Return the median of values in the order of arrival; resolution_m: their step. A single value has an infinite
+    sigma.
 
-    A phone filters what it reports, so that a figure is like the one before it: the correlation r of neighbours
-    reduces their number n to n (1 - r) / (1 + r). The step is a common error of all figures, uniform over its width.
+    A phone filters its values, so that each is similar to the previous one: the correlation r of neighbours reduces
+    their number n to n (1 - r) / (1 + r). The step is a common error of all values, uniform over its width.
     """
     step_m = resolution_m / math.sqrt(12.0)
     if len(values_m) < _MIN_COUNT:
@@ -47,7 +48,8 @@ def median_of(values_m: Sequence[float], resolution_m: float) -> Median:
 
 
 def _sigmas_of_mean(count: int) -> float:
-    """Standard deviation of the median of independent normal values in that of their mean, within 2 % for any count.
+    """Return the ratio of the standard deviations of median and mean of independent normal values, within 2 % for any
+    count.
 
     The limit is sqrt(pi / 2); the median of two values is their mean.
     """
@@ -55,7 +57,7 @@ def _sigmas_of_mean(count: int) -> float:
 
 
 def _neighbours(values_m: Sequence[float]) -> float:
-    """Correlation of each figure with the one before it, corrected for its bias; 0 if nothing varies.
+    """Return the correlation of each value with the previous one, corrected for its bias; 0 without variation.
 
     n values underestimate it by (1 + 4 r) / n: Kendall, Note on bias in the estimation of autocorrelation, 1954.
     """
