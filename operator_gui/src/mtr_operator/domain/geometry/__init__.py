@@ -1,2 +1,2 @@
-"""Poses, rays around the Car, and how the scenarios lay them out."""
+"""Poses, rays around the Car, and their arrangement in the scenarios."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,6 +1,6 @@
-"""Corners of a test area: what a robot accepts, as text, and a rectangle to begin with.
+"""Corners of a test area: rules of the robot, text form, and an initial rectangle.
 
-They are in the robot's start frame, in which it localizes itself from its start on: x ahead, y to the left there.
+They are in the robot's start frame, in which it localizes itself: x ahead at the start, y to the left.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -19,7 +19,7 @@ SHORTEST_EDGE_M = 0.01
 
 
 def check_corners(corners: Sequence[Point]) -> None:
-    """InvalidParameter with a sentence unless they bound an area that a robot accepts."""
+    """Raise InvalidParameter with a sentence unless the robot accepts the area."""
     if not MIN_CORNERS <= len(corners) <= MAX_CORNERS:
         raise InvalidParameter(f"A test area has {len(corners)} corners; the number must be between {MIN_CORNERS} and "
                                f"{MAX_CORNERS}.")
@@ -36,17 +36,17 @@ def check_corners(corners: Sequence[Point]) -> None:
 
 
 def edges(corners: Sequence[Point]) -> Iterator[tuple[Point, Point]]:
-    """From each corner to the next."""
+    """Yield the edge from each corner to the next."""
     return zip(corners, [*corners[1:], *corners[:1]])
 
 
 def area_m2(corners: Sequence[Point]) -> float:
-    """Size of a simple polygon."""
+    """Return the area of a simple polygon."""
     return 0.5 * abs(sum(a[0] * b[1] - b[0] * a[1] for a, b in edges(corners)))
 
 
 def crosses_itself(corners: Sequence[Point]) -> bool:
-    """True when two edges meet elsewhere than at the corner that they share."""
+    """Return True if two edges meet at a point other than their common corner."""
     sides = list(edges(corners))
     last = len(sides) - 1
     for (i, one), (j, other) in itertools.combinations(enumerate(sides), 2):
@@ -62,18 +62,18 @@ def crosses_itself(corners: Sequence[Point]) -> bool:
 
 
 def rectangle_around(pose: Pose, length_m: float, width_m: float) -> tuple[Point, ...]:
-    """Corners of a rectangle about the robot, along its heading."""
+    """Return the corners of a rectangle around the robot, aligned with its heading."""
     x, y = 0.5 * length_m, 0.5 * width_m
     return tuple(pose.apply(corner) for corner in ((x, y), (-x, y), (-x, -y), (x, -y)))
 
 
 def corners_text(corners: Sequence[Point]) -> str:
-    """Corners as a file and a record list them: x y; x y; ..."""
+    """Return the corners as text for files and records: x y; x y; ..."""
     return "; ".join(f"{x:.2f} {y:.2f}" for x, y in corners)
 
 
 def corners_from_text(text: str) -> tuple[Point, ...]:
-    """Corners in a text of corners_text; InvalidParameter says what is wrong with it."""
+    """Return the corners in a text of corners_text; InvalidParameter states a fault."""
     corners = []
     for part in filter(None, (part.strip() for part in text.split(";"))):
         numbers = part.replace(",", " ").split()

@@ -21,9 +21,9 @@ class Axis:
 
 
 def axes_around(car: CarDimensions, spacing_m: float) -> list[Axis]:
-    """All axes of all sides and corners, clockwise from the front side's left end, so that the robot goes round once.
+    """Return all axes of all sides and corners, clockwise from the front side's left end: one round for the robot.
 
-    A side has the axis of its centre and those at multiples of the spacing that do not exceed the Car.
+    A side has an axis at its centre, and axes at multiples of the spacing within the Car.
     """
     half_length, half_width = car.length / 2.0, car.width / 2.0
     across, along = _offsets(half_width, spacing_m), _offsets(half_length, spacing_m)

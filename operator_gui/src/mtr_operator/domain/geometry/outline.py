@@ -1,4 +1,4 @@
-"""Uncertainty of the origin of a line on the Car's outline, by the side or the sides where it begins."""
+"""Uncertainty of a line's origin on the Car's outline, from the side or sides at which it begins."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ FRONT, REAR, LEFT, RIGHT = SIDES = "front", "rear", "left", "right"
 
 @dataclass(frozen=True)
 class SideError:
-    """Error of where a side of the Car is, the same on all lines that begin on it.
+    """Position error of a side of the Car, common to all lines that begin on it.
 
     Attributes:
         side: front, rear, left or right.
         sigma_m: 1 sigma across the side, of the Car's centre and size together.
-        share: of the error that moves the line's origin along the line, 0 to 1.
+        share: part of the error that moves the line's origin along the line, 0 to 1.
     """
 
     side: str
@@ -33,9 +33,9 @@ class SideError:
 
 
 def side_errors(ray: Ray, car: CarDimensions) -> tuple[SideError, ...]:
-    """Errors of the sides where a line begins, two at a corner.
+    """Return the errors of the sides at which a line begins, two at a corner.
 
-    None for a line from the centre, or when the robot does not say how well it knows each side.
+    Empty for a line from the centre, or if the robot does not report the accuracy of each side.
     """
     if ray.begins_in_centre or not car.knows_sides:
         return ()
@@ -47,11 +47,13 @@ def side_errors(ray: Ray, car: CarDimensions) -> tuple[SideError, ...]:
 
 
 class OriginError(NamedTuple):
-    """What the origin of a line adds to the uncertainty of a position along it.
+    """Contribution of a line's origin to the uncertainty of a position along it.
 
     Attributes:
-        added_m2: to the variance of a position in the Car coordinate system, which has the error of the Car's centre.
-            The error of the side where the line begins takes its place: negative where the side is known better.
+        added_m2: added to the variance of a position in the Car coordinate system, which includes the error of the
+        Car's
+            centre. It replaces this error by the error of the side at which the line begins: negative if the side is
+            known better.
         least_m: 1 sigma of the origin alone.
     """
 
@@ -63,7 +65,7 @@ NO_ERROR = OriginError(0.0, 0.0)
 
 
 def origin_error(ray: Ray, car: CarDimensions) -> OriginError:
-    """Of a line's origin on the Car's outline; none in the Car's centre."""
+    """Return the error of a line's origin on the Car's outline; zero for the Car's centre."""
     least_m = math.hypot(*(side.along_m for side in side_errors(ray, car)))
     return NO_ERROR if ray.begins_in_centre else OriginError(_added_variance(ray, car), least_m)
 

@@ -9,7 +9,7 @@ from .pose import Point
 
 
 def distance_to_polygon(point: Point, corners: Sequence[Point]) -> float:
-    """Shortest distance in m from a convex polygon whose corners go counterclockwise; 0 inside and on it."""
+    """Return the shortest distance in m from a convex polygon with counterclockwise corners; 0 inside and on it."""
     edges = list(zip(corners, [*corners[1:], *corners[:1]]))
     if all(_is_left(point, start, end) for start, end in edges):
         return 0.0

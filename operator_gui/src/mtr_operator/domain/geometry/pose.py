@@ -10,7 +10,7 @@ Point = Tuple[float, float]
 
 
 def wrap_angle(angle: float) -> float:
-    """Same direction within [-pi, pi]."""
+    """Return the same direction within [-pi, pi]."""
     return math.remainder(angle, 2.0 * math.pi)
 
 
@@ -23,17 +23,17 @@ class Pose:
     heading: float
 
     def apply(self, point: Point) -> Point:
-        """Coordinates in target of a point in source."""
+        """Return the coordinates in target of a point in source."""
         dx, dy = self.rotate(point)
         return self.x + dx, self.y + dy
 
     def to_source(self, point: Point) -> Point:
-        """Coordinates in source of a point in target."""
+        """Return the coordinates in source of a point in target."""
         dx, dy = point[0] - self.x, point[1] - self.y
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         return cos * dx + sin * dy, cos * dy - sin * dx
 
     def rotate(self, vector: Point) -> Point:
-        """Components in target of a vector in source."""
+        """Return the components in target of a vector in source."""
         cos, sin = math.cos(self.heading), math.sin(self.heading)
         return cos * vector[0] - sin * vector[1], sin * vector[0] + cos * vector[1]

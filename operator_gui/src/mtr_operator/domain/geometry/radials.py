@@ -1,4 +1,4 @@
-"""Radials of the Key press scenario; the one place where its clockwise angle meets counterclockwise headings."""
+"""Radials of the Key press scenario; only here its clockwise angles are converted to counterclockwise headings."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from .ray import Ray
 
-# A full circle of 45 degree steps has 8 radials, whatever the rounding of radians says.
+# Tolerance for rounded radians: a full circle of 45 degree steps must have 8 radials.
 _ROUNDING = 1e-9
 
 
@@ -21,12 +21,12 @@ class Radial:
 
     @property
     def clockwise_deg(self) -> float:
-        """The angle as a person reads it."""
+        """Angle in degrees, as shown to people."""
         return round(math.degrees(self.clockwise_rad), 6)
 
 
 def radials_around(spacing_rad: float) -> list[Radial]:
-    """Radials at multiples of the spacing below a full circle, from the front clockwise."""
+    """Return radials at multiples of the spacing below a full circle, clockwise from the front."""
     count = math.ceil(2.0 * math.pi / spacing_rad - _ROUNDING)
     return [Radial(step + 1, step * spacing_rad, _ray(step * spacing_rad)) for step in range(count)]
 

@@ -19,19 +19,19 @@ class Ray:
 
     @property
     def begins_in_centre(self) -> bool:
-        """Whether its origin is the Car's centre, and no point of its outline."""
+        """True if the origin is the Car's centre instead of a point of its outline."""
         return (self.origin_x, self.origin_y) == (0.0, 0.0)
 
     def point(self, distance_m: float) -> Point:
-        """Point at a distance from the origin."""
+        """Return the point at a distance from the origin."""
         return self.origin_x + distance_m * self.direction_x, self.origin_y + distance_m * self.direction_y
 
     def distance_of(self, point: Point) -> float:
-        """Component along the ray of a point's distance from the origin."""
+        """Return the component of a point's distance from the origin along the ray."""
         return (point[0] - self.origin_x) * self.direction_x + (point[1] - self.origin_y) * self.direction_y
 
     def offset_of(self, point: Point) -> float:
-        """Distance of a point from the ray, positive to the left of its direction."""
+        """Return the distance of a point from the ray, positive to the left of its direction."""
         return (point[1] - self.origin_y) * self.direction_x - (point[0] - self.origin_x) * self.direction_y
 
     @property
@@ -40,7 +40,7 @@ class Ray:
         return wrap_angle(math.atan2(self.direction_y, self.direction_x) + math.pi)
 
     def base_pose(self, distance_m: float, key_in_base: Point) -> Pose:
-        """Pose of base_link that brings the Remote key to a distance on the ray, facing the Car."""
+        """Return the pose of base_link, facing the Car, that brings the Remote key to a distance on the ray."""
         x, y = self.point(distance_m)
         dx, dy = Pose(0.0, 0.0, self.heading).rotate(key_in_base)
         return Pose(x - dx, y - dy, self.heading)
