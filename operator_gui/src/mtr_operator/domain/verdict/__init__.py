@@ -1,2 +1,2 @@
-"""Whether what was measured keeps the limits that the Operator gave: Pass, Inconclusive or Fail."""
+"""Comparison of the results with the Operator's limits: Pass, Inconclusive or Fail."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""What is to be said of a test's distances beside their values: their budgets, and the verdicts on them."""
+"""Assessment of a test's distances: their uncertainty budgets, and the verdicts on them."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -22,16 +22,16 @@ from ..robot_status import CarDimensions
 from ..scenario import AnyScenario, Line, ScenarioParameters
 from .judgement import Circumstances, TestJudgement, guarded, judge
 
-# Columns of the Remote key's height: at an event, or of a zone that lies at it.
+# Columns of the Remote key's height: at an event, or of a zone.
 _HEIGHTS = ("key_height_m", "height_m")
 
 
 @dataclass(frozen=True)
 class Assessment:
-    """Attributes: budgets: one per distance that there is. judgement: None without limits.
+    """Assessment. Attributes: budgets: one for each distance. judgement: None without limits.
 
-    to_outline_m: of lines and words, how far the key was from the nearest point of the Car's outline as the robot's
-    LiDARs saw it; empty where the robot did not say one.
+    to_outline_m: by line and word, distance of the key from the nearest point of the Car's outline as seen by the
+    robot's LiDARs; empty if the robot has not reported an outline.
     """
 
     budgets: tuple[DistanceBudget, ...]
@@ -39,26 +39,27 @@ class Assessment:
     to_outline_m: Mapping[tuple[int, str], float] = field(default_factory=dict)
 
     def decided(self) -> list[int]:
-        """Numbers of the lines that pass or fail."""
+        """Return the numbers of the lines that pass or fail."""
         return [] if self.judgement is None else self.judgement.decided()
 
     def undecided(self) -> list[int]:
-        """Numbers of the lines that more measurements may decide."""
+        """Return the numbers of the lines that more measurements may decide."""
         return [] if self.judgement is None else self.judgement.undecided()
 
     def budget(self, line: int, word: str) -> DistanceBudget | None:
-        """Of a distance; None where nothing was measured."""
+        """Return the budget of a distance; None without a measurement."""
         return next((budget for budget in self.budgets if (budget.line, budget.word) == (line, word)), None)
 
 
 @dataclass(frozen=True)
 class LastingSigmas:
-    """1 sigma in m of the errors of a distance that are not its own alone.
+    """1 sigma in m of the errors that a distance shares with others.
 
     Attributes:
-        outline_m: of the Car's outline; outline_in_place_m: the same once more, in the place of the key, 0 where sides
+        outline_m: of the Car's outline; outline_in_place_m: the same error within the position of the key, 0 if the
+        sides
             are known.
-        timing_m: of the Car's timing, what all tests of it have alike; all_timing_m: what all lines of the test have.
+        timing_m: of the Car's timing, common to all tests of it; all_timing_m: common to all lines of the test.
         robot_m: of its calibration record.
     """
 
@@ -70,7 +71,7 @@ class LastingSigmas:
 
 
 class Assessor:
-    """Assesses results of one test; car: with which the lines were laid out."""
+    """Assesses results of one test; car: dimensions that define the lines."""
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, car: CarDimensions,
                  record: CalibrationRecord):
@@ -82,7 +83,8 @@ class Assessor:
         self._rays = {line.number: line.ray for line in self._lines}
 
     def assess(self, progress: Progress) -> Assessment:
-        """Of all lines measured so far; a boundary with an open end has no budget, for nobody knows how far it is."""
+        """Assess all lines measured so far; a boundary with an open end has no budget, because its distance is
+        unknown."""
         budgets = tuple(self._budget(result, distance) for result in progress.results for distance in result.distances
                         if distance.distance_m is not None)
         judgement = None
@@ -92,8 +94,8 @@ class Assessor:
         return Assessment(budgets, judgement, self._to_outline(progress))
 
     def interval(self, result: LineResult, distance: MeasuredDistance) -> tuple[float, float] | None:
-        """Ends of the 95 % interval of a boundary with all its errors, in m, infinite where one is open; None where the
-        measurement does not say how sure it is."""
+        """Return the ends of the 95 % interval of a boundary with all its errors, in m, infinite if open. None if the
+        measurement has no interval."""
         if distance.low_m is None and distance.high_m is None:
             return None
         return guarded(distance, SIGMAS_OF_LEVEL * self.guard_sigma(result, distance.word))
@@ -116,20 +118,21 @@ class Assessor:
                 if (distance_m := distance.distance_m) is not None}
 
     def _key(self, result: LineResult, word: str, distance_m: float) -> Point:
-        """Where the key was, in the Car coordinate system: beside its line where that was recorded."""
+        """Return the position of the key in the Car coordinate system, including a recorded lateral offset from its
+        line."""
         ray = self._rays[result.number]
         x, y = ray.point(distance_m)
         left_m = _recorded(result, word, "lateral_offset_m") or 0.0
         return x - left_m * ray.direction_y, y + left_m * ray.direction_x
 
     def guard_sigma(self, result: LineResult, word: str) -> float:
-        """1 sigma of all errors but those that repeated attempts show, in m."""
+        """Return 1 sigma of all errors that repeated attempts do not show, in m."""
         distance = next(item for item in result.distances if item.word == word)
         terms = terms_of(self._placed(result, distance), self._carriage(result, word), self._record)
         return math.hypot(*(term.contribution_m for term in terms))
 
     def lasting_sigmas(self, result: LineResult, word: str) -> LastingSigmas:
-        """What of all errors a further test has again, or may have again."""
+        """Return the errors that a further test has, or may have, in common."""
         distance = next(item for item in result.distances if item.word == word)
         length_m, width_m = self._outline(result)
         ray = self._rays[result.number]
@@ -146,14 +149,15 @@ class Assessor:
         return part(self._scenario, Judging).unreached(self._parameters, result, word)
 
     def _placed(self, result: LineResult, distance: MeasuredDistance) -> Measurement:
-        """Place and instant of the key, and the outline, which lines of one side have in common."""
+        """Return the uncertainty of position and time of the key, and of the outline, which lines of one side share."""
         sides = side_errors(self._rays[result.number], self._car)
         common_m = math.hypot(*(side.along_m for side in sides))
         place_m = math.sqrt(max(_place_sigma(result, distance) ** 2 - common_m ** 2, 0.0))
         return Measurement(place_m, 0.0, self._outline(result), sides=sides)
 
     def _outline(self, result: LineResult) -> tuple[float, float]:
-        """Sigmas of the Car's size where the line begins on its outline, and no side's own is known."""
+        """Return the sigmas of the Car's size if the line begins on its outline and the sides' own sigmas are
+        unknown."""
         if self._rays[result.number].begins_in_centre or self._car.knows_sides:
             return 0.0, 0.0
         return self._car.length_sigma, self._car.width_sigma
@@ -168,8 +172,8 @@ class Assessor:
 
 
 def _place_sigma(result: LineResult, distance: MeasuredDistance) -> float:
-    """Of the key when something was measured, the Car's outline included. Without sigmas of the sides that counts
-    twice: to be safe."""
+    """Return the sigma of the key's position at a measurement, including the Car's outline. Without sigmas of the sides
+    the outline counts twice, which is conservative."""
     recorded_m = _recorded(result, distance.word, "uncertainty_m")
     return (distance.uncertainty_m or 0.0) if recorded_m is None else recorded_m
 
@@ -181,6 +185,6 @@ def _attempts_sigma(distance: MeasuredDistance) -> float:
 
 
 def _recorded(result: LineResult, word: str, name: str) -> float | None:
-    """A column about one of the distances: with its word in front where a line has several."""
+    """Return the value of a column for one of the distances; the name has its word as prefix if a line has several."""
     value = getattr(result, f"{word}_{name}", getattr(result, name, None))
     return value if isinstance(value, float) else None

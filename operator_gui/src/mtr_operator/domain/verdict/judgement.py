@@ -1,14 +1,13 @@
-"""Verdicts on a test: guard bands as wide as the 95 % interval, per limit and line, then per line, then for the test.
+"""Verdicts on a test with guard bands of the 95 % interval: per limit and line, per line, and for the test.
 
-A distance passes a limit when its whole interval keeps it, and fails when its whole interval breaks it; in between
-nobody knows. So a Car that lies just beyond a limit passes in at most 2.5 % of the tests, and one that lies just inside
-fails in as many. A line that is judged again after more attempts is judged by wider intervals, so that all looks at it
-together err as rarely (looks). Sources: JCGM 106:2012, 8.3 (guarded acceptance); ISO 14253-1, whose guard band is the
-expanded uncertainty. Another quantity is judged by its own interval in the same way; what that is worth its scenario
-says.
+A distance passes a limit if its whole interval keeps it, and fails if its whole interval breaks it; in between it is
+inconclusive. A Car just beyond a limit therefore passes in at most 2.5 % of the tests, and one just inside fails in at
+most 2.5 %. A line that is judged again after more attempts has wider intervals, so that all looks at it together err as
+rarely (looks). Sources: JCGM 106:2012, 8.3 (guarded acceptance); ISO 14253-1, whose guard band is the expanded
+uncertainty. Another quantity is judged by its own interval in the same way; its scenario defines the confidence.
 
-Where nothing was reached the boundary lies beyond the end of the test, and one end of the interval is open. A key that
-sleeps looks like that as well: "at most" is passed by silence only when the key worked on some line of the test.
+If the boundary was not reached, it lies beyond the end of the test, and one end of the interval is open. A sleeping key
+has the same effect: silence passes "at most" only if the key worked on some line of the test.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
@@ -29,12 +28,13 @@ from .verdict import Verdict, worst
 
 @dataclass(frozen=True)
 class Circumstances:
-    """What a result does not say of its distances.
+    """Information on distances that is not part of a result.
 
     Attributes:
-        guard_sigma_m: of a line's result and the word of a distance: 1 sigma of the errors that are not in its
-            interval, for no repetition shows them.
-        unreached: of the same: between which distances the boundary lies where it was not reached.
+        guard_sigma_m: for a line's result and the word of a distance: 1 sigma of the errors outside its interval,
+        because
+            repetition does not show them.
+        unreached: for the same: bounds of a boundary that was not reached.
     """
 
     guard_sigma_m: Callable[[LineResult, str], float] = lambda _result, _word: 0.0
@@ -48,9 +48,9 @@ _UNTOLD_QUANTITY = "The line does not tell this."
 
 @dataclass(frozen=True)
 class Judgement:
-    """Of one limit on one line. reason: why it is not passed, a sentence; empty when it is.
+    """Judgement of one limit on one line. reason: sentence why it is not passed; empty if it is.
 
-    is_undecided: measuring the line further may decide it.
+    is_undecided: more measurements on the line may decide it.
     """
 
     requirement: Requirement
@@ -62,51 +62,51 @@ class Judgement:
 
 @dataclass(frozen=True)
 class TestJudgement:
-    """Of a whole test."""
+    """Judgement of a whole test."""
 
-    # The name would make pytest collect it.
+    # Otherwise pytest would collect it because of its name.
     __test__ = False
 
     judgements: tuple[Judgement, ...]
 
     @property
     def verdict(self) -> Verdict:
-        """Of the test: the worst."""
+        """Verdict on the test: the worst one."""
         return worst(judgement.verdict for judgement in self.judgements)
 
     def names(self, number: int) -> bool:
-        """True for a line that a limit is about."""
+        """Return True for a line with a limit."""
         return any(judgement.line == number for judgement in self.judgements)
 
     def of_line(self, number: int) -> Verdict:
-        """Of a line: the worst; NOT_SET when no limit names it."""
+        """Return the worst verdict on a line; NOT_SET without a limit."""
         return worst(judgement.verdict for judgement in self.judgements if judgement.line == number)
 
     def reason_of(self, number: int) -> str:
-        """The first sentence about the worst verdict of a line, empty when it passes."""
+        """Return the first sentence about the worst verdict on a line, empty if it passes."""
         verdict = self.of_line(number)
         return next((judgement.reason for judgement in self.judgements
                      if judgement.line == number and judgement.verdict is verdict), "")
 
     def counts(self) -> dict[Verdict, int]:
-        """How many of the lines that a limit names came to which verdict, from good to bad; none that is 0."""
+        """Return the number of lines with a limit for each verdict, from good to bad; zeros are omitted."""
         verdicts = [self.of_line(number) for number in dict.fromkeys(each.line for each in self.judgements)]
         return {verdict: verdicts.count(verdict) for verdict in Verdict if verdict in verdicts}
 
     def decided(self) -> list[int]:
-        """Numbers of the lines that pass or fail."""
+        """Return the numbers of the lines that pass or fail."""
         numbers = dict.fromkeys(judgement.line for judgement in self.judgements)
         return [number for number in numbers if self.of_line(number) in (Verdict.PASS, Verdict.FAIL)]
 
     def undecided(self) -> list[int]:
-        """Numbers of the lines that more measurements may decide; none that fails anyway."""
+        """Return the numbers of the lines that more measurements may decide, without lines that fail anyway."""
         numbers = dict.fromkeys(judgement.line for judgement in self.judgements if judgement.is_undecided)
         return [number for number in numbers if self.of_line(number) is Verdict.INCONCLUSIVE]
 
 
 def judge(limits: Limits, lines: Sequence[Line], results: Sequence[LineResult],
           circumstances: Circumstances = NOTHING_KNOWN) -> TestJudgement:
-    """Judge what was measured; a line without a result is ABORTED."""
+    """Judge the results; a line without a result is ABORTED."""
     by_number = {result.number: result for result in results}
     alive = {distance.word for result in results for distance in result.distances
              if distance.status is LineStatus.OK or distance.low_m is not None}
@@ -140,14 +140,14 @@ def _judge_line(requirement: Requirement, result: LineResult, alive: set[str],
 
 
 def _at_look(distance: MeasuredDistance) -> MeasuredDistance:
-    """With the interval by which a limit is judged: at the level of the last look, where there was one."""
+    """Return the distance with the interval for the judgement: at the level of the last look, if there was one."""
     return distance if distance.look_m is None else replace(distance, low_m=distance.look_m[0],
                                                             high_m=distance.look_m[1])
 
 
 def _judge_quantity(requirement: Requirement, result: LineResult, quantity: MeasuredQuantity,
                     circumstances: Circumstances) -> Judgement:
-    """Nothing is measured further for one: its scenarios have no such way."""
+    """Judge a quantity, which is never undecided, because its scenarios cannot measure further."""
     if not quantity.is_known:
         return Judgement(requirement, result.number, Verdict.INCONCLUSIVE, result.reason or _UNTOLD_QUANTITY)
     guard = (SIGMAS_OF_LEVEL * circumstances.guard_sigma_m(result, quantity.distance_word)
@@ -159,7 +159,7 @@ def _judge_quantity(requirement: Requirement, result: LineResult, quantity: Meas
 
 
 def _compared(requirement: Requirement, result: LineResult, low: float, high: float) -> Judgement:
-    """An interval beside a limit, both in its unit."""
+    """Compare an interval with a limit, both in the limit's unit."""
     if requirement.is_at_least:
         keeps, breaks = low >= requirement.limit, high < requirement.limit
     else:
@@ -173,7 +173,7 @@ def _compared(requirement: Requirement, result: LineResult, low: float, high: fl
 
 
 def _distance(requirement: Requirement, result: LineResult, circumstances: Circumstances) -> MeasuredDistance | None:
-    """That a limit is about; where nothing was reached, with the end that is known."""
+    """Return the distance of a limit; if the boundary was not reached, with the known end."""
     found = next((item for item in result.distances_at(requirement.share_percent) if item.word == requirement.what),
                  None)
     if found is None or found.status is not LineStatus.NOT_REACHED or (found.low_m, found.high_m) != (None, None):
@@ -183,7 +183,7 @@ def _distance(requirement: Requirement, result: LineResult, circumstances: Circu
 
 
 def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDistance | None, alive: set[str]) -> str:
-    """Why a limit cannot be judged on a line, empty when it can."""
+    """Return why a limit cannot be judged on a line, empty if it can."""
     if distance is None or distance.status is LineStatus.INVALID:
         return result.reason or _UNTOLD
     if distance.low_m is None and distance.high_m is None:
@@ -195,7 +195,7 @@ def _obstacle(requirement: Requirement, result: LineResult, distance: MeasuredDi
 
 
 def guarded(distance: MeasuredDistance, guard_m: float) -> tuple[float, float]:
-    """Ends of the interval in m, each moved outwards by what it does not hold; infinite where one is open."""
+    """Return the ends of the interval in m, each moved outwards by the errors outside it; infinite if open."""
     return _widened(distance.distance_m, (distance.low_m, distance.high_m), guard_m)
 
 

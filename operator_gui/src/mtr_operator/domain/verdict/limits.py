@@ -1,4 +1,4 @@
-"""All that a limits file says: the requirements, and how long inconclusive lines may be measured further."""
+"""Content of a limits file: the requirements, and the time for further measurements on inconclusive lines."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ DEFAULT_FURTHER_TIME_S = 600.0
 
 @dataclass(frozen=True)
 class Limits:
-    """Attributes: further_time_limit_s: robot time after the last line that may go into inconclusive ones."""
+    """Limits of a test. Attributes: further_time_limit_s: robot time for inconclusive lines after the last line."""
 
     requirements: tuple[Requirement, ...]
     further_time_limit_s: float = DEFAULT_FURTHER_TIME_S
 
     def to_document(self) -> dict[str, Any]:
-        """Plain values as in the file; what has its default is left out."""
+        """Return plain values as in the file; defaults are omitted."""
         return {"limits": [_entry(requirement) for requirement in self.requirements],
                 "further_time_limit_s": self.further_time_limit_s}
 

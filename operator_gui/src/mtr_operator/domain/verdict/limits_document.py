@@ -31,7 +31,7 @@ from .requirement import (
     Requirement,
 )
 
-# 24 zones of a Car with some limits each; more is no list that a person keeps.
+# 24 zones of a Car with some limits each; a longer list is not maintainable.
 MAX_REQUIREMENTS = 200
 SHARES_PERCENT = (50, 95, 5)
 _MAX_TEXT = 60
@@ -48,7 +48,7 @@ _WIDEST_DEG = 360.0
 
 
 def limits_from(document: Any) -> Limits:
-    """Limits in a document; InvalidLimits says what is wrong where."""
+    """Return the limits in a document; InvalidLimits states fault and position."""
     if not isinstance(document, Mapping):
         raise InvalidLimits("It has to consist of lines of the form 'name: value', one of them 'limits:'.")
     _check_keys(document, _KEYS, "")

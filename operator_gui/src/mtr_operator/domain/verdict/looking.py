@@ -1,4 +1,4 @@
-"""Looks at lines that are measured further: each is recorded with the result, so that a continued test counts it."""
+"""Looks at lines with further measurements: each look is recorded with the result, so that a resumed test counts it."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ..scenario import AnyScenario, ScenarioParameters
 
 
 class Looking:
-    """Looks at the lines of one test; keep: records a changed result; pause: lets the robot's Status be answered."""
+    """Looks at the lines of one test; keep: records a changed result; pause: answers the robot's Status."""
 
     def __init__(self, scenario: AnyScenario, parameters: ScenarioParameters, progress: Progress,
                  keep: Callable[[LineResult], None], pause: Callable[[], Any]):
@@ -24,7 +24,7 @@ class Looking:
         self._pause = pause
 
     def look_first(self, numbers: Sequence[int]) -> None:
-        """Judge lines, which a single look decides, by the wider interval that leaves room for further looks."""
+        """Judge lines that a single look could decide by the wider interval that allows further looks."""
         for number in numbers:
             result = self._result(number)
             share = self._further.share_of_most(self._parameters, result)
@@ -32,7 +32,8 @@ class Looking:
                 self._keep(self._at(result, with_look((), share)))
 
     def next(self, before: LineResult, after: LineResult) -> LineResult:
-        """The result of a line that got more attempts, at its next look; the first look was at the result before."""
+        """Return the result of a line after more attempts, at its next look; the first look was at the previous
+        result."""
         looks = before.looks
         for result in (before, after):
             share = self._further.share_of_most(self._parameters, result)
@@ -41,7 +42,8 @@ class Looking:
         return self._at(after, looks)
 
     def look_last(self) -> None:
-        """No more attempts are made: the last look at each line takes the error probability that is left."""
+        """Finish the looks if no further attempts follow: the last look at each line spends the remaining error
+        probability."""
         for number in self._progress.measured():
             result = self._result(number)
             if result.looks and not is_spent(result.looks):

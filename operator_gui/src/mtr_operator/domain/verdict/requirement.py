@@ -1,4 +1,4 @@
-"""One entry of a limits file: what a distance has to be, on which lines."""
+"""Entry of a limits file: a limit for a distance, and its lines."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,42 +7,42 @@ from dataclasses import dataclass
 
 from ..geometry.ray import Ray
 
-# Entries of a limits file that limit something, with their units; the first are those of distances.
+# Keys of a limits file with a limit, and their units; the keys of distances are first.
 AT_LEAST_M, AT_MOST_M, AT_LEAST_S, AT_MOST_S = "at_least_m", "at_most_m", "at_least_s", "at_most_s"
 AT_MOST_ERROR_M, AT_MOST_PERCENT = "at_most_error_m", "at_most_percent"
 UNITS = {AT_LEAST_M: "m", AT_MOST_M: "m", AT_LEAST_S: "s", AT_MOST_S: "s", AT_MOST_ERROR_M: "m", AT_MOST_PERCENT: "%"}
 OF_DISTANCES = (AT_LEAST_M, AT_MOST_M)
 _AT_LEAST = (AT_LEAST_M, AT_LEAST_S)
-# Sides and corners clockwise from the Car's front, each the middle of an eighth of the circle.
+# Sides and corners clockwise from the Car's front, each at the centre of an eighth of the circle.
 SIDES = ("front", "front_right", "right", "rear_right", "rear", "rear_left", "left", "front_left")
 _FULL_DEG = 360.0
 _SIDE_DEG = _FULL_DEG / len(SIDES)
-# A radial of 45 degrees lies at 45 degrees, whatever the rounding of radians says.
+# Tolerance for rounded radians: a radial of 45 degrees must lie at 45 degrees.
 _ROUNDING_DEG = 1e-6
 
 
 def clockwise_deg(ray: Ray) -> float:
-    """Direction of a line in degrees clockwise from the Car's front, from 0 to below 360."""
+    """Return the direction of a line in degrees clockwise from the Car's front, from 0 to below 360."""
     return round(math.degrees(-math.atan2(ray.direction_y, ray.direction_x)), 6) % _FULL_DEG
 
 
 def side_of(ray: Ray) -> str:
-    """The side or corner of the Car to which a line leads away."""
+    """Return the side or corner of the Car in the direction of a line."""
     return SIDES[round(clockwise_deg(ray) / _SIDE_DEG) % len(SIDES)]
 
 
 @dataclass(frozen=True)
 class Requirement:
-    """What has to be true of a distance, or of another quantity, on the lines that it names.
+    """Requirement on a distance, or on another quantity, on certain lines.
 
     Attributes:
         name: for a person.
-        what: which distance of a line, of the scenario's distance_words, or the word of a quantity.
+        what: distance of a line, from the scenario's distance_words, or the word of a quantity.
         at_least_m, at_most_m, at_least_s, at_most_s, at_most_error_m, at_most_percent: the limit; all but one are None.
         share_percent: the limit is for the distance at which this share of the attempts works.
         sides: of the Car, as in SIDES; empty for all.
-        angles_deg: from and to, clockwise from the Car's front, ends included, through 0 when from is larger; None
-            for all.
+        angles_deg: from and to, clockwise from the Car's front, ends included, through 0 if from is larger; None for
+            all.
     """
 
     name: str
@@ -59,38 +59,38 @@ class Requirement:
 
     @property
     def key(self) -> str:
-        """Which of the limits there is."""
+        """Key of the limit."""
         return next(key for key in UNITS if getattr(self, key) is not None)
 
     @property
     def limit(self) -> float:
-        """The one limit that there is, in its unit."""
+        """Limit, in its unit."""
         return float(getattr(self, self.key))
 
     @property
     def unit(self) -> str:
-        """Of the limit."""
+        """Unit of the limit."""
         return UNITS[self.key]
 
     @property
     def is_at_least(self) -> bool:
-        """False for one that is not to be passed upwards."""
+        """False for an upper limit."""
         return self.key in _AT_LEAST
 
     @property
     def is_of_distance(self) -> bool:
-        """False for one of another quantity, of which no share of the attempts is asked."""
+        """False for another quantity, which has no share of attempts."""
         return self.key in OF_DISTANCES
 
     @property
     def text(self) -> str:
-        """Such as "unlock at least 1.2 m for 50 % of the attempts", or "sleep_time at most 120 s"."""
+        """Return a text such as "unlock at least 1.2 m for 50 % of the attempts", or "sleep_time at most 120 s"."""
         bound = "at least" if self.is_at_least else "at most"
         share = f" for {self.share_percent} % of the attempts" if self.is_of_distance else ""
         return f"{self.what} {bound} {self.limit:g} {self.unit}{share}"
 
     def names(self, ray: Ray) -> bool:
-        """True for a line that it is about."""
+        """Return True for a line of this requirement."""
         return (not self.sides or side_of(ray) in self.sides) and self._has_angle(clockwise_deg(ray))
 
     def _has_angle(self, angle_deg: float) -> bool:

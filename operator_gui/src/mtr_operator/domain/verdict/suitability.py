@@ -1,4 +1,4 @@
-"""Whether limits suit a test, before the robot moves: they name its lines and distances, and do not contradict."""
+"""Check of limits before the robot moves: they must match the test's lines and distances, and not contradict."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _POINT = CarDimensions(0.0, 0.0, 0.0, 0.0)
 
 
 def check_distances(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
-    """Raise InvalidLimits unless the scenario measures what is limited, with these parameters."""
+    """Raise InvalidLimits unless the scenario measures the limited quantities with these parameters."""
     quantities = {each.word: each for each in part(scenario, Judging).judged_quantities(parameters)}
     for requirement in limits.requirements:
         quantity = quantities.get(requirement.what)
@@ -63,13 +63,13 @@ def _check_key(requirement: Requirement, keys: Sequence[str]) -> None:
 
 
 def check_before_start(limits: Limits, scenario: AnyScenario, parameters: ScenarioParameters) -> None:
-    """Raise InvalidLimits when no Car can make them suit: where lines lead does not depend on the Car's size."""
+    """Raise InvalidLimits if the limits match no Car: the directions of lines do not depend on the Car's size."""
     check_distances(limits, scenario, parameters)
     check_lines(limits, scenario.lines(parameters, _POINT), scenario.line_word)
 
 
 def check_lines(limits: Limits, lines: Sequence[Line], line_word: str) -> None:
-    """Raise InvalidLimits for a limit that names no line, and for two that no Car can keep on a line."""
+    """Raise InvalidLimits for a limit without a line, and for two limits that no Car can keep on a line."""
     for requirement in limits.requirements:
         if not any(requirement.names(line.ray) for line in lines):
             raise InvalidLimits(f"Limit {requirement.name!r} names no {line_word} of this test.")
@@ -85,6 +85,7 @@ def _of(limits: Limits, ray: Ray) -> list[Requirement]:
 
 
 def _contradict(lower: Requirement, upper: Requirement) -> bool:
-    """A larger share works at a smaller distance; so a lower bound for it holds for the smaller share as well."""
+    """Return True for a contradiction. A larger share works at a smaller distance; a lower bound for it therefore also
+    applies to the smaller share."""
     return (lower.what == upper.what and lower.is_at_least and not upper.is_at_least
             and lower.share_percent >= upper.share_percent and lower.limit >= upper.limit)

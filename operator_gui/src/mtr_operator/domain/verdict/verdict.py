@@ -1,4 +1,4 @@
-"""The verdicts and their order: a parent takes the worst of its children, as in OpenTAP."""
+"""Verdicts and their order: a parent has the worst verdict of its children, as in OpenTAP."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Iterable
 
 
 class Verdict(enum.IntEnum):
-    """From good to bad; the numbers only order them."""
+    """Verdicts from good to bad; the numbers only define the order."""
 
     NOT_SET = 0
     PASS = 1
@@ -18,10 +18,10 @@ class Verdict(enum.IntEnum):
 
     @property
     def word(self) -> str:
-        """As it stands in files and sentences."""
+        """Verdict in files and sentences."""
         return self.name.lower()
 
 
 def worst(verdicts: Iterable[Verdict]) -> Verdict:
-    """The worst one; NOT_SET when there is none."""
+    """Return the worst verdict; NOT_SET without any."""
     return max(verdicts, default=Verdict.NOT_SET)

@@ -1,4 +1,4 @@
-"""Intervals that the last estimate, with what all lines say, made wider: the Operator is told of each."""
+"""Reports intervals that became wider in the last estimate, which uses all lines."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -6,12 +6,12 @@ from typing import Iterator, Sequence
 
 from ..results.line_result import LineResult, MeasuredDistance
 
-# Of the interval before: what other lines say moves each interval a little, to either side.
+# Ratio to the previous interval: data of other lines changes each interval slightly, in both directions.
 _WIDER = 1.25
 
 
 def widened_text(line_word: str, before: Sequence[LineResult], after: Sequence[LineResult]) -> str:
-    """A sentence on lines whose 95 % interval is clearly wider after than before; empty when there is none."""
+    """Return a sentence on lines whose 95 % interval became clearly wider; empty without any."""
     former = {result.number: result for result in before}
     found = [text for result in after if result.number in former for text in _widened(former[result.number], result)]
     if not found:
