@@ -1,2 +1,2 @@
-"""The robot's clock beside its steady one and the laptop's: set, simulated, apart."""
+"""Robot's clock compared with its steady clock and with the laptop's: steps, simulation, offset."""
 # SPDX-License-Identifier: Apache-2.0

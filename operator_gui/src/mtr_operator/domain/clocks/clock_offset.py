@@ -1,4 +1,4 @@
-"""How far the robot's clock is ahead of this laptop's: no measurement needs it, whoever compares logs does."""
+"""Offset of the robot's clock from this laptop's: irrelevant for measurements, but needed to compare logs."""
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
@@ -11,17 +11,18 @@ from ..robot_status import RobotStatus
 from .clock_step import clock_was_set
 from .simulated_time import is_simulated
 
-# Above every delay of a Wi-Fi that works; dates of two logs within it are compared by eye.
+# Above all delays of a working Wi-Fi; dates of two logs within this offset are compared by eye.
 MAX_OFFSET_S = 1.0
-# Five seconds of Status: the least late of them comes at once, and a laptop's clock that was set is forgotten as soon.
+# Five seconds of Status: the Status with the least delay arrives early, and a step of the laptop's clock expires as
+# fast.
 _KEPT = 50
 _S_PER_MIN, _MIN_PER_H, _H_PER_DAY = 60, 60, 24
-# Up to here in seconds.
+# Durations up to this are shown in seconds.
 _LONGEST_IN_S = 90.0
 
 
 class ClockOffset:
-    """Fed with every Status as it arrives. wall_clock: the laptop's time of day, s since 1970."""
+    """Offset, updated with every Status at its arrival. wall_clock: the laptop's time of day, s since 1970."""
 
     def __init__(self, wall_clock: Callable[[], float] = time.time):
         self._wall_clock = wall_clock
@@ -30,14 +31,14 @@ class ClockOffset:
 
     @property
     def ahead_s(self) -> float:
-        """Robot's clock less the laptop's; NaN before a Status, and of a robot that tells simulated time.
+        """Robot's clock less the laptop's; NaN before a Status, and for a robot with simulated time.
 
-        A Status is on its way for some time, which makes the robot's clock look late: the least late one counts.
+        The transmission delay of a Status makes the robot's clock appear late, so the least delay counts.
         """
         return max(self._ahead_s, default=math.nan)
 
     def learn(self, status: RobotStatus) -> None:
-        """A Status has arrived just now; another start of the robot, or a clock that was set, begins anew."""
+        """Add a Status that has just arrived; a restarted robot, or a clock that was set, restarts the estimate."""
         before, self._before = self._before, status
         if before is not None and (before.robot_session_id != status.robot_session_id or clock_was_set(before, status)):
             self._ahead_s.clear()
@@ -46,12 +47,12 @@ class ClockOffset:
 
 
 def are_apart(ahead_s: float) -> bool:
-    """True when whoever compares dates has to know of the offset; False for NaN, an unknown one."""
+    """Return True if the offset matters for the comparison of dates; False for NaN, an unknown one."""
     return abs(ahead_s) > MAX_OFFSET_S
 
 
 def offset_sentence(ahead_s: float) -> str:
-    """What the Operator has to know of clocks that are apart; empty of others."""
+    """Return a sentence for the Operator on clocks that are apart; empty otherwise."""
     if not are_apart(ahead_s):
         return ""
     side = "ahead of" if ahead_s > 0 else "behind"
@@ -61,7 +62,7 @@ def offset_sentence(ahead_s: float) -> str:
 
 
 def span_text(seconds: float) -> str:
-    """Such as "4.2 s", "9 min", "1 h 5 min", "2 d 3 h"."""
+    """Return a text such as "4.2 s", "9 min", "1 h 5 min", "2 d 3 h"."""
     if seconds < _LONGEST_IN_S:
         return f"{seconds:.1f} s"
     minutes = round(seconds / _S_PER_MIN)
