@@ -10,9 +10,9 @@
 namespace mtr_drive_control {
 namespace {
 
-// Longer without a step is a pause.
+// A longer time without a step is a pause.
 constexpr double kPausePeriods = 2.0;
-// What waited in the queues has arrived by then.
+// Queued commands have arrived within this time.
 constexpr std::int64_t kDeafNs = 100 * mtr_core::kMillisecondNs;
 
 double toward(double wanted, double now, double step) { return std::clamp(wanted, now - step, now + step); }

@@ -26,7 +26,7 @@ std::string changed_limit(const BaseLimits& start, const BaseLimits& now, const 
       {"/linear/x/max_acceleration", start.linear_acceleration_mps2, now.linear_acceleration_mps2},
       {"/angular/z/max_acceleration", start.angular_acceleration_radps2, now.angular_acceleration_radps2}};
   for (const auto& [limit, before, after] : limits) {
-    // What is no number differs from everything.
+    // NaN differs from everything.
     if (!(before == after)) {
       std::ostringstream text;
       text << "Parameter " << name << limit << " was " << before << " and is " << after << '.';

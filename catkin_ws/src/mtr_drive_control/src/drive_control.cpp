@@ -1,5 +1,5 @@
 /// @file
-/// Choice of the source of motion.
+/// Selection of the source of motion.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/drive_control.hpp"
 
@@ -13,11 +13,11 @@ namespace mtr_drive_control {
 namespace {
 
 constexpr double kRoundingS = 1e-9;
-// What was sent longer ago says nothing of the wheels.
+// Commands sent longer ago do not describe the wheels' motion.
 constexpr double kAwayAfterPeriods = 2.0;
-// A contradiction is forgotten when nobody has wanted to move for so long.
+// A contradiction is released after this time without a motion request.
 constexpr double kRestS = 1.0;
-// The lock that is the Operator's own order, see mtr_dispatcher's problems.
+// The lock ordered by the Operator, see mtr_dispatcher's problems.
 constexpr char kOrderedStop[] = "dispatcher.stopped_by_operator";
 
 }  // namespace
@@ -47,7 +47,7 @@ Decision DriveControl::step(std::int64_t tick_ns, const Inputs& inputs) {
   const std::vector<EngagedLock> locks = locks_at(tick_ns, inputs);
   if (contradiction_ ||
       std::any_of(locks.begin(), locks.end(), [](const EngagedLock& lock) { return lock.emergency; })) {
-    // Somebody may carry the robot, or push it.
+    // A person may carry or push the robot.
     collision_stop_.forget_ground();
   }
   const Selection selection =
@@ -142,7 +142,7 @@ bool DriveControl::permits_tilt(const Selection& selection, Decision& decision) 
   const mtr_core::Problem problem = tilt_.problem(limits_, selection.source == "manual");
   const mtr_core::Problem told = problem ? problem : tilt_.warning();
   const Zone zone = !problem ? Zone::kSlowed : tilt_.is_known() ? Zone::kBlocked : Zone::kBlind;
-  // A blind robot says what it does not see, and one that a person drives what is in its way.
+  // Blindness keeps its own message, and so does an obstacle while the tilt is only a warning.
   if (told && decision.zone != Zone::kBlind && (problem || decision.zone < Zone::kBlocked)) {
     decision.zone = zone;
     decision.hindrance.reset();
@@ -211,7 +211,7 @@ void DriveControl::watch_tilt(std::int64_t tick_ns, const Inputs& inputs) {
 }
 
 DriveControl::Selection DriveControl::wanted_at(std::int64_t tick_ns, const Inputs& inputs) const {
-  // A manual controller that falls silent while it drives keeps the floor: the planner must not set off by surprise.
+  // A manual controller that becomes silent while it drives keeps control: the planner must not start unexpectedly.
   if (inputs.manual && inputs.manual->active) {
     return selection_of("manual", inputs.manual, tick_ns);
   }
@@ -230,7 +230,7 @@ DriveControl::Selection DriveControl::limited(Selection selection, const std::op
   if (!mtr_core::is_fresh(limit->stamp_ns, tick_ns, parameters_.lock_timeout_s)) {
     return {"none", std::nullopt, problems::kSourceSilent({{"source", who}})};
   }
-  // NaN is no limit that permits anything; the planner reports it.
+  // NaN permits no motion; the planner reports it.
   const double max_mps = limit->max_mps > 0.0 ? limit->max_mps : 0.0;
   const double wanted_mps = std::abs(selection.velocity->linear_mps);
   const double share = max_mps == 0.0 ? 0.0 : std::min(1.0, max_mps / std::max(wanted_mps, max_mps));

@@ -1,5 +1,5 @@
 /// @file
-/// Beginnings of manual driving, blockages and locks.
+/// Detects the starts of manual driving, blockages and locks.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/interventions.hpp"
 

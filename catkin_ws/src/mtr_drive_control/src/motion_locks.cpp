@@ -1,5 +1,5 @@
 /// @file
-/// Reasons to stand still, and the silence of their owners.
+/// Motion locks, and the silence of their owners.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/motion_locks.hpp"
 

@@ -1,5 +1,5 @@
 /// @file
-/// Contradictions between what was sent and what is measured.
+/// Contradictions between commands and measurements.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/motion_watch.hpp"
 
@@ -12,24 +12,24 @@
 namespace mtr_drive_control {
 namespace {
 
-// A base answers within this, in s: its loop, its acceleration limit, the way of the odometry.
+// Response time of a base, in s: control loop, acceleration limit, delay of the odometry.
 constexpr double kAnswerS = 0.4;
-// A contradiction counts when it lasts so long, in s; at full speed it costs 0.4 m.
+// Time after which a contradiction counts, in s; at full speed it costs 0.4 m.
 constexpr double kContradictionS = 0.5;
-// Wheels slip for a moment on grass and kerbs.
+// Wheels slip briefly on grass and kerbs.
 constexpr double kSlipS = 0.7;
-// What moves at less than this may stand still for its encoders.
+// Below these speeds the encoders may show standstill.
 constexpr double kMovesMps = 0.05;
 constexpr double kMovesRadps = 0.15;
-// Wheels that stand may seem to move by this: servos that settle creep by some mm/s, and an encoder that flickers by a
-// count in 20 ms shows 0.6 mm/s where a count is 13 um, as on a Jackal, and 10 mm/s where it is 0.2 mm. It is a quarter
-// of the least motion that counts, so that a base which follows a crawl is far from it.
+// Apparent motion of stopped wheels. Settling servos creep by some mm/s. An encoder that flickers by one count in 20 ms
+// shows 0.6 mm/s with counts of 13 um, as on a Jackal, and 10 mm/s with counts of 0.2 mm. The limit is a quarter of the
+// least motion that counts, so a base that follows a crawl is far from it.
 constexpr double kStandsMps = 0.25 * kMovesMps;
 constexpr double kStandsRadps = 0.25 * kMovesRadps;
-// Beyond what was sent lately, plus this, the base does something else. A jolt is shorter than kContradictionS.
+// Motion beyond the recent commands plus this is uncommanded. A jolt is shorter than kContradictionS.
 constexpr double kDisobeysMps = 0.2;
 constexpr double kDisobeysRadps = 0.5;
-// A skid-steered robot turns by a third more or less than its wheels say, by the ground.
+// Depending on the ground, a skid-steered robot turns by a third more or less than its wheels show.
 constexpr double kSlipRadps = 0.4;
 constexpr double kSlipShare = 0.5;
 

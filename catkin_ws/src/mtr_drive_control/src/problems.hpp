@@ -1,5 +1,5 @@
 /// @file
-/// What drive control says to the Operator; a test reads this table too.
+/// Sentences that drive control reports to the Operator; a test reads this table too.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@ namespace mtr_drive_control::problems {
 
 using mtr_core::Sentence;
 
-// Sources of motion, and those that lock it
+// Sources of motion, and their locks
 constexpr Sentence kWaitingForLock{"drive_control.waiting_for_lock", "Waiting for the motion lock of {owner}."};
 constexpr Sentence kLockSilent{"drive_control.lock_silent", "The motion lock of {owner} is silent."};
 constexpr Sentence kEmergencyNotReleased{

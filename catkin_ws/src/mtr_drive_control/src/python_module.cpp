@@ -19,7 +19,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Numbers by the names of the parameters; an unknown name is an error.
+/// Reads numbers by the names of the parameters; an unknown name is an error.
 template <typename P, typename Rows>
 P parameters_of(const Rows& rows, const py::dict& values) {
   P parameters;
@@ -43,7 +43,7 @@ py::dict values_of(const Rows& rows, const P& parameters) {
   return values;
 }
 
-/// From an object with the attributes of mtr_simulation.readings.Scan.
+/// Converts an object with the attributes of mtr_simulation.readings.Scan.
 std::shared_ptr<const Sweep> sweep_of(const py::object& scan) {
   if (scan.is_none()) {
     return nullptr;
@@ -67,7 +67,7 @@ std::optional<Motion> motion_of(std::int64_t stamp_ns, const py::object& odometr
                 {number("linear_mps"), number("angular_radps")}};
 }
 
-/// From an object with the attributes of mtr_simulation.readings.ImuReading.
+/// Converts an object with the attributes of mtr_simulation.readings.ImuReading.
 std::optional<ImuReading> imu_of(std::int64_t stamp_ns, const py::object& imu) {
   if (imu.is_none()) {
     return std::nullopt;
@@ -101,7 +101,7 @@ Decision step(DriveControl& control, std::int64_t tick_ns, const std::optional<s
   return control.step(tick_ns, inputs);
 }
 
-/// Map of a site without anything, free up to this distance from its origin, and where odom is located in it.
+/// Map of an empty site, free up to this distance from its origin, with the pose of odom in it.
 LocalizedMap empty_map(double half_side_m, const std::tuple<double, double, double>& map_from_odom) {
   constexpr double kCellM = 0.1;
   const auto side = static_cast<std::size_t>(2.0 * half_side_m / kCellM);
@@ -111,7 +111,7 @@ LocalizedMap empty_map(double half_side_m, const std::tuple<double, double, doub
   return {map, Pose(x_m, y_m, heading_rad)};
 }
 
-/// The newest sweep of a LiDAR, the same until another is taken.
+/// Newest sweep of a LiDAR, unchanged until another is set.
 class SweepHolder {
  public:
   void take(const py::object& scan) { sweep_ = sweep_of(scan); }
@@ -121,7 +121,7 @@ class SweepHolder {
   std::shared_ptr<const Sweep> sweep_;
 };
 
-/// Stamp in ns, m/s, rad/s, and whether the source wants anything.
+/// Stamp in ns, m/s, rad/s, and true if the source is active.
 using CommandTuple = std::tuple<std::int64_t, double, double, bool>;
 
 std::optional<SourceCommand> source_command_of(const std::optional<CommandTuple>& command) {
@@ -132,7 +132,7 @@ std::optional<SourceCommand> source_command_of(const std::optional<CommandTuple>
   return SourceCommand{stamp_ns, {linear_mps, angular_radps}, active};
 }
 
-/// Drive control of a whole robot: with the locks and counters that its node keeps beside it.
+/// Drive control of a whole robot, including the locks and counters of its node.
 class RobotDrive {
  public:
   RobotDrive(const std::string& urdf, bool has_rear_lidar, const std::vector<std::string>& lock_owners, double period_s)
@@ -149,8 +149,8 @@ class RobotDrive {
     locks_.take(owner, {stamp_ns, engaged, mtr_core::problem_in(problems, reason)});
   }
 
-  /// @param key stamp in ns and height in m, where it is known
-  /// @param speed_limit stamp in ns and m/s of the state machine's newest mode; nothing before the first one
+  /// @param key stamp in ns and height in m, if known
+  /// @param speed_limit stamp in ns and m/s of the state machine's newest mode; empty before the first one
   Decision step(std::int64_t tick_ns, const py::object& odometry, const py::object& imu,
                 const std::optional<std::pair<std::int64_t, double>>& key, const std::optional<CommandTuple>& planner,
                 const std::optional<std::pair<std::int64_t, double>>& speed_limit) {
@@ -174,7 +174,7 @@ class RobotDrive {
   }
 
  private:
-  /// Whoever is to speak has spoken: nobody is waited for.
+  /// All senders have already published, so there is nothing to wait for.
   static mtr_core::Waiting in_lockstep() {
     return {[](double) { return false; }, [] { return 0.0; }, 0.0};
   }

@@ -14,7 +14,7 @@ using mtr_description::check_value;
 using mtr_description::Mount;
 
 constexpr double kPi = 3.14159265358979323846;
-// A LiDAR sees three quarters of a turn; turned by more, it would not see both sides of what it is there for.
+// A LiDAR sees three quarters of a turn; with a larger rotation it would not see both sides of its direction.
 constexpr double kMaxTurnRad = 0.25 * kPi;
 
 Footprint footprint_of(const mtr_description::Footprint& found) {
@@ -24,7 +24,7 @@ Footprint footprint_of(const mtr_description::Footprint& found) {
   return {found.front_m, found.rear_m, found.half_width_m};
 }
 
-/// @param ahead_rad direction in base_link in which the LiDAR has to point
+/// @param ahead_rad required direction of the LiDAR in base_link
 LidarMount lidar_of(const Mount& mount, double ahead_rad) {
   mtr_description::check_level(mount);
   check_value("The turn of " + mount.frame + (ahead_rad == 0.0 ? " from straight ahead" : " from straight back"),
@@ -32,10 +32,10 @@ LidarMount lidar_of(const Mount& mount, double ahead_rad) {
   return {mount.x_m, mount.y_m, mount.yaw_rad};
 }
 
-// Lengths are measured, and masses weighed, to this; the limit of tipping changes by 4 % at most.
+// Accuracy of measured lengths and weighed masses; the tip-over limit changes by at most 4 %.
 constexpr double kAgreementM = 0.005;
 
-/// The parameter has to be what the URDF says, within the tolerance.
+/// Requires that the parameter matches the URDF within the tolerance.
 void check_agreement(const std::string& name, double value, double described, const std::string& unit) {
   const double low = described - kAgreementM;
   const double high = described + kAgreementM;

@@ -14,30 +14,31 @@ namespace {
 
 constexpr double kGravityMps2 = 9.81;
 constexpr double kPi = 3.14159265358979323846;
-// The accelerometer counts in the mean over this, in s. A change of speed by 1 m/s that the wheels do not show tilts
-// the estimate by 1 / (9.81 * 3), which is 1.9 deg; a gyro whose bias has changed by 0.2 deg/s tilts it by 0.6 deg.
+// Averaging time of the accelerometer, in s. A change of speed by 1 m/s that the wheels do not show tilts the estimate
+// by 1 / (9.81 * 3), which is 1.9 deg; a gyro whose bias has changed by 0.2 deg/s tilts it by 0.6 deg.
 constexpr double kPullS = 3.0;
-// The first reading counts as so much of that mean, in s, so that a start of the wheels right after it is no tilt.
+// Weight of the first reading in this mean, in s, so that a start of the wheels right after it does not count as a
+// tilt.
 constexpr double kFirstS = 0.2;
 // A wheel on a cable or joint tilts the robot for less than this, in s.
 constexpr double kJoltS = 0.25;
-// A reading shows gravity when its size is as near to it as this, in m/s2: braking at 2.5 m/s2 makes 0.3, and a unit of
-// g instead of m/s2 is far away.
+// Tolerance of gravity's magnitude, in m/s2: braking at 2.5 m/s2 changes it by 0.3, and a unit of g instead of m/s2 is
+// far outside.
 constexpr double kGravityToleranceMps2 = 2.0;
-// Without such a reading for so long the tilt is not known, in s; jolts of rough ground are shorter.
+// Without such a reading for this time, in s, the tilt is unknown; jolts of rough ground are shorter.
 constexpr double kUnseenS = 0.5;
-// After a longer pause, in s, the gyro has missed what happened.
+// After a longer pause, in s, the gyro has missed rotation.
 constexpr double kPauseS = 0.3;
 // A base of this class accelerates by less; more is a jump of the odometry.
 constexpr double kMostWheelsMps2 = 4.0;
-// Wheels that stand, as in motion_watch.cpp.
+// Limits of stopped wheels, as in motion_watch.cpp.
 constexpr double kStandsMps = 0.0125;
 constexpr double kStandsRadps = 0.0375;
-// The bias is the gyro's mean over this while the wheels stand, in s, and an uncalibrated MEMS gyro has less than 3
+// Averaging time of the gyro's bias while the wheels are stopped, in s; an uncalibrated MEMS gyro has less than 3
 // deg/s.
 constexpr double kBiasS = 2.0;
 constexpr double kMostBiasRadps = 0.052;
-// Released when this much more level than where it stopped: 1 deg, more than the robot nods when it brakes.
+// Hysteresis of the release: 1 deg, more than the robot pitches in braking.
 constexpr double kHysteresisRad = 0.01745;
 
 Vector3 unit(const Vector3& vector) {
@@ -49,12 +50,12 @@ Vector3 between(const Vector3& from, const Vector3& to, double share) {
   return {from.x + share * (to.x - from.x), from.y + share * (to.y - from.y), from.z + share * (to.z - from.z)};
 }
 
-/// Share of a new reading in a mean over filter_s, of which used_s have been.
+/// Weight of a new reading in a mean over filter_s, of which used_s have been filled.
 double share_of(double step_s, double used_s, double filter_s) {
   return std::min(1.0, step_s / std::min(filter_s, used_s + step_s));
 }
 
-/// Direction of gravity that a reading shows; nothing when it shows none.
+/// Direction of gravity in a reading; empty if the reading does not show it.
 std::optional<Vector3> gravity_in(const ImuReading& imu, const Vector3& acceleration) {
   const Vector3 force{imu.forces_mps2[0] - acceleration.x, imu.forces_mps2[1] - acceleration.y, imu.forces_mps2[2]};
   const double size = std::sqrt(force.x * force.x + force.y * force.y + force.z * force.z);

@@ -12,20 +12,20 @@ namespace {
 constexpr double kGravityMps2 = 9.81;
 
 double centre_of_mass_m(const Parameters& parameters, double key_height_m) {
-  // Also takes the raised mast for an unknown height, which is NaN.
+  // An unknown height, NaN, counts as a raised mast.
   const double height_m =
       key_height_m >= 0.0 ? std::min(key_height_m, parameters.key_raised_m) : parameters.key_raised_m;
   return parameters.centre_of_mass_m + parameters.centre_of_mass_rise * height_m;
 }
 
-// A robot that lies on its side still has a deceleration; nothing moves it there.
+// A robot that lies on its side still needs a positive deceleration; it does not move there.
 constexpr double kLeastShare = 0.15;
 constexpr double kUprightRad = 1.5;
 
-/// Share of an acceleration limit that is left when the slope pulls with this acceleration, too.
+/// Share of an acceleration limit that remains if the slope pulls with this acceleration.
 double share_left(double limit_mps2, double pull_mps2) { return std::max(kLeastShare, 1.0 - pull_mps2 / limit_mps2); }
 
-/// Lowers the limits of level ground to those of a slope.
+/// Reduces the limits of level ground to the limits of a slope.
 void reduce(Limits& limits, double along_mps2, double across_mps2, double tilt_rad) {
   const double excess_rad = std::min(tilt_rad, kUprightRad) - limits.tilt_slow_rad;
   const double pull_mps2 = kGravityMps2 * std::sin(excess_rad);
@@ -40,7 +40,7 @@ void reduce(Limits& limits, double along_mps2, double across_mps2, double tilt_r
     return level + steepness * (std::min(level, creep) - level);
   };
   limits.max_linear_mps = std::min(slowed(limits.max_linear_mps, limits.tilt_creep_mps), limits.fastest_straight_mps());
-  // The yaw rate whose stop is as hard on the wheels as one from this speed.
+  // Yaw rate with a stop that loads the wheels like one from this speed.
   limits.max_angular_radps = slowed(limits.max_angular_radps, limits.tilt_creep_mps / limits.curve_lever_m);
 }
 

@@ -18,7 +18,7 @@ Velocity VelocityLimiter::toward(const Velocity& wanted) const {
 
 Velocity VelocityLimiter::braked() const {
   const double remaining_s = limits_.stop_time_s(sent_);
-  // A remainder below a thousandth of a period is rounding, not a reason for another tick of motion.
+  // A remainder below a thousandth of a period is rounding and needs no further tick of motion.
   const double kept = remaining_s > 1.001 * braking_s_ ? 1.0 - braking_s_ / remaining_s : 0.0;
   return sent_.scaled(kept);
 }
@@ -37,7 +37,7 @@ double VelocityLimiter::next_linear(double wanted_mps) const {
     const double step = limits_.linear_acceleration_mps2 * period_s_;
     return std::clamp(wanted_mps, -step, step);
   }
-  // In the direction of travel: faster by acceleration, slower by deceleration, and never through zero in one step.
+  // In the direction of travel: acceleration when faster, deceleration when slower, and never through zero in one step.
   const double sign = now_mps > 0.0 ? 1.0 : -1.0;
   const double speed_mps = std::abs(now_mps);
   const double slowest = std::max(0.0, speed_mps - limits_.linear_deceleration_mps2 * braking_s_);
@@ -49,7 +49,7 @@ double VelocityLimiter::next_angular(double wanted_radps) const {
   const double sign = sent_.angular_radps < 0.0 ? -1.0 : 1.0;
   const double rate_radps = std::abs(sent_.angular_radps);
   const double step_radps = limits_.angular_acceleration_radps2 * period_s_;
-  // The turn may be reversed in a step, by no more than it would begin with.
+  // The turn may be reversed within a step, limited to the rate of a start.
   const double slowest = std::max(rate_radps - limits_.angular_acceleration_radps2 * braking_s_, -step_radps);
   return sign * std::clamp(sign * wanted_radps, slowest, rate_radps + step_radps);
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Functions of the standard library in the few instructions that the usual arguments need, with the same results.
+/// Faster versions of standard functions for the usual arguments, with identical results.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,18 +20,18 @@ inline double wrapped_rad(double angle_rad) {
   if (size_rad <= 0.5 * kTurnRad) {
     return angle_rad;
   }
-  // Up to twice a turn the difference of two doubles has no rounding.
+  // Up to twice a turn the difference of two doubles has no rounding error.
   return size_rad < 1.5 * kTurnRad ? std::copysign(1.0, angle_rad) * (size_rad - kTurnRad)
                                    : std::remainder(angle_rad, kTurnRad);
 }
 
-/// std::floor as an int, which has to hold it.
+/// std::floor as an int; the result must be representable.
 inline int floored(double value) {
   const int towards_zero = static_cast<int>(value);
   return towards_zero - (value < static_cast<double>(towards_zero) ? 1 : 0);
 }
 
-/// std::round as an index; nothing when it is negative, at least `size` or NaN.
+/// std::round as an index; empty if it is negative, at least `size` or NaN.
 inline std::optional<std::size_t> rounded_index(double value, std::size_t size) {
   if (!(value > -0.5 && value < static_cast<double>(size))) {
     return std::nullopt;
@@ -41,7 +41,7 @@ inline std::optional<std::size_t> rounded_index(double value, std::size_t size) 
   return index < size ? std::optional<std::size_t>(index) : std::nullopt;
 }
 
-/// Compares distance_m(a, b) with a positive limit: their squares decide unless they are equal but for rounding.
+/// Compares distance_m(a, b) with a positive limit: the squares decide unless they are equal except for rounding.
 template <typename Compare>
 bool compares(const Point& a, const Point& b, double limit_m, Compare compare) {
   constexpr double kRounding = 1e-12;

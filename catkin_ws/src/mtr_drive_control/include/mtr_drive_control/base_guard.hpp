@@ -1,5 +1,5 @@
 /// @file
-/// Velocity for a base that has no limits of its own that the mast would survive.
+/// Velocity limits for a base whose own limits would tip the mast.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,18 +11,19 @@
 
 namespace mtr_drive_control {
 
-/// What the base itself would do with the limits: follow commands no faster than they allow, and stop when none comes.
+/// Substitute for limits in the base: follows commands with limited acceleration, and stops without commands.
 ///
-/// After a pause of its own, in which a base stops by its time-out, it begins from standstill; after a shorter one from
-/// what it sent last. Commands that waited in a queue meanwhile bear no time, so for a moment none is listened to.
+/// After an own pause long enough for the base's time-out, it begins from standstill; after a shorter one from the last
+/// velocity that it sent. Commands that waited in a queue during the pause have no time stamp, so for a short time all
+/// commands are ignored.
 class BaseGuard {
  public:
   BaseGuard(const BaseLimits& limits, double period_s) : limits_(limits), period_s_(period_s) {}
 
-  /// A command that arrives now, ns of a clock that nobody sets; one that is not finite counts as none.
+  /// Accepts a command that arrives now, ns of a clock that is never set; a non-finite command is ignored.
   void take(std::int64_t now_ns, const Velocity& command);
 
-  /// Velocity to send; to be called once per period.
+  /// Returns the velocity to send; must be called once per period.
   Velocity step(std::int64_t now_ns);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// What drive control decides at a tick.
+/// Decision of drive control at a tick.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace mtr_drive_control {
 
-/// Velocity to send, and why.
+/// Velocity to send, and its reason.
 struct Decision {
   Velocity velocity;
   /// none, locked, manual or planner.
   std::string source;
   std::vector<std::string> engaged_locks;
-  /// One of them is no stop that the Operator ordered.
+  /// One of them is not a stop ordered by the Operator.
   bool is_unordered_lock = false;
-  /// One sentence, empty when all is well.
+  /// One sentence, empty without a problem.
   mtr_core::Problem message;
   Zone zone = Zone::kClear;
   std::optional<Hindrance> hindrance;

@@ -42,7 +42,7 @@ class Pose {
     return {cos_ * dx + sin_ * dy, cos_ * dy - sin_ * dx};
   }
 
-  /// Pose of a base that moves with this velocity for this time (negative: before), on a circle or straight.
+  /// Pose of a base that moves with this velocity for this time (negative: backwards in time), on a circle or straight.
   Pose after(const Velocity& velocity, double time_s) const {
     const double turn = velocity.angular_radps * time_s;
     if (turn == 0.0) {
@@ -69,13 +69,13 @@ class Pose {
   double sin_ = 0.0;
 };
 
-/// Rectangle about base_link that holds everything of the robot, the key in front included.
+/// Rectangle around base_link that contains the whole robot, including the key in front.
 struct Footprint {
   double front_m;
   double rear_m;
   double half_width_m;
 
-  /// True at a distance of 0.
+  /// True inside and at a distance of 0.
   bool contains(const Point& point) const {
     return point.x_m >= -rear_m && point.x_m <= front_m && std::abs(point.y_m) <= half_width_m;
   }

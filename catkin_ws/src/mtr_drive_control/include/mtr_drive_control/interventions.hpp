@@ -1,5 +1,5 @@
 /// @file
-/// What happened to the robot's motion beside the Operator's orders.
+/// Interventions in the robot's motion, other than the Operator's orders.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,20 +9,20 @@
 
 namespace mtr_drive_control {
 
-/// Counters since the start; they only grow.
+/// Counters since the start; they never decrease.
 struct Interventions {
-  /// Times that the manual controller took the wheels.
+  /// Number of times that the manual controller took over.
   std::uint32_t manual_drives = 0;
-  /// Stops for an obstacle or for blindness, of a source that wants to drive.
+  /// Stops of a moving source for an obstacle or for blindness.
   std::uint32_t blockages = 0;
-  /// Motion locks that ended a motion, but for the stop that the Operator orders.
+  /// Motion locks that ended a motion, except the stop ordered by the Operator.
   std::uint32_t lock_stops = 0;
 };
 
-/// Counts what the decisions of all ticks begin.
+/// Counts the starts of interventions in the decisions of all ticks.
 class InterventionCounter {
  public:
-  /// Takes the next decision; the counters with it.
+  /// Accepts the next decision; returns the counters including it.
   const Interventions& count(const Decision& decision);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Reasons to stand still, one per owner; an owner that falls silent keeps its lock engaged.
+/// Motion locks, one per owner; an owner that becomes silent keeps its lock engaged.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ struct Lock {
   bool emergency = false;
 };
 
-/// A lock that forbids motion now.
+/// Lock that forbids motion now.
 struct EngagedLock {
   std::string owner;
   mtr_core::Problem reason;
@@ -32,43 +32,43 @@ struct EngagedLock {
   bool emergency = false;
 };
 
-/// Locks of the required owners, and of every other owner that was ever heard.
+/// Locks of the required owners, and of every other owner received so far.
 ///
-/// An emergency stop is latched: one that fell silent while it was engaged is released only when its owner engages it
-/// and then releases it, so that a new process that knows nothing of it releases nothing.
+/// An emergency stop is latched: one that became silent while engaged is released only after its owner engages it and
+/// then releases it. A restarted owner that does not know of it therefore cannot release it.
 class MotionLocks {
  public:
-  /// @param waiting given in lock-step: the required owners with a slot in the schedule are waited for
+  /// @param waiting given in lock-step: waits for the required owners with a slot in the schedule
   MotionLocks(const std::vector<std::string>& required_owners, double timeout_s,
               const std::optional<mtr_core::Waiting>& waiting);
 
-  /// Takes the newest state of an owner's lock.
+  /// Accepts the newest state of an owner's lock.
   ///
-  /// @return true when it engages a lock that was released or never heard, once per period: an emergency stop whose
-  /// contact bounces, or that several owners report, causes one immediate step
+  /// @return true if it engages a lock that was released or never received, at most once per period: an emergency stop
+  /// with a bouncing contact, or reported by several owners, causes one immediate step
   bool take(const std::string& owner, Lock lock);
 
   /// Locks that forbid motion at the tick, ordered by owner.
   std::vector<EngagedLock> engaged_at(std::int64_t tick_ns);
 
-  /// Age of the oldest lock that was heard, in s, at the tick of the last call above.
+  /// Age of the oldest received lock, in s, at the tick of the last call above.
   double age_s() const { return age_s_; }
 
  private:
   bool is_first_in_period(std::int64_t stamp_ns);
 
-  /// The newest word of an owner.
+  /// Newest message of an owner.
   struct Word {
     std::int64_t stamp_ns;
     bool engaged;
-    /// An emergency stop that nobody was seen to release.
+    /// Emergency stop without an observed release.
     bool latched;
   };
 
   bool is_latched(const std::string& owner, const Lock& lock) const;
 
   double timeout_s_;
-  /// Stamp of the engagement that was reported last.
+  /// Stamp of the last reported engagement.
   std::optional<std::int64_t> engaged_ns_;
   double age_s_ = 0.0;
   std::map<std::string, mtr_core::Samples<Lock>> locks_;

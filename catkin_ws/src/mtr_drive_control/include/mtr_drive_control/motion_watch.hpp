@@ -1,5 +1,5 @@
 /// @file
-/// Whether the robot moves as it was told: base, wheels' odometry and gyro against each other.
+/// Checks the robot's motion against the commands: base, wheel odometry and gyro are compared with each other.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace mtr_drive_control {
 
-/// One reading of the IMU.
+/// Reading of the IMU.
 struct ImuReading {
   std::int64_t stamp_ns;
   /// Angular velocity about x, y, z of the IMU, z up, in rad/s.
@@ -22,32 +22,33 @@ struct ImuReading {
   std::array<double, 3> forces_mps2;
 
   double yaw_rate_radps() const { return rates_radps[2]; }
-  /// False when one of the numbers is none that a robot's IMU shows.
+  /// False if one of the values is implausible for a robot's IMU.
   bool is_plausible() const;
   bool repeats(const ImuReading& other) const {
     return rates_radps == other.rates_radps && forces_mps2 == other.forces_mps2;
   }
 };
 
-/// Since when something has been the case without a break.
+/// Duration of an uninterrupted condition.
 class Duration {
  public:
-  /// Takes whether it is the case at a tick; true when it has been for so long.
+  /// Updates the condition at a tick; returns true if it has lasted for this time.
   bool lasts(bool is_so, std::int64_t tick_ns, double for_s);
 
  private:
   std::optional<std::int64_t> since_ns_;
 };
 
-/// Third sense of drive control: each fault is told by its cause, and never from a single reading.
+/// Check of the motion: each fault is reported with its cause, and never after a single reading.
 ///
-/// What is sent reaches the wheels some time later, so what they do is compared with all that was sent lately. Live
-/// sensors never repeat themselves in motion: encoders count, and the IMU has noise. Wheels that stand may repeat
-/// themselves or not: their encoders flicker, and their servos settle.
+/// The wheels follow with a delay, so their motion is compared with all recent commands. Live sensors never repeat
+/// themselves in motion: encoders count, and the IMU has noise. At standstill the wheels may repeat their values or
+/// not: encoders flicker, and servos settle.
 class MotionWatch {
  public:
-  /// Takes the velocity sent last and the newest readings of a tick; a problem while they contradict each other.
-  /// @param motion,imu fresh ones; nothing when there is none
+  /// Accepts the velocity sent last and the newest readings of a tick; returns a problem while they contradict each
+  /// other.
+  /// @param motion,imu fresh readings; empty without one
   mtr_core::Problem take(std::int64_t tick_ns, const Velocity& sent, const std::optional<Motion>& motion,
                          const std::optional<ImuReading>& imu);
 

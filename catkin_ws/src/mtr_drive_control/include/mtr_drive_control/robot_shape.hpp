@@ -1,5 +1,5 @@
 /// @file
-/// What drive control has to know of the robot's shape.
+/// Shape of the robot for drive control.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace mtr_drive_control {
 
-/// Where a LiDAR is mounted, upright and level, in base_link.
+/// Mount of a LiDAR, upright and level, in base_link.
 struct LidarMount {
   double x_m;
   double y_m;
@@ -26,15 +26,15 @@ struct LidarMount {
 struct RobotShape {
   Footprint footprint;
   LidarMount front_lidar;
-  /// None: the ground behind is not watched.
+  /// Empty: the ground behind is not watched.
   std::optional<LidarMount> rear_lidar;
 };
 
-/// From the URDF; throws mtr_core::ConfigurationError for a footprint or a LiDAR that cannot be served.
+/// Returns the shape from the URDF; throws mtr_core::ConfigurationError for an unsupported footprint or LiDAR.
 RobotShape shape_of(const mtr_description::RobotGeometry& geometry, bool has_rear_lidar);
 
-/// Throws mtr_core::ConfigurationError when what the parameters say of the centre of mass, the wheels and the raised
-/// key contradicts the URDF.
+/// Throws mtr_core::ConfigurationError if the parameters of the centre of mass, the wheels or the raised key contradict
+/// the URDF.
 void check_balance(const Parameters& parameters, const mtr_description::RobotGeometry& geometry);
 
 }  // namespace mtr_drive_control

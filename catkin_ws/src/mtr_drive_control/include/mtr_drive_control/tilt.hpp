@@ -1,5 +1,5 @@
 /// @file
-/// Tilt of the robot by the direction of gravity, and what it forbids.
+/// Tilt of the robot from the direction of gravity, and its restrictions.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,18 +20,19 @@ struct Vector3 {
   double z = 0.0;
 };
 
-/// Estimate of the direction that is up, in the frame of the IMU: that of base_link, z up (REP-103, REP-145).
+/// Estimate of the upward direction, in the frame of the IMU, which is base_link's, z up (REP-103, REP-145).
 ///
 /// A complementary filter: the gyro turns the estimate from reading to reading, and the accelerometer pulls it slowly
 /// towards the measured specific force, less the acceleration that the wheels report. Braking, jolts and noise are
-/// shorter than this pull, and a ramp is still seen at once. While the wheels stand, the gyro's mean is its bias.
+/// shorter than this pull, and a ramp is still detected at once. While the wheels are stopped, the gyro's mean is its
+/// bias.
 class GravityEstimate {
  public:
-  /// Includes a reading; one with the stamp of the previous reading changes nothing.
-  /// @param wheels measured velocity; nothing when it is not known
+  /// Includes a reading; one with the stamp of the previous reading has no effect.
+  /// @param wheels measured velocity; empty if unknown
   void take(const ImuReading& imu, const std::optional<Velocity>& wheels);
 
-  /// Angle between up and the z axis of base_link, 0 to pi; nothing while no reading has shown gravity lately.
+  /// Angle between up and the z axis of base_link, 0 to pi; empty while no recent reading has shown gravity.
   std::optional<double> tilt_at(std::int64_t tick_ns) const;
 
  private:
@@ -39,7 +40,7 @@ class GravityEstimate {
   void turn(const ImuReading& imu, double step_s);
   void learn_bias(const ImuReading& imu, const std::optional<Velocity>& wheels, double step_s);
   void pull(const ImuReading& imu, const Vector3& acceleration, double step_s);
-  /// Acceleration of base_link by its wheels since the previous reading.
+  /// Acceleration of base_link from its wheels since the previous reading.
   Vector3 acceleration_of(const ImuReading& imu, const std::optional<Velocity>& wheels, double step_s) const;
 
   std::optional<std::int64_t> stamp_ns_;
@@ -47,30 +48,30 @@ class GravityEstimate {
   std::optional<std::int64_t> seen_ns_;
   std::optional<Velocity> wheels_;
   Vector3 up_;
-  /// The same without what is shorter than a jolt.
+  /// The same, without motion that is shorter than a jolt.
   Vector3 smooth_up_;
   Vector3 bias_radps_;
-  /// Duration of the readings so far that were used, each up to its filter's time.
+  /// Durations of the readings used so far, each limited to its filter's time.
   double pulled_s_ = 0.0;
   double rested_s_ = 0.0;
 };
 
-/// Judges the tilt: the robot stops from tilt_stop_rad on, and when the tilt is not known.
+/// Evaluates the tilt: the robot stops from tilt_stop_rad on, and while the tilt is unknown.
 class TiltWatch {
  public:
   explicit TiltWatch(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// To be called once per tick.
-  /// @param imu,wheels fresh ones; nothing when there is none
+  /// Updates the estimate; must be called once per tick.
+  /// @param imu,wheels fresh readings; empty without one
   void take(std::int64_t tick_ns, const std::optional<ImuReading>& imu, const std::optional<Velocity>& wheels);
 
-  /// Limits with the key at this height on the present slope. While it is too steep for the planner they are those at
-  /// which a person drives the robot off.
+  /// Limits with the key at this height on the current slope. While it is too steep for the planner they are for a
+  /// person who drives the robot off.
   Limits limits_at(double key_height_m) const;
 
   bool is_known() const { return is_known_; }
 
-  /// Reason why the robot must stand; no problem when it may move within these limits.
+  /// Reason why the robot must stop; no problem if it may move within these limits.
   mtr_core::Problem problem(const Limits& limits, bool by_hand) const;
 
   /// Sentence while the slope is too steep for the planner; no problem elsewhere.
@@ -79,10 +80,10 @@ class TiltWatch {
  private:
   Parameters parameters_;
   GravityEstimate gravity_;
-  /// The last one that was known.
+  /// Last known tilt.
   double tilt_rad_ = 0.0;
   bool is_known_ = false;
-  /// With hysteresis, so that noise on a slope at the limit is one stop.
+  /// With hysteresis, so that noise on a slope at the limit causes only one stop.
   bool is_tilted_ = false;
 };
 

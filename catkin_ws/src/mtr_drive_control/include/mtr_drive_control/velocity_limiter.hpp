@@ -1,5 +1,5 @@
 /// @file
-/// Velocity of the base that changes no faster than its limits allow.
+/// Limits the rate of change of the base's velocity.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,35 +11,35 @@
 
 namespace mtr_drive_control {
 
-/// Remembers the velocity sent last and tells the next one, one period later; or later, and then it has braked for all
-/// of that time and gained speed for one period.
+/// Remembers the velocity sent last and computes the next one, one period later. If it is later than that, it brakes
+/// for all of that time and accelerates for one period.
 class VelocityLimiter {
  public:
   VelocityLimiter(const Limits& limits, double period_s) : limits_(limits), period_s_(period_s), braking_s_(period_s) {}
 
-  /// Limits from now on.
+  /// Sets the limits from now on.
   void set_limits(const Limits& limits) { limits_ = limits; }
 
-  /// So long has the velocity that was sent last been in force; the base stops by itself after a while.
+  /// Sets the time since the last velocity was sent; the base stops by itself after some time.
   void elapse(double since_s) { braking_s_ = std::clamp(since_s, period_s_, kMaxBaseTimeoutS); }
 
-  /// The wanted velocity, which must be finite, when it is not too fast; else the like on the same circle.
+  /// Returns the desired velocity, which must be finite, reduced on its circle if it is too fast.
   Velocity within_limits(const Velocity& wanted) const { return wanted.scaled(limits_.permitted_share(wanted)); }
 
-  /// Next velocity on the way to the wanted one, which must be finite.
+  /// Returns the next velocity towards the desired one, which must be finite.
   Velocity toward(const Velocity& wanted) const;
 
-  /// True when the velocity sent last is so much faster than the wheels, in one of its parts, that they do not follow.
+  /// Returns true if the velocity sent last exceeds the wheels' in a component by more than they can follow.
   bool leads(const Velocity& measured) const;
 
-  /// Next velocity of an emergency stop along the present circle.
+  /// Returns the next velocity of an emergency stop along the current circle.
   Velocity braked() const;
 
-  /// This velocity is sent.
+  /// Records the velocity that is sent.
   void send(const Velocity& velocity) { sent_ = velocity; }
   const Velocity& sent() const { return sent_; }
 
-  /// What was sent before counts no longer: the wheels do this, as far as it is a velocity that may be sent.
+  /// Replaces the velocity sent last by the wheels' velocity, as far as it is permitted.
   void begin_from(const Velocity& measured) { sent_ = within_limits(measured); }
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// The border of the test area, and what happens at it.
+/// Border of the test area, and the motion near it.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/area/area_guard.hpp"
 
@@ -10,9 +10,9 @@ namespace mtr_drive_control {
 namespace {
 
 constexpr int kHalvings = 8;
-// A smaller share of the desired velocity is a stop.
+// A smaller share of the desired velocity counts as a stop.
 constexpr double kLeastShare = 0.05;
-// Rounding is no approach; anything more would let the robot creep outward tick by tick.
+// Tolerance for rounding; a larger one would let the robot creep outward tick by tick.
 constexpr double kRoundingM = 1e-9;
 constexpr double kRoundingMps = 1e-9;
 constexpr double kSigmas = 2.0;
@@ -57,7 +57,7 @@ std::optional<AreaGuard::Place> AreaGuard::place_at(std::int64_t tick_ns, const 
   const double age_s = static_cast<double>(tick_ns - pose->stamp_ns) * 1e-9;
   const Pose now = pose->map_from_base.after(wheels, age_s);
   const double clearance_m = area_->polygon->clearance_m(footprint_, now);
-  // A sigma below 0 or without a value is a fault of localization, and no margin.
+  // A negative or missing sigma is a fault of localization.
   const bool is_known = margin_m >= parameters_.area_gap_m && std::isfinite(margin_m) && std::isfinite(clearance_m);
   return is_known ? std::optional<Place>({now, margin_m, clearance_m}) : std::nullopt;
 }
@@ -75,7 +75,7 @@ AreaAssessment AreaGuard::assess(const DesiredMotion& desired, const StopPath& s
   if (!desired.by_hand) {
     return {{}, Zone::kBlocked, obstruction_};
   }
-  // A person loads the robot before an area is set, and drives a lost one to where it finds its position.
+  // A person loads the robot before an area is set, and drives a lost one to where it localizes again.
   return has_polygon(area_)
              ? AreaAssessment{at_most(desired.velocity, parameters_.area_crawl_mps), Zone::kSlowed, obstruction_}
              : AreaAssessment{desired.velocity, Zone::kClear, {}};
@@ -114,7 +114,7 @@ bool AreaGuard::permits(const DesiredMotion& desired, const StopPath& stop_path)
 
 bool AreaGuard::stays_inside(const std::vector<PathPoint>& path) const {
   const Polygon& polygon = *area_->polygon;
-  // What is nearer to the border already, or beyond it, may come back and not get farther out.
+  // A robot that is already closer to the border, or beyond it, may return but not move farther out.
   const double least_m = std::min(place_->margin_m, place_->clearance_m - kRoundingM);
   for (const PathPoint& then : path) {
     const Point at = place_->map_from_base.apply(then.pose.position());

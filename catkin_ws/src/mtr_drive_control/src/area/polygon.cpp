@@ -10,7 +10,7 @@
 namespace mtr_drive_control {
 namespace {
 
-// Between points of the outline at which a protrusion is measured.
+// Distance between points of the outline at which a protrusion is measured.
 constexpr double kOutlineStepM = 0.1;
 
 double distance_to_edge_m(const Point& point, const Point& start, const Point& end) {
@@ -29,7 +29,7 @@ std::array<Point, 4> corners_of(const Footprint& footprint) {
            {footprint.front_m, -footprint.half_width_m}}};
 }
 
-/// True when an edge, in base_link, has a point in the rectangle: its part within each pair of sides is not empty.
+/// Returns true if an edge, in base_link, has a point in the rectangle: its parts within both pairs of sides overlap.
 bool crosses(const Footprint& footprint, const Point& start, const Point& end) {
   double first = 0.0;
   double last = 1.0;
@@ -74,7 +74,7 @@ std::vector<Point> outline_of(const Footprint& footprint) {
   return outline;
 }
 
-/// How deep a point of base_link is in the rectangle, 0 outside.
+/// Depth of a point of base_link in the rectangle, 0 outside.
 double depth_m(const Footprint& footprint, const Point& point) {
   return std::max(0.0, std::min({footprint.front_m - point.x_m, point.x_m + footprint.rear_m,
                                  footprint.half_width_m - std::abs(point.y_m)}));

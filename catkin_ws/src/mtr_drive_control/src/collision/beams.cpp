@@ -1,5 +1,5 @@
 /// @file
-/// Tables by beam, computed once for all that is asked of a sweep.
+/// Tables by beam, computed once per sweep.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/beams.hpp"
 

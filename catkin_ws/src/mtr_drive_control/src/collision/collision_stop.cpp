@@ -1,5 +1,5 @@
 /// @file
-/// The zone that must be free, and what happens when it is not.
+/// Zone that must be free, and the limits if it is not.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/collision_stop.hpp"
 
@@ -11,12 +11,12 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kHalvings = 8;
-// A smaller share of the desired velocity is a stop, and not a motion that anybody wants.
+// A smaller share of the desired velocity counts as a stop, because so slow a motion is useless.
 constexpr double kLeastShare = 0.05;
-// Rounding is no approach; anything more would let the robot creep nearer tick by tick.
+// Tolerance for rounding; a larger one would let the robot creep closer tick by tick.
 constexpr double kRoundingM = 1e-9;
 constexpr double kEdgeStepM = 0.05;
-// A possible person who is hidden for a moment is still near.
+// Time for which a temporarily hidden possible person still counts as near.
 constexpr double kStillNearS = 1.0;
 
 /// Points on the outline of the robot.
@@ -61,7 +61,7 @@ Assessment CollisionStop::assess(std::int64_t tick_ns, const DesiredMotion& desi
     }
     return {{}, Zone::kBlind, std::nullopt, blind};
   }
-  // A planner that stops for the obstacle must not thereby make the way free.
+  // A planner that stops for the obstacle must not make the path free by that.
   const DesiredMotion sighted =
       within_sight(desired.velocity.is_zero() && blocked_motion_ ? *blocked_motion_ : desired);
   const double slow_share =
@@ -104,7 +104,7 @@ double CollisionStop::slow_zone_mps(std::int64_t tick_ns, double deceleration_mp
   if (person_near_ns_ && static_cast<double>(tick_ns - *person_near_ns_) * 1e-9 <= kStillNearS) {
     return slow_mps;
   }
-  // The speed from which the normal stop reaches the slow zone at its speed, the reaction included.
+  // Speed from which the normal stop reaches the slow zone at its speed, including the reaction.
   const double reacted_mps = deceleration_mps2 * (parameters_.reaction_s + late_s_);
   const double squared = slow_mps * slow_mps + 2.0 * deceleration_mps2 * std::max(0.0, beyond_m);
   return std::max(slow_mps, std::sqrt(squared + reacted_mps * reacted_mps) - reacted_mps);
@@ -160,7 +160,7 @@ std::optional<Hindrance> CollisionStop::hindrance_of(const DesiredMotion& desire
 }
 
 bool CollisionStop::is_backed_by_person(const DesiredMotion& desired) const {
-  // A person sees the way behind the robot. A turn with a little reverse motion is still a turn.
+  // A person sees the path behind the robot. A turn with little reverse motion is still a turn.
   const double turned_mps = std::abs(desired.velocity.angular_radps) * footprint_.radius_m();
   return desired.by_hand && -desired.velocity.linear_mps > turned_mps;
 }
@@ -191,7 +191,7 @@ bool CollisionStop::is_in_reach(const Obstacle& obstacle, const DesiredMotion& d
 }
 
 bool CollisionStop::gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const {
-  // What is nearer already may be left, not approached.
+  // The robot may leave an obstacle that is already closer, but not approach it.
   const double allowed_m = std::min(limit_m, footprint_.distance_to(point) - kRoundingM);
   for (const PathPoint& then : path) {
     if (footprint_.distance_to(then.pose.undo(point)) < allowed_m) {
@@ -213,7 +213,7 @@ bool CollisionStop::is_approached_by_person(const Obstacle& obstacle, const std:
 
 std::optional<Hindrance> CollisionStop::unseen_ground(const DesiredMotion& desired,
                                                       const std::vector<PathPoint>& path) const {
-  // A person at the controller has an eye on ground that was free longer ago, not on ground that was never seen.
+  // A person at the controller watches ground that was free longer ago, but not ground that was never seen.
   const double max_age_s = desired.by_hand ? std::numeric_limits<double>::infinity() : parameters_.ground_memory_s;
   for (const PathPoint& then : path) {
     for (const Point& edge : edge_) {

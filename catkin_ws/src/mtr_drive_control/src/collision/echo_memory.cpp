@@ -1,5 +1,5 @@
 /// @file
-/// Which remembered surfaces a sweep confirms, disproves or does not show.
+/// Compares remembered surfaces with a sweep, which confirms, disproves or does not show them.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/echo_memory.hpp"
 
@@ -16,33 +16,33 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kToleranceM = 0.1;
 constexpr double kTolerancePerRange = 0.03;
 constexpr double kToleranceRad = 0.008;
-// A foot swings so far within two sweeps of a slow LiDAR; the share is the wheels' error in a turn of that time.
+// Swing of a foot within two sweeps of a slow LiDAR; the share is the wheels' error in a turn of that time.
 constexpr double kStepM = 0.3;
 constexpr double kStepPerRange = 0.04;
-// Near the robot a step leads out of view from far inside of it.
+// Near the robot a step leaves the view even from far inside of it.
 constexpr double kMaxEdgeRad = 0.8;
-// A surface that has moved shows its new place within this time.
+// Time within which a surface that has moved shows its new place.
 constexpr std::int64_t kMovedWithinNs = 200'000'000;
-// What is hidden or out of view may have gone after this time, and the wheels' odometry has drifted.
+// After this time a hidden surface, or one out of view, may have gone, and the wheel odometry has drifted.
 constexpr std::int64_t kUnseenNs = 1'000'000'000;
-// A surface has to be seen for this long: while the robot nods, its LiDARs meet the ground some metres ahead.
+// Minimum visibility of a surface: while the robot pitches, its LiDARs meet the ground some metres ahead.
 constexpr std::int64_t kProvenNs = 500'000'000;
-// What vanished is given up after so long a rest: by then the Operator has read which LiDAR shows nothing, and where.
+// Rest after which a vanished surface is discarded: by then the Operator has read the LiDAR and direction concerned.
 constexpr std::int64_t kGivenUpNs = 20'000'000'000;
-// What may be a person is followed up to here; farther away only what is wider than a person's two legs.
+// Possible persons are tracked up to here; farther away only objects wider than a person's two legs.
 constexpr double kThingReachM = 4.0;
-// Within this share of its range a LiDAR that works sees again what it has seen.
+// Within this share of its range a working LiDAR sees a known surface again.
 constexpr double kReachShare = 0.8;
-// Echoes of the other LiDAR count up to here: farther away the smallest tilt lets one see what the other does not.
+// Echoes of the other LiDAR count up to here: farther away the smallest tilt gives them different views.
 constexpr double kOtherReachM = 4.0;
 
-/// Beams that one step across them covers.
+/// Number of beams covered by one step across them.
 std::size_t beams_of_step(const View& view, const Bearing& bearing) {
   const double step_rad = std::asin(std::min(1.0, kStepM / std::max(bearing.range_m, kStepM)));
   return static_cast<std::size_t>(std::ceil(std::min(step_rad, kMaxEdgeRad) / view.step_rad()));
 }
 
-/// True for a place from which one step leads out of view.
+/// Returns true for a place from which one step leaves the view.
 bool is_at_edge(const View& view, const Bearing& bearing) {
   const std::size_t beams = std::min(bearing.beam, view.beams() - 1 - bearing.beam);
   // No arc sine is above 1.6 times its argument: most places are farther from the edge than that.
@@ -51,7 +51,7 @@ bool is_at_edge(const View& view, const Bearing& bearing) {
          beams < beams_of_step(view, bearing);
 }
 
-/// True for a place from which one step leads behind something nearer, as one leg goes behind the other.
+/// Returns true for a place from which one step leads behind a nearer object, as one leg goes behind the other.
 bool is_beside_shadow(const View& view, const Bearing& bearing) {
   const std::size_t step = beams_of_step(view, bearing);
   const std::size_t last = std::min(bearing.beam + step, view.beams() - 1);
@@ -94,18 +94,19 @@ bool EchoMemory::survives(Remembered& remembered, const View& view, const Witnes
   switch (view.evidence_at(*bearing, kToleranceM + kTolerancePerRange * range_m, kToleranceRad)) {
     case Evidence::kConfirmed:
       if (remembered.lidar != lidar.index) {
-        // Its own LiDAR still has to show it.
+        // Its own LiDAR must still show it.
         return is_recent || remembered.missing_ns;
       }
       remembered.echo.stamp_ns = view.stamp_ns();
       remembered.rest_ns = rest_ns_;
       remembered.missing_ns.reset();
-      // Its echo takes its place, unless it is too weak to count.
+      // Its echo replaces it, unless the echo is too weak to count.
       return !hands_on(remembered, bearing->beam);
     case Evidence::kSeenThrough:
       return false;
     case Evidence::kHidden:
-      // A raindrop before it shows nothing of the window, something that passes does; and a person walks on meanwhile.
+      // A raindrop in front does not show that the beam works, but a passing object does; a person has walked on
+      // meanwhile.
       return counts(bearing->beam) ? remembered.echo.is_wide && is_recent : is_recent || remembered.missing_ns;
     default:
       break;
@@ -147,7 +148,7 @@ bool EchoMemory::hands_on(const Remembered& remembered, std::size_t beam) {
 bool EchoMemory::is_explained(const Remembered& remembered, double range_m, const std::vector<Echo>& echoes) const {
   const double step_m = std::max(kStepM, kStepPerRange * range_m);
   return std::any_of(echoes.begin(), echoes.end(), [&](const Echo& echo) {
-    // A wall beside a thing says nothing of the thing.
+    // A wall next to a thing does not replace the thing.
     return (remembered.echo.is_wide || !echo.is_wide) && is_within(echo.point, remembered.echo.point, step_m);
   });
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Clusters of echoes: their size tells rain from things and things from surfaces.
+/// Clusters of echoes: their size distinguishes rain, things and surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/echoes.hpp"
 
@@ -14,22 +14,22 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kNothing = std::numeric_limits<double>::infinity();
-// Two echoes belong together when they are nearer than this plus a share of their range, which covers the wider
-// spacing of beams and echoes farther away.
+// Two echoes belong together if they are closer than this plus a share of their range. The share covers the wider
+// spacing of beams and echoes at larger ranges.
 constexpr double kGapM = 0.08;
 constexpr double kGapPerRange = 0.03;
-// So many beams between two echoes of one cluster may have ended elsewhere, e.g. on a raindrop.
+// Maximum number of beams between two echoes of one cluster that ended elsewhere, e.g. on a raindrop.
 constexpr std::size_t kMostBeamsBetween = 3;
-// A leg of 0.14 m has so many beams at 5 m (720 beams over 270 degrees).
+// Number of beams on a leg of 0.14 m at 5 m (720 beams over 270 degrees).
 constexpr int kBeamsThatCountAtOnce = 4;
-// Smaller clusters count when seen in so many sweeps within so much of their place.
+// Smaller clusters count if they are seen in this number of sweeps within this distance of their place.
 constexpr int kSweepsThatCount = 4;
 constexpr double kSamePlaceM = 0.05;
-// Two legs in full stride measure less across; a wheel seen from its side more.
+// Two legs in full stride are narrower; a wheel seen from its side is wider.
 constexpr double kWiderThanAPersonM = 0.5;
-// A LiDAR with a narrower view to either side leaves ground beside the robot to nobody.
+// With a narrower view to either side, a LiDAR would leave ground next to the robot unwatched.
 constexpr double kLeastViewRad = 2.0;
-// What is too near to be measured is looked for in such steps.
+// Step of the search for objects below the measuring range.
 constexpr double kNearStepM = 0.01;
 
 struct Cluster {
@@ -141,7 +141,7 @@ Sector EchoFinder::in_base(double low_rad, double high_rad) const {
 std::optional<double> EchoFinder::range_of(const Sweep& sweep, std::size_t beam) const {
   if (sweep.is_echo(beam)) {
     const double range_m = sweep.ranges_m[beam];
-    // The robot's own mast and lift.
+    // Echo of the robot's own mast or lift.
     const bool is_own = footprint_.contains(directions_.in_base(range_m, beam));
     return is_own ? std::nullopt : std::optional<double>(range_m);
   }

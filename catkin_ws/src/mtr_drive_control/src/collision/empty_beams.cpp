@@ -1,5 +1,5 @@
 /// @file
-/// Pieces of a view without echoes.
+/// Sectors of a view without echoes.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/empty_beams.hpp"
 
@@ -9,10 +9,11 @@
 namespace mtr_drive_control {
 namespace {
 
-// Empty beams belong to one piece when their surfaces are so near to each other, by angle or by distance.
+// Empty beams belong to one sector if their surfaces are this close to each other, by angle or by distance.
 constexpr double kBridgeRad = 0.053;
 constexpr double kBridgeM = 0.3;
-// Nearer than this an empty sector counts at once, but for a flicker; farther ones outlast a nod of the robot.
+// Closer than this an empty sector counts at once, except for a flicker; farther ones must outlast a pitch of the
+// robot.
 constexpr double kNearM = 4.0;
 constexpr std::int64_t kNearConfirmedNs = 60'000'000;
 constexpr std::int64_t kFarConfirmedNs = 500'000'000;
@@ -51,7 +52,7 @@ std::optional<Sector> EmptyBeams::widest(const View& view) const {
   if (static_cast<double>(last - first) * view.step_rad() <= kLegRad) {
     return std::nullopt;
   }
-  // Nothing came from the beams beside them either.
+  // The neighbouring beams returned no echo either.
   while (first > 0 && view.is_empty(first - 1)) {
     --first;
   }

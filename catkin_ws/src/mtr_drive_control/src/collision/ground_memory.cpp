@@ -11,24 +11,24 @@ namespace mtr_drive_control {
 namespace {
 
 constexpr double kCellM = 0.1;
-// From the centre of a cell to its corner.
+// Distance from the centre of a cell to its corner.
 constexpr double kHalfDiagonalM = 0.0708;
 constexpr double kDrivesMps = 0.05;
-// Cells per side; the grid wraps around, so that it needs no moving when the robot does.
+// Cells per side; the grid wraps around, so it need not be shifted with the robot.
 constexpr int kSide = 64;
 constexpr double kReachM = 0.45 * kSide * kCellM;
-// Free space is looked up along every n-th beam: 0.1 m apart at 4 m for 720 beams.
+// Free space is recorded along every n-th beam: 0.1 m apart at 4 m for 720 beams.
 constexpr std::size_t kBeamStep = 4;
-// An echo's noise, and a cell that a surface cuts, must not be taken for free space.
+// Margin before an echo, so that its noise, or a cell cut by a surface, does not count as free space.
 constexpr double kBeforeEchoM = 0.1;
-// What has not been seen for so long, though its place was, has gone.
+// A thing that was not seen for this time, although its place was, has gone.
 constexpr std::int64_t kGoneNs = 300'000'000;
 constexpr std::int64_t kStandsAfterNs = 2'000'000'000;
 constexpr std::int64_t kMovesBeforeNs = 1'000'000'000;
 // Longer than two sweeps: out of view.
 constexpr std::int64_t kLostAfterNs = 150'000'000;
 
-// A robot at rest is taken to stand so much wider.
+// Margin around the outline of a robot at rest.
 constexpr double kAroundRestM = 0.01;
 constexpr double kElsewhereM = 0.3;
 constexpr std::size_t kRests = 8;
@@ -48,7 +48,7 @@ GroundMemory::GroundMemory() : cells_(static_cast<std::size_t>(kSide * kSide)) {
 
 void GroundMemory::stand(const Footprint& footprint, const Motion& motion) {
   keep_rest(footprint, motion);
-  // A cell that it covers only in part may hold a foot. Beside its track the LiDAR saw the ground when it came.
+  // A cell that it covers only partly may contain a foot. The LiDAR saw the ground next to its track before.
   const double beside_m = std::abs(motion.velocity.linear_mps) > kDrivesMps ? kCellM : -kHalfDiagonalM;
   const Footprint covered{footprint.front_m - kHalfDiagonalM, footprint.rear_m - kHalfDiagonalM,
                           footprint.half_width_m + beside_m};

@@ -11,12 +11,12 @@
 namespace mtr_drive_control {
 namespace {
 
-// Farther away the tilt of the robot hides what the map has; a stop takes less than 1 m.
+// Farther away the tilt of the robot may hide mapped surfaces; a stop needs less than 1 m.
 constexpr double kReachM = 8.0;
-// Error of the position up to which it is valid, and of the heading.
+// Maximum error of a valid position, and of the heading.
 constexpr double kToleranceM = 0.4;
 constexpr double kToleranceRad = 0.035;
-// Something that passes in front of an empty place for that long shows that the beam works.
+// A passing object in front of an empty place for this time shows that the beam works.
 constexpr std::int64_t kWorksNs = 1'000'000'000;
 
 }  // namespace

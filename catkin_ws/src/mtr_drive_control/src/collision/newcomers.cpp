@@ -13,31 +13,31 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kCellM = 0.2;
-// 0.15 m apart at the end of the reach for 720 beams over 270 degrees.
+// 0.15 m apart at the end of the range for 720 beams over 270 degrees.
 constexpr std::size_t kBeamStep = 4;
 // Noise of a range, and the part of a cell that a surface cuts.
 constexpr double kBeforeEchoM = 0.2;
-// Free ground has been seen free for so long: a nod of the robot is shorter.
+// Ground counts as free after being seen free for this time: a pitch of the robot is shorter.
 constexpr std::int64_t kFreeForNs = 400'000'000;
-// Longer ago the steady frame has drifted.
+// After a longer time the steady frame has drifted.
 constexpr std::int64_t kFreeWithinNs = 10'000'000'000;
-// A surface has gone when its place was seen free for so long. A nod shows ground behind an established one.
+// A surface has gone if its place was seen free for this time. A pitch shows ground behind an established one.
 constexpr std::int64_t kNewcomerGoneNs = 300'000'000;
 constexpr std::int64_t kEstablishedGoneNs = 1'000'000'000;
-// An established surface may drift by a cell in this time; a slower mover counts as established.
+// Within this time an established surface may drift by a cell; a slower mover counts as established.
 constexpr std::int64_t kEstablishedAfterNs = 2'000'000'000;
-// Sweeps in a row, so that neither rain nor ground seen in a nod is a newcomer.
+// Consecutive sweeps, so that neither rain nor ground seen during a pitch is a newcomer.
 constexpr int kSweepsInARow = 3;
 constexpr std::int64_t kNextSweepNs = 100'000'000;
-// Error of a valid position, as for the map as a witness.
+// Error of a valid position, as in map_witness.cpp.
 constexpr double kMapToleranceM = 0.4;
 
-// The odometry began again after a longer silence or a larger step.
+// The odometry restarted after a longer silence or a larger step.
 constexpr double kGapS = 0.2;
 constexpr double kStepM = 0.5;
 // Without a gyro a turn is uncertain by some ten percent.
 constexpr double kTurnsRadps = 0.05;
-// The gyro's bias is followed while the wheels are at rest.
+// The gyro's bias is tracked while the wheels are at rest.
 constexpr double kRestsMps = 0.005;
 constexpr double kRestsRadps = 0.005;
 constexpr double kBiasShare = 0.02;
@@ -80,7 +80,7 @@ void Newcomers::observe(const Sweep& sweep, const BeamDirections& directions, co
                                  : 0.0;
   };
   for (std::size_t beam = kBeamStep; beam + kBeamStep < sweep.ranges_m.size(); beam += kBeamStep) {
-    // Of a surface at a flat angle the neighbouring beam tells the near end.
+    // On a surface at a flat angle, the neighbouring beam shows its near end.
     const double free_m = std::min({free_to_m(beam - kBeamStep), free_to_m(beam), free_to_m(beam + kBeamStep)});
     const std::int64_t stamp_ns = sweep.time_ns(static_cast<double>(beam));
     const Pose steady_from_base = motion.at(stamp_ns);

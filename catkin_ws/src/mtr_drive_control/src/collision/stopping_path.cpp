@@ -1,5 +1,5 @@
 /// @file
-/// Path of an even stop along a circle.
+/// Path of a uniform stop along a circle.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/stopping_path.hpp"
 
@@ -9,7 +9,7 @@ std::vector<PathPoint> stopping_path(const Velocity& velocity, const Deceleratio
                                      double radius_m) {
   const double braking_s = std::max(std::abs(velocity.linear_mps) / deceleration.linear_mps2,
                                     std::abs(velocity.angular_radps) / deceleration.angular_radps2);
-  // Time for the same way at the full velocity.
+  // Time for the same path at the full velocity.
   const double way_s = reaction_s + braking_s / 2.0;
   const double corner_mps = std::abs(velocity.linear_mps) + std::abs(velocity.angular_radps) * radius_m;
   const int steps = std::max(1, static_cast<int>(std::ceil(corner_mps * way_s / kPathStepM)));

@@ -1,5 +1,5 @@
 /// @file
-/// Sweeps and odometry to obstacles in base_link.
+/// Converts sweeps and odometry to obstacles in base_link.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/surroundings.hpp"
 
@@ -13,33 +13,33 @@
 namespace mtr_drive_control {
 namespace {
 
-// Farther than any stop and any person's way during it.
+// Larger than any stop and any person's path during it.
 constexpr double kRangeOfInterestM = 4.0;
 // A person out of view for longer may be anywhere; then only the memory of the ground counts.
 constexpr double kLostPersonS = 3.0;
-// What vanishes ahead of this is hidden by something nearer, e.g. a wheel of the Car, and is seen again before it gets
-// behind the robot.
+// A surface that vanishes ahead of this angle is hidden by a nearer one, e.g. a wheel of the Car, and is seen again
+// before it is behind the robot.
 constexpr double kBehindRad = 1.75;
 
 constexpr double kPi = 3.14159265358979323846;
-// A sector of so much of the view is all of it.
+// A sector with this share of the view counts as the whole view.
 constexpr double kWholeShare = 0.95;
 // Longest range of the supported LiDARs.
 constexpr double kMemoryReachM = 30.0;
-// A thing that vanished may be a person for so long; what does not come back into view stands, or has gone.
+// Time for which a vanished thing may be a walking person; without a reappearance it is stationary, or has gone.
 constexpr double kMayHaveWalkedS = 0.3;
-// A process that was stopped did not see what moved meanwhile; a tick that is late comes sooner.
+// A stopped process missed all motion meanwhile; a late tick has a shorter gap.
 constexpr double kLookedAwayS = 0.5;
-// A robot that was carried loses its position sooner after its LiDARs contradict what is known.
+// A carried robot loses its position within this time after its LiDARs contradict the memory.
 constexpr std::int64_t kCoveredNs = 1'000'000'000;
-// As localization's rules for odometry: silent for longer, or farther than a base drives, and it began again.
+// Rules for odometry as in localization: after a longer silence, or a larger step than possible, it has restarted.
 constexpr double kOdometryGapS = 0.2;
 constexpr double kJumpM = 0.05;
 constexpr double kJumpRad = 0.1;
-// Of two LiDARs each has to see so far to both sides of where it points; farther back the other one sees as well.
+// With two LiDARs, the view that each needs to both sides of its direction; farther back the other one sees as well.
 constexpr double kSharedViewRad = 2.0;
 
-/// Whole degrees, for a person.
+/// Whole degrees, for sentences.
 std::int64_t degrees(double angle_rad) { return std::lround(angle_rad * 180.0 / kPi); }
 
 double age_s(std::int64_t now_ns, std::int64_t stamp_ns) { return static_cast<double>(now_ns - stamp_ns) * 1e-9; }
@@ -60,7 +60,7 @@ Surroundings::Surroundings(const CollisionParameters& parameters, const RobotSha
 
 void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
   if (tick_ns < tick_ns_) {
-    // A clock that goes back would let old ground count as seen and new echoes as old.
+    // With a clock step backwards, old ground would count as seen and new echoes as old.
     forget_ground();
     followed_.reset();
   }
@@ -98,7 +98,7 @@ void Surroundings::take(std::int64_t tick_ns, const Sensors& sensors) {
 
 bool Surroundings::may_have_been_carried(std::int64_t tick_ns, const Sensors& sensors) const {
   const bool looked_away = tick_ns < tick_ns_ || age_s(tick_ns, tick_ns_) > kLookedAwayS;
-  // A position is also lost because a LiDAR is covered, which was noticed before.
+  // A covered LiDAR also causes a lost position, but it was detected before.
   const bool is_lost =
       had_position_ && !sensors.map && std::all_of(lidars_.begin(), lidars_.end(), [&](const Lidar& each) {
         return each.sees_surface && !each.empty.has_lasted_since(tick_ns - kCoveredNs);
@@ -143,7 +143,7 @@ bool Surroundings::is_watched(const Point& point) const {
 bool Surroundings::observe(std::size_t index, const Sensors& sensors) {
   Lidar& lidar = lidars_[index];
   const std::shared_ptr<const Sweep>& sweep = index == 0 ? sensors.front : sensors.rear;
-  // What is stale or from the future would be remembered as of a wrong time.
+  // A stale sweep, or one from the future, would be remembered with a wrong time.
   if (!lidar.watch.take(sweep)) {
     return false;
   }
@@ -155,7 +155,7 @@ bool Surroundings::observe(std::size_t index, const Sensors& sensors) {
   const View view = lidar.finder.view_of(*sweep, *motion_);
   lidar.echoes = lidar.finder.find(*sweep, view, kMemoryReachM);
   for (Echo& echo : lidar.echoes) {
-    // A piece of the Car that is just about to leave the view is still known as such.
+    // A part of the Car that is about to leave the view is still recognized.
     echo.is_wide = echo.is_wide || ground_.was_wide(echo.point);
   }
   look_for_gaps(index, view, sensors);
@@ -261,7 +261,7 @@ mtr_core::Problem Surroundings::distrust(const Velocity& desired) const {
 }
 
 void Surroundings::add_obstacle(const Point& point, std::int64_t seen_ns, Kind kind, bool is_possible_person) {
-  // An echo of the future is one of now.
+  // An echo from the future counts as current.
   obstacles_.push_back(
       {point, std::max(0.0, age_s(tick_ns_, seen_ns)), kind, footprint_.distance_to(point), is_possible_person});
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Faults of a LiDAR that show in its sweeps.
+/// Detects faults of a LiDAR from its sweeps.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/collision/sweep.hpp"
 
@@ -12,21 +12,22 @@
 namespace mtr_drive_control {
 namespace {
 
-// Noise changes some range of a live LiDAR with every sweep, unless hardly anything is in reach.
+// Noise changes some range of a live LiDAR in every sweep, unless almost nothing is in range.
 constexpr int kFrozenAfterRepetitions = 2;
 constexpr std::ptrdiff_t kFewestEchoesToTell = 10;
-// A turn of the slowest LiDAR that is of use takes 0.2 s.
+// A turn of the slowest supported LiDAR lasts 0.2 s.
 constexpr double kMaxSweepS = 0.25;
-// Of the time between beams by the LiDAR's turns; some firmware states three times of it.
+// Limit of the time between beams relative to its value from the LiDAR's turns; some firmware states three times as
+// much.
 constexpr double kMostTimeRatio = 1.5;
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kMicroseconds = 1e6;
-// A hand, mud or a wrong driver on so much of the view is no view.
+// A hand, mud or a wrong driver on this share of the view makes the LiDAR blind.
 constexpr double kCoveredShare = 0.5;
-// A leg of 0.14 m is met by three beams at 1.3 m.
+// Three beams meet a leg of 0.14 m at 1.3 m.
 constexpr double kWidestStepRad = 0.035;
 
-/// Times that no LiDAR's sweep has: echoes would be taken for older or newer than they are.
+/// Detects impossible sweep times, which would give the echoes a wrong age.
 mtr_core::Problem time_defect(const Sweep& sweep, const std::string& lidar) {
   const double sweep_s = sweep.time_increment_s * static_cast<double>(sweep.ranges_m.size() - 1);
   if (!(sweep_s >= 0.0) || sweep_s > kMaxSweepS) {
@@ -90,7 +91,7 @@ mtr_core::Problem LidarWatch::problem_at(std::int64_t tick_ns) const {
   if (!newest_) {
     return problems::kWaitingForLidar({{"lidar", name_}});
   }
-  // Wrong times make a sweep look old: they are the cause.
+  // Wrong times make a sweep look old, so they are reported as the cause.
   if (has_wrong_times_) {
     return defect_;
   }
@@ -104,7 +105,7 @@ mtr_core::Problem LidarWatch::problem_at(std::int64_t tick_ns) const {
 bool LidarWatch::repeats(const Sweep& sweep) const {
   const auto& ranges = sweep.ranges_m;
   const auto echoes = std::count_if(ranges.begin(), ranges.end(), [](float range) { return std::isfinite(range); });
-  // NaN is equal to nothing, so a repeated sweep may hold it at the same beams.
+  // NaN is never equal, so a repeated sweep may contain it at the same beams.
   return echoes >= kFewestEchoesToTell &&
          std::equal(ranges.begin(), ranges.end(), newest_->ranges_m.begin(), newest_->ranges_m.end(),
                     [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); });

@@ -12,7 +12,8 @@ namespace mtr_drive_control {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// The direction depends on the beam's time, which depends on the direction: twice is exact to a hundredth of a beam.
+// The direction depends on the beam's time, which depends on the direction: two iterations are exact to a hundredth of
+// a beam.
 constexpr int kRefinements = 2;
 
 }  // namespace
@@ -74,7 +75,7 @@ Evidence View::evidence_at(const Bearing& bearing, double tolerance_m, double to
       farthest_m = std::max(farthest_m, range_m);
     }
   }
-  // On a surface that is met at a flat angle the ranges of neighbouring beams differ much.
+  // On a surface at a flat angle the ranges of neighbouring beams differ widely.
   if (nearest_m - tolerance_m <= bearing.range_m && bearing.range_m <= farthest_m + tolerance_m) {
     return Evidence::kConfirmed;
   }

@@ -16,7 +16,7 @@ namespace {
 namespace names = mtr_core::names;
 
 constexpr double kPeriodS = static_cast<double>(mtr_core::kDriveControl.period_ns) * 1e-9;
-// What is published last may be lost with the process.
+// The last published messages may be lost at the end of the process.
 constexpr int kZerosBeforeLeaving = 5;
 
 }  // namespace

@@ -29,7 +29,7 @@ class Reader {
 
   bool is_set(const std::string& name) const { return ros::param::param(base_ + "/" + name, false); }
 
-  /// Of starts and stops in both directions.
+  /// Acceleration of starts and stops in both directions.
   double acceleration(const std::string& axis) const {
     if (!is_set(axis + "/has_acceleration_limits")) {
       throw mtr_core::ConfigurationError("Parameter " + base_ + "/" + axis +

@@ -1,5 +1,5 @@
 /// @file
-/// Limits of the base by the parameter server.
+/// Limits of the base from the parameter server.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/ros/base_watch.hpp"
 

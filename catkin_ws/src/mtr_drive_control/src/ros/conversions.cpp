@@ -1,5 +1,5 @@
 /// @file
-/// ROS messages to plain types and back.
+/// Converts ROS messages to plain types and back.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/ros/conversions.hpp"
 
@@ -13,9 +13,9 @@
 namespace mtr_drive_control {
 namespace {
 
-// Share in percent from which a cell of a map counts as occupied, as map_server has it.
+// Share in percent from which a cell of a map counts as occupied, as in map_server.
 constexpr int kOccupied = 65;
-// A quaternion is a rotation when its norm is 1; single precision and rounding in text leave this.
+// A quaternion of norm 1 is a rotation; single precision and rounding in text are within this tolerance.
 constexpr double kNormTolerance = 0.05;
 
 bool is_rotation(const geometry_msgs::Quaternion& turn) {
@@ -63,12 +63,12 @@ std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& recei
   }
   const auto& rate = received.message->angular_velocity;
   const auto& force = received.message->linear_acceleration;
-  // An IMU without accelerometer (REP-145) shows no gravity, whatever its message holds.
+  // An IMU without an accelerometer (REP-145) does not show gravity, whatever its message contains.
   const bool has_force = received.message->linear_acceleration_covariance[0] >= 0.0;
   const double share = has_force ? 1.0 : 0.0;
   const ImuReading reading{
       received.time_ns, {rate.x, rate.y, rate.z}, {share * force.x, share * force.y, share * force.z}};
-  // What no robot's IMU shows is as good as silent.
+  // An implausible reading counts as silence.
   return reading.is_plausible() ? reading : ImuReading{mtr_core::kNeverNs, {}, {}};
 }
 

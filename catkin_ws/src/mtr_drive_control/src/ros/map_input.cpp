@@ -14,7 +14,7 @@ namespace {
 
 namespace names = mtr_core::names;
 
-// An older pose has been led on by the wheels for too long.
+// The wheels have propagated an older pose for too long.
 constexpr double kPoseTimeoutS = 0.2;
 
 }  // namespace
@@ -52,12 +52,12 @@ void MapInput::take(const mtr_msgs::LocalizedPose& pose) {
 }
 
 std::shared_ptr<const SiteMap> MapInput::map_of(const mtr_msgs::LocalizedPose& pose) {
-  // While the robot maps, the grid is behind the poses.
+  // While the robot maps, the grid is older than the poses.
   if (!map_ || pose.mode != mtr_msgs::LocalizedPose::LOCALIZED) {
     return nullptr;
   }
   if (revision_.value_or(pose.map_revision) != pose.map_revision) {
-    // A map of another revision has another frame; its grid is on the way.
+    // A map of another revision has another frame; its grid will follow.
     map_.reset();
     return nullptr;
   }

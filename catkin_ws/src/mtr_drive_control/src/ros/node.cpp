@@ -1,5 +1,5 @@
 /// @file
-/// Wiring of drive control: topics to the core and back.
+/// Wiring of drive control: connects topics to the core.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/ros/node.hpp"
 
@@ -19,11 +19,11 @@ namespace {
 namespace names = mtr_core::names;
 
 constexpr double kPeriodS = static_cast<double>(mtr_core::kDriveControl.period_ns) * 1e-9;
-// A scan bears its first beam's time and comes when the sweep has ended, before the clock.
+// A scan has its first beam's time and arrives after the sweep, before the clock.
 constexpr std::int64_t kScanLagNs = mtr_core::kLidar.period_ns;
 // As in mtr_core/quiet_log.py.
 constexpr std::int64_t kQuietStartNs = 5 * mtr_core::kSecondNs;
-// What is published last may be lost with the process.
+// The last published messages may be lost at the end of the process.
 constexpr int kZerosBeforeLeaving = 5;
 
 std::vector<std::string> owners_of(const NodeParameters& parameters) {
@@ -34,7 +34,7 @@ std::vector<std::string> owners_of(const NodeParameters& parameters) {
 
 std::map<std::string, std::string> permitted_publishers(bool has_guard) {
   const std::string& own = ros::this_node::getName();
-  // The master knows topics by the names that a launch file has given them.
+  // The master uses the topic names after remapping by a launch file.
   const std::string wheels = ros::names::resolve(names::kWheelCommand);
   if (has_guard) {
     return {{ros::names::resolve(names::kGuardedWheelCommand), own}, {wheels, names::kBaseGuard}};
@@ -119,7 +119,7 @@ void Node::listen_to_locks(ros::NodeHandle& node) {
   lock_subscribers_.push_back(node.subscribe<mtr_msgs::MotionLock>(
       names::kMotionLock, 50,
       [this](const mtr_msgs::MotionLock::ConstPtr& message) {
-        // What it says itself of an emergency stop comes back to it; taken, it would keep itself engaged.
+        // Its own report of an emergency stop comes back; accepting it would keep the lock engaged.
         if (is_e_stop(message->owner)) {
           return;
         }
@@ -132,7 +132,8 @@ void Node::listen_to_locks(ros::NodeHandle& node) {
   if (e_stop_topics_.empty()) {
     return;
   }
-  // Lift, servos and presses stand still for these, too, and the Operator reads it: they hear motion locks.
+  // These also stop lift, servos and presses and are shown to the Operator, because those nodes subscribe to motion
+  // locks.
   e_stops_ = node.advertise<mtr_msgs::MotionLock>(names::kMotionLock, 50);
   for (const std::string& topic : e_stop_topics_) {
     listen_to_e_stop(node, topic);
@@ -154,8 +155,8 @@ bool Node::is_e_stop(const std::string& owner) const {
 }
 
 void Node::take(const std::string& owner, const Lock& lock) {
-  // Callbacks run while the node waits for its next tick. A stop does not wait: its first step is taken now, and the
-  // next one a little early. In lock-step a tick is a tick.
+  // Callbacks run while the node waits for its next tick. A stop executes its first step at once, and the next one
+  // slightly early. In lock-step all ticks are regular.
   if (locks_.take(owner, lock) && !mtr_core::is_lockstep()) {
     tick(ticker_.now());
   }
@@ -222,12 +223,12 @@ void Node::publish(const mtr_core::Instant& tick, const Decision& decision) {
 void Node::log(std::int64_t now_ns, const Decision& decision) {
   begun_ns_ = begun_ns_ ? begun_ns_ : now_ns;
   was_free_ = was_free_ || !decision.message;
-  // At the start others have not spoken yet: that is a warning only when it lasts.
+  // At the start other nodes have not published yet, so only a lasting problem is a warning.
   const bool is_start = !was_free_ && now_ns - *begun_ns_ < kQuietStartNs;
-  // The Operator reads warnings.
+  // Warnings are shown to the Operator.
   const bool is_stopped = decision.zone == Zone::kBlocked || decision.zone == Zone::kBlind;
   const bool is_warning = is_stopped && !is_start;
-  // Distances and durations in the sentence change all the time.
+  // Distances and durations in the sentence change continuously.
   std::string kind = decision.message.kind();
   if (kind == logged_kind_ && is_warning == logged_warning_) {
     return;

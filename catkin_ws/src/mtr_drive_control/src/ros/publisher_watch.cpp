@@ -1,5 +1,5 @@
 /// @file
-/// Publishers of the wheels' topics by the master's word.
+/// Publishers of the wheels' topics, as listed by the master.
 // SPDX-License-Identifier: Apache-2.0
 #include "mtr_drive_control/ros/publisher_watch.hpp"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::chrono::seconds kPeriod{1};
 
-/// Nodes that publish on a topic, of the master's list of [topic, [node, ...]].
+/// Returns the unexpected publisher of a topic from the master's list of [topic, [node, ...]].
 std::optional<Intruder> intruder_of(XmlRpc::XmlRpcValue& publishers, const std::string& topic,
                                     const std::string& permitted) {
   for (int i = 0; i < publishers.size(); ++i) {

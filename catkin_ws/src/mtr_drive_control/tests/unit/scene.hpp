@@ -1,5 +1,5 @@
 /// @file
-/// A flat world for tests: round things and walls, seen by the robot's LiDARs, and a robot that obeys exactly.
+/// Flat world for tests: discs and walls seen by the robot's LiDARs, and a robot that follows commands exactly.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -40,14 +40,14 @@ class Scene {
  public:
   std::vector<Disc> discs;
   std::vector<Wall> walls;
-  /// Single echoes in front of whatever is there: range by beam.
+  /// Single echoes in front of other objects: range by beam.
   std::vector<std::pair<std::size_t, double>> raindrops;
   std::size_t beams = 720;
   double noise_m = 0.005;
   double range_min_m = 0.1;
   double range_max_m = 30.0;
 
-  /// What a LiDAR at this pose in world sees.
+  /// Returns the sweep of a LiDAR at this pose in world.
   std::shared_ptr<Sweep> sweep(const Pose& world_from_lidar, std::int64_t stamp_ns) const {
     auto seen = std::make_shared<Sweep>(Sweep{stamp_ns,
                                               -0.75 * kTestPi,
@@ -64,7 +64,7 @@ class Scene {
       const double angle = seen->angle_of(beam);
       const Point ahead = world_from_lidar.apply({std::cos(angle), std::sin(angle)});
       const double range = nearest(start, {ahead.x_m - start.x_m, ahead.y_m - start.y_m});
-      // A different sweep each time, as a live LiDAR's.
+      // Each sweep is different, as a live LiDAR's.
       const double noise = noise_m * std::sin(static_cast<double>(beam * 7919 + stamp_ms * 104729));
       const bool is_near = range + noise < range_min_m;
       const double measured_m = range > range_max_m ? std::numeric_limits<double>::infinity() : range + noise;
@@ -76,7 +76,7 @@ class Scene {
     return seen;
   }
 
-  /// Distance of the footprint at this pose from what is nearest.
+  /// Returns the distance of the footprint at this pose from the nearest object.
   double clearance(const Footprint& footprint, const Pose& world_from_base) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Disc& disc : discs) {
@@ -120,13 +120,13 @@ class Scene {
   }
 };
 
-/// Drive control in a scene, with a planner that wants one velocity.
+/// Drive control in a scene, with a planner that requests one velocity.
 class TestRobot {
  public:
   explicit TestRobot(bool has_rear_lidar = true, const Parameters& parameters = Parameters{})
       : control(parameters, CollisionParameters{}, test_shape(has_rear_lidar), 0.02), has_rear_lidar_(has_rear_lidar) {}
 
-  /// One tick with this desired velocity.
+  /// Runs one tick with this desired velocity.
   Decision step(const Velocity& desired, bool by_hand = false) {
     const double period_s = static_cast<double>(period_ns) * 1e-9;
     world_from_base = world_from_base.after({wheels.linear_mps, grip * wheels.angular_radps}, period_s);
@@ -152,10 +152,10 @@ class TestRobot {
     return decision;
   }
 
-  /// Lets it observe its surroundings once before it drives.
+  /// Runs one observation of the surroundings before the first motion.
   void settle() { drive({}, 0.1); }
 
-  /// Ticks with the same desired velocity; the last decision.
+  /// Runs ticks with the same desired velocity; returns the last decision.
   Decision drive(const Velocity& desired, double duration_s, bool by_hand = false) {
     Decision decision;
     for (int tick = 0; tick < std::lround(duration_s * 1e9 / static_cast<double>(period_ns)); ++tick) {
@@ -169,33 +169,33 @@ class TestRobot {
   Scene scene;
   DriveControl control;
   Pose world_from_base;
-  /// By the wheels, which tell a turn wrongly where they slip.
+  /// Pose from wheel odometry, which is wrong in turns with slip.
   Pose odom_from_base;
   double grip = 1.0;
   std::optional<LocalizedMap> map;
-  /// What was sent last, and what the wheels make of it.
+  /// Last command, and the resulting motion of the wheels.
   Velocity velocity;
   Velocity wheels;
   bool obeys = true;
   bool odometry_is_silent = false;
   bool lidars_are_silent = false;
   std::int64_t now_ns = 5'000'000'000;
-  /// Of the ticks; drive control expects kTestPeriodNs.
+  /// Period of the ticks; drive control expects kTestPeriodNs.
   std::int64_t period_ns = kTestPeriodNs;
   std::vector<EngagedLock> locks;
   /// The test area, and the pose in it.
   std::function<AreaInputs()> area;
   std::optional<SpeedLimit> speed_limit;
   double key_height_m = 0.35;
-  /// Of the ground, downhill ahead; it changes without a turn that the gyro shows.
+  /// Pitch of the ground, downhill ahead; it changes without a rotation on the gyro.
   double pitch_rad = 0.0;
-  /// Changes what the IMU says.
+  /// Modifies the IMU reading.
   std::function<void(ImuReading&)> spoil_imu;
-  /// Changes what a LiDAR says, front or rear.
+  /// Modifies the sweep of a LiDAR, front or rear.
   std::function<void(Sweep&, bool is_rear)> spoil;
 
  private:
-  /// What a live IMU says: never the same twice.
+  /// Returns the reading of a live IMU, which never repeats.
   ImuReading imu(double acceleration_mps2) const {
     const std::int64_t now_ms = now_ns / kTestMs;
     const double noise = 1e-3 * std::sin(static_cast<double>(now_ms));
@@ -209,7 +209,7 @@ class TestRobot {
     return reading;
   }
 
-  // The sweep that has just ended, as seen when it ended.
+  // Publishes the sweep that has just ended, as seen at its end.
   void observe() {
     const RobotShape shape = test_shape(true);
     front_ = seen_by(shape.front_lidar, false);

@@ -15,7 +15,7 @@ constexpr float kInf = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr double kDegree = kTestPi / 180.0;
 
-/// Four walls so far from the middle.
+/// Four walls at this distance from the centre.
 inline std::vector<Wall> lot(double half_m = 9.0) {
   return {{{-half_m, -half_m}, {half_m, -half_m}},
           {{half_m, -half_m}, {half_m, half_m}},
@@ -25,7 +25,7 @@ inline std::vector<Wall> lot(double half_m = 9.0) {
 
 inline std::vector<Wall> wall_at(double x_m) { return {{{x_m, -3.0}, {x_m, 3.0}}}; }
 
-/// A LiDAR returns this within so much of a direction in its frame.
+/// Makes a LiDAR return this range around a direction in its frame.
 inline void spoil(TestRobot& robot, bool is_rear, double direction_rad, double half_rad, float said_m) {
   robot.spoil = [=](Sweep& sweep, bool rear) {
     for (std::size_t beam = 0; rear == is_rear && beam < sweep.ranges_m.size(); ++beam) {
@@ -36,7 +36,7 @@ inline void spoil(TestRobot& robot, bool is_rear, double direction_rad, double h
   };
 }
 
-/// A wall 2.5 m ahead vanishes while the robot drives toward it; nothing shows why.
+/// Removes a wall 2.5 m ahead while the robot drives toward it, without other evidence.
 inline void lose_wall_ahead(TestRobot& robot) {
   robot.scene.walls = wall_at(2.5);
   robot.settle();
@@ -49,7 +49,7 @@ inline bool is_said(const Decision& decision, const std::string& what) {
   return decision.message.text.find(what) != std::string::npos;
 }
 
-/// Drives for a while; fails when it touches something, or is blind.
+/// Drives for some time; fails if the robot touches something, or is blind.
 inline void drive_without_a_stop(TestRobot& robot, const Velocity& desired, double duration_s) {
   for (int tick = 0; tick < std::lround(duration_s / 0.02); ++tick) {
     const Decision decision = robot.step(desired);

@@ -1,5 +1,5 @@
 /// @file
-/// The robot stops before the border of its test area, whoever drives it.
+/// The robot stops before the border of its test area, with any source.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -190,7 +190,7 @@ TEST_P(AreaGuardTest, FootprintNeverCrossesTheBorderOfAnyAreaOnAnyArc) {
       }
     }
   }
-  // The border was met again and again, or nothing was proved.
+  // The border must be reached repeatedly, otherwise the test proves nothing.
   EXPECT_GT(borders, 200);
 }
 

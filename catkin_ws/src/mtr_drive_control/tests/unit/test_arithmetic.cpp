@@ -1,5 +1,5 @@
 /// @file
-/// The shortened functions against those of the standard library, for the last digit.
+/// Compares the fast functions with the standard library, exact to the last digit.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

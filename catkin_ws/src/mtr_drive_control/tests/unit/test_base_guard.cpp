@@ -1,5 +1,5 @@
 /// @file
-/// The watchdog in front of a base that cannot be configured (A2).
+/// Base guard in front of a base that cannot be configured (A2).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// Which bases a robot with a mast may have (A2).
+/// Permitted bases of a robot with a mast (A2).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// Tables by beam against the formulas for one beam, for the last digit.
+/// Compares the tables by beam with the formulas for one beam, exact to the last digit.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ void expect_same(const Pose& a, const Pose& b) {
   EXPECT_EQ(a.heading_rad(), b.heading_rad());
 }
 
-/// A base on a circle, or straight when it does not turn, without a short cut for the latter.
+/// Returns the pose of a base on a circle, or straight if it does not turn, without the optimization for the latter.
 Pose moved(const Motion& motion, std::int64_t time_ns) {
   const double time_s = static_cast<double>(time_ns - motion.stamp_ns) * 1e-9;
   const double turn = motion.velocity.angular_radps * time_s;
@@ -80,7 +80,7 @@ TEST(BeamDirections, AreThoseOfTheMount) {
   expect_follows();
 }
 
-/// Bearing of a point by the formulas of one beam each time.
+/// Returns the bearing of a point by the formulas of one beam.
 std::optional<Bearing> plain_bearing(const Sweep& sweep, const Motion& motion, const Point& point) {
   const std::size_t beams = sweep.ranges_m.size();
   const std::size_t middle = beams / 2;

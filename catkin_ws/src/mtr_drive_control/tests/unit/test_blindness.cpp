@@ -1,5 +1,5 @@
 /// @file
-/// LiDARs that see nothing, odometry that is silent.
+/// Blind LiDARs and silent odometry.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -115,7 +115,7 @@ TEST(Blindness, SilentOdometryStopsTheRobot) {
   EXPECT_EQ(decision.message.text, "The wheels' odometry is silent.");
 }
 
-/// Of the front LiDAR, or the rear one: what it says within so much of a direction.
+/// Replaces the ranges of the front or rear LiDAR around a direction.
 void hide(TestRobot& robot, bool is_rear, double direction_rad, double half_rad, float range_m) {
   robot.spoil = [=](Sweep& sweep, bool rear) {
     for (std::size_t beam = 0; rear == is_rear && beam < sweep.ranges_m.size(); ++beam) {
@@ -230,7 +230,7 @@ TEST(LidarWatch, TimesThatNoSweepHasAreRefusedBeforeTheyMakeItLookSilent) {
     EXPECT_EQ(problem_of(increment_s, 0.0, 1000 * kTestMs), "drive_control.lidar_sweep_time") << increment_s;
   }
   EXPECT_EQ(problem_of(0.2 / 719, 0.0, 60 * kTestMs), "");
-  // The turn of a LiDAR of 15 Hz, and firmware that states three times of the time between beams.
+  // Turn of a 15 Hz LiDAR, and firmware that states three times the time between beams.
   EXPECT_EQ(problem_of(3.0 * 0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_time_increment");
   EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 60 * kTestMs), "");
   EXPECT_EQ(problem_of(0.05 / 719, 1.0 / 15.0, 150 * kTestMs), "drive_control.lidar_silent");

@@ -53,7 +53,7 @@ TEST(CollisionStop, WallBehindStopsABackingRobotAndIsSaidToBeBehind) {
 
 TEST(CollisionStop, WallInACornersWayStopsATurnOnTheSpot) {
   TestRobot robot;
-  // Clear of the standing robot (0.215 m), in the way of its turning corner (0.345 m).
+  // Clear of the robot at rest (0.215 m), in the path of its turning corner (0.345 m).
   robot.scene.walls = {{{-3.0, 0.28}, {3.0, 0.28}}};
   robot.settle();
   EXPECT_EQ(robot.drive({0.0, 1.0}, 4.0).zone, Zone::kBlocked);
@@ -143,7 +143,7 @@ TEST(CollisionStop, AfterAStopItWaitsForThePauseAndGoesOn) {
   robot.scene.discs = {{{1.2, 0.0}, 0.07}, {{1.2, 0.2}, 0.07}};
   robot.settle();
   ASSERT_EQ(robot.drive({0.5, 0.0}, 5.0).zone, Zone::kBlocked);
-  // Behind the place of the legs a wall is seen; that they are not seen would prove nothing.
+  // A wall is visible behind the place of the legs; invisible legs alone would prove nothing.
   robot.scene.discs.clear();
   robot.scene.walls = {{{8.0, -9.0}, {8.0, 9.0}}};
   EXPECT_EQ(robot.drive({0.5, 0.0}, 0.9).velocity.linear_mps, 0.0);

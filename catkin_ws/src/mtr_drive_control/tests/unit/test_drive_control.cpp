@@ -1,5 +1,5 @@
 /// @file
-/// Priority of the sources and what their faults get.
+/// Priority of the sources, and the reaction to their faults.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -41,7 +41,7 @@ class DriveControlTest : public ::testing::Test {
     return decision;
   }
 
-  /// The wheels obey.
+  /// Velocity of the wheels, which follow the commands.
   Velocity sent;
   const Parameters limits = limits_at(Parameters{}, 0.35);
   DriveControl control{Parameters{}, CollisionParameters{}, test_shape(false), 0.02};

@@ -1,4 +1,4 @@
-"""Which robots drive control serves, and that the masses that it assumes are those of the URDF."""
+"""Robots that drive control supports, and agreement of its mass parameters with the URDF."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import re
@@ -21,7 +21,7 @@ KEY_AT_LOWER_STOP_M, KEY_AT_UPPER_STOP_M = 0.35, 1.55
 
 
 def default(name):
-    """Default value of a parameter in the C++ header."""
+    """Return the default value of a parameter in the C++ header."""
     text = (HEADERS / "parameters.hpp").read_text(encoding="utf-8")
     return float(re.search(rf"double {name} = (-?[\d.]+);", text).group(1))
 
@@ -31,7 +31,8 @@ def numbers(element, attribute):
 
 
 def place_of(link):
-    """Position of a link in base_link, with the lift down; all joints are parallel to base_link but for turns."""
+    """Return the position of a link in base_link, with the lift down; all joints are parallel to base_link, except for
+    turns."""
     place = [0.0, 0.0, 0.0]
     while link in JOINTS:
         place = [a + b for a, b in zip(place, numbers(JOINTS[link].find("origin"), "xyz"))]
@@ -40,7 +41,7 @@ def place_of(link):
 
 
 def masses():
-    """Mass and place of its centre, of each link; and whether it goes up with the lift."""
+    """Yield mass, centre of mass and lift flag of each link."""
     for name, link in LINKS.items():
         inertial = link.find("inertial")
         if inertial is not None:
@@ -50,7 +51,7 @@ def masses():
 
 
 def centre_of_mass(key_height_m):
-    """x in base_link, z above ground."""
+    """Return x in base_link and z above ground."""
     raised = key_height_m - KEY_AT_LOWER_STOP_M
     total = sum(mass for mass, _, _ in masses())
     x = sum(mass * place[0] for mass, place, _ in masses()) / total
@@ -59,7 +60,7 @@ def centre_of_mass(key_height_m):
 
 
 def sent_ahead(range_m):
-    """The first decision of drive control that is to drive ahead while both LiDARs see something all round them."""
+    """Return the first decision to drive ahead while both LiDARs see objects all around."""
     now_ns, beams = 1_000_000_000, 720
     sweep = SimpleNamespace(
         stamp_ns=now_ns, angle_min_rad=-0.75 * math.pi, angle_increment_rad=1.5 * math.pi / (beams - 1),
@@ -73,7 +74,7 @@ def sent_ahead(range_m):
 def test_robot_of_mtr_description_is_served():
     free = sent_ahead(5.0)
     assert (free.source, free.message) == ("planner", "") and free.linear_mps > 0.0
-    # From where the description has the LiDARs, that is too near to the footprint to set off.
+    # From the described LiDAR positions, that is too close to the footprint for a start.
     blocked = sent_ahead(0.3)
     assert blocked.linear_mps == 0.0 and "obstacle" in blocked.message
 

@@ -1,5 +1,5 @@
 /// @file
-/// What is sent begins from what the wheels do and keeps near it (A1).
+/// The sent velocity starts from the wheels' motion and stays close to it (A1).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ class FollowingTheWheels : public ::testing::Test {
     robot.drive(kFast, 1.5);
   }
 
-  /// Nobody works for so long, and then the wheels do this.
+  /// Skips ticks for a duration; then the wheels have this velocity.
   void pause(double duration_s, const Velocity& wheels) {
     robot.now_ns += std::llround(duration_s * 1e9);
     robot.wheels = wheels;

@@ -1,5 +1,5 @@
 /// @file
-/// What counts as an intervention, and how often.
+/// Events that count as interventions, and their number.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

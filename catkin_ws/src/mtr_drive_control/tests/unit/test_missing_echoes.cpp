@@ -1,5 +1,5 @@
 /// @file
-/// Echoes that are missing: covered, dirty and dazzled LiDARs, targets too near to be measured, and what really left.
+/// Missing echoes: covered, dirty and dazzled LiDARs, targets below the measuring range, and objects that really left.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -87,7 +87,7 @@ TEST(MotionLocks, OwnerBeyondTheRequiredOnesIsObeyedAndThenWatched) {
 
 class EmergencyStop : public ::testing::Test {
  protected:
-  /// Words each 40 ms; true when the robot may move after the last one.
+  /// Takes a message each 40 ms; returns true if the robot may move after the last one.
   bool may_move_after(std::int64_t duration_ms, bool engaged) {
     for (const std::int64_t end_ms = now_ms + duration_ms; now_ms < end_ms; now_ms += 40) {
       locks.take("controller_input", {now_ms * kMs, engaged, mtr_core::problem_with_text("Pressed."), true});

@@ -1,5 +1,5 @@
 /// @file
-/// Bases, odometries and gyros that contradict what was sent (A7).
+/// Bases, odometries and gyros that contradict the commands (A7).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -14,7 +14,8 @@ constexpr std::int64_t kPeriodNs = 20'000'000;
 
 class MotionWatchTest : public ::testing::Test {
  protected:
-  /// Code of the first problem, and when it was told in s, while the wheels and the gyro do this; empty when none.
+  /// Returns the code of the first problem with its time in s, during this motion of wheels and gyro; empty without
+  /// one.
   std::string drive(const Velocity& sent, const Velocity& wheels, double gyro_radps, double duration_s = 3.0) {
     for (const std::int64_t begun_ns = now_ns; now_ns < begun_ns + static_cast<std::int64_t>(duration_s * 1e9);) {
       const mtr_core::Problem problem = step(sent, wheels, gyro_radps);
@@ -53,7 +54,7 @@ TEST_F(MotionWatchTest, BaseThatObeysIsWell) {
 TEST_F(MotionWatchTest, BaseThatAnswersLateIsWell) {
   std::vector<Velocity> sent;
   for (int tick = 0; tick < 300; ++tick) {
-    // Up and down at the hardest that drive control sends.
+    // Up and down with the hardest accelerations of drive control.
     const double phase = 0.02 * (tick % 100);
     sent.push_back({phase < 1.0 ? std::min(0.85, phase) : std::max(0.0, 0.85 - 2.4 * (phase - 1.0)), 0.0});
     const Velocity wheels = tick < 15 ? Velocity{} : sent[static_cast<std::size_t>(tick - 15)];
@@ -74,7 +75,7 @@ TEST_F(MotionWatchTest, BaseWhoseWheelsStandIsToldWithinASecond) {
 }
 
 TEST_F(MotionWatchTest, BaseWhoseWheelsStandIsToldAlthoughItsEncodersFlickerAndItsServosSettle) {
-  // A count of a Jackal's encoder forth and back, now and then; the last of a stop.
+  // A single count of a Jackal's encoder back and forth, and the end of a stop.
   for (const Velocity& flicker : {Velocity{0.00064, 0.001}, Velocity{-0.008, 0.0}, Velocity{0.0, 0.02}}) {
     watch = MotionWatch();
     drive({0.4, 0.0}, {0.4, 0.0}, 0.0);
@@ -89,7 +90,7 @@ TEST_F(MotionWatchTest, BaseWhoseWheelsStandIsToldAlthoughItsEncodersFlickerAndI
 }
 
 TEST_F(MotionWatchTest, BaseThatFollowsACrawlIsWell) {
-  // Half of what was sent, uphill, and a count more or less at each tick.
+  // Half of the command, uphill, with a count more or less at each tick.
   for (int tick = 0; tick < 500; ++tick) {
     EXPECT_FALSE(step({0.05, 0.0}, {0.025 + 0.008 * (tick % 3 - 1), 0.0}, 0.0));
   }

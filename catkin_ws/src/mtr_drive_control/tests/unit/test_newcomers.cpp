@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSlowMps = 0.3;
 
-/// Side and front of something 0.7 m wide and 1.1 m long whose centre is at this place, along y.
+/// Returns side and front of an object 0.7 m wide and 1.1 m long, centred at this place, along y.
 std::vector<Wall> wheelchair_at(double x_m, double y_m) {
   const double low_x = x_m - 0.35;
   const double high_x = x_m + 0.35;
@@ -27,7 +27,7 @@ std::vector<Wall> wheelchair_at(double x_m, double y_m) {
 
 std::vector<Disc> legs_at(double x_m, double y_m) { return {{{x_m, y_m - 0.1}, 0.07}, {{x_m, y_m + 0.1}, 0.07}}; }
 
-/// Map of free ground around the origin, but for a square around a place that was seen occupied.
+/// Returns a map of free ground around the origin, except for an occupied square around a place.
 std::shared_ptr<const SiteMap> map_with(const Point& occupied, double half_side_m) {
   constexpr double kCellM = 0.1;
   constexpr std::size_t kSide = 200;
@@ -44,7 +44,7 @@ std::shared_ptr<const SiteMap> map_with(const Point& occupied, double half_side_
   return map;
 }
 
-/// A wheelchair rolls in from the left across the way of the robot; no touch while the robot moves.
+/// Rolls a wheelchair from the left across the path of the robot; fails on contact while the robot moves.
 void meet_wheelchair(TestRobot& robot, double robot_mps, double mover_mps) {
   robot.scene.walls = wheelchair_at(2.0, 4.5);
   robot.drive({0.0, 0.0}, 0.6);
@@ -78,7 +78,7 @@ TEST(WideMover, ThatWasSeenToComeIsPassedLikeAPersonWhenItStands) {
     }
     robot.scene.walls = wheelchair_at(2.0, 1.5);
     if (!has_come) {
-      // It has always been there: the process begins with it.
+      // It has always been there, because the process starts with it.
       robot.control = DriveControl(Parameters{}, CollisionParameters{}, test_shape(true), 0.02);
       robot.now_ns += 10 * kTestPeriodNs;
     }
@@ -116,7 +116,7 @@ TEST(SlowZone, BeginsTwoMetresFromAPersonWhoWasSeenToComeAndEndsBehind) {
     robot.scene.discs = legs_at(4.0, y_m);
     robot.step({0.0, 0.0});
   }
-  // However long the person stands.
+  // The duration of the person's stay does not matter.
   robot.drive({0.0, 0.0}, 12.0);
   bool was_slow = false;
   while (robot.world_from_base.position().x_m < 8.0) {
@@ -180,7 +180,7 @@ TEST(SlowZone, HoldsWhileAPersonIsHiddenForAMoment) {
   robot.drive({0.3, 0.0}, 0.5);
   robot.scene.discs.clear();
   EXPECT_LE(robot.drive({0.8, 0.0}, 0.8).velocity.linear_mps, kSlowMps + 1e-9);
-  // Nothing behind the place of the person proves that it is free.
+  // A wall seen behind the person's place proves that it is free.
   robot.scene.walls = {{{-9.0, 6.0}, {9.0, 6.0}}};
   EXPECT_GT(robot.drive({0.8, 0.0}, 2.5).velocity.linear_mps, 0.7);
 }
@@ -206,7 +206,7 @@ TEST(SteadyHeading, FollowsTheGyroWhereTheWheelsSlip) {
   frame.follow({now_ns, Pose(), {}}, 0.0);
   for (int tick = 1; tick <= 50; ++tick) {
     now_ns += kTestPeriodNs;
-    // The wheels tell a quarter more.
+    // The wheels show a quarter more.
     const double by_wheels_rad = 1.25 * kRateRadps * 0.02 * tick;
     EXPECT_TRUE(frame.follow({now_ns, Pose(0.0, 0.0, by_wheels_rad), {0.0, 1.25 * kRateRadps}}, kRateRadps));
   }

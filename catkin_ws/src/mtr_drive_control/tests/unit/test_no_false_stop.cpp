@@ -1,5 +1,5 @@
 /// @file
-/// What leaves, turns out of view or was never there does not stop the robot.
+/// Objects that leave, turn out of view or never existed do not stop the robot.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 

@@ -19,7 +19,7 @@ class SlopeTest : public ::testing::Test {
  protected:
   SlopeTest() { robot.settle(); }
 
-  /// Puts the robot on such ground: after a pause the estimate begins with what is measured.
+  /// Puts the robot on this slope: after a pause the estimate starts from the measurement.
   void tilt(double degrees) {
     robot.pitch_rad = degrees * kDegree;
     robot.now_ns += 500 * kTestMs;

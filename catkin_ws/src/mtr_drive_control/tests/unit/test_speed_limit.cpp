@@ -1,5 +1,5 @@
 /// @file
-/// The Command's maximum speed holds whatever the planner wants.
+/// The Command's maximum speed limits the planner.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace mtr_drive_control {
 namespace {
 
-/// One second of driving with this limit, published as long ago at each tick.
+/// Drives for one second with this limit, which has this age at each tick.
 Decision drive_limited(TestRobot& robot, const Velocity& desired, double max_mps, std::int64_t age_ns = 0,
                        bool by_hand = false) {
   Decision decision;

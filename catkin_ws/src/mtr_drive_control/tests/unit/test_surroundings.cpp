@@ -1,5 +1,5 @@
 /// @file
-/// Ground is remembered as of the time at which it was seen, and that of another time is forgotten (A10).
+/// Ground is remembered with the time of its observation, and discarded after a clock or odometry step (A10).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ constexpr Point kAhead{1.5, 0.0};
 
 class GroundThatWasSeen : public ::testing::Test {
  protected:
-  /// A tick at which front and rear LiDAR, on open ground, have just spoken of this time.
+  /// Runs a tick after a sweep of both LiDARs, on open ground, with this time.
   void look(std::int64_t tick_ns, std::int64_t seen_ns) {
     const auto sweep = Scene().sweep(Pose(), seen_ns);
     surroundings.take(tick_ns, {sweep, sweep, Motion{tick_ns, Pose(), {}}});
@@ -48,7 +48,7 @@ TEST_F(GroundThatWasSeen, TooLongAgoIsNotRemembered) {
   EXPECT_FALSE(surroundings.was_free(kAhead, 20.0));
 }
 
-/// The wheels' odometry goes on at another pose after so long a pause.
+/// The wheels' odometry resumes at a different pose after a pause.
 TEST_F(GroundThatWasSeen, IsForgottenWhenTheOdometryBeginsAgain) {
   struct Step {
     std::int64_t pause_ns;

@@ -1,5 +1,5 @@
 /// @file
-/// Direction of gravity by the IMU (H14).
+/// Direction of gravity from the IMU (H14).
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@ constexpr double kGravity = 9.81;
 constexpr double kStepS = 0.02;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// A body that pitches, rolls and accelerates, and its IMU.
+/// Body that pitches, rolls and accelerates, and its IMU.
 class GravityEstimateTest : public ::testing::Test {
  protected:
-  /// Moves for a while; largest tilt that is estimated meanwhile, in deg.
+  /// Moves for some time; returns the largest estimated tilt meanwhile, in deg.
   double move(double duration_s, double acceleration_mps2 = 0.0, double pitch_rate_radps = 0.0) {
     double largest_deg = 0.0;
     for (int tick = 0; tick < std::lround(duration_s / kStepS); ++tick) {

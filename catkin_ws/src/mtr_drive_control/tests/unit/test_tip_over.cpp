@@ -86,7 +86,7 @@ TEST(TipOver, SlopeBeyondTheSmallTiltIsSubtractedFromTheDeceleration) {
 }
 
 TEST(TipOver, StopOnASlopeLoadsTheWheelsNoMoreThanOneAtTheSmallTilt) {
-  // What throws the body over its front wheels, on tyres on which a sudden stop counts half as much again.
+  // Deceleration that tips the body over its front wheels; on tyres a sudden stop counts half as much again.
   const Parameters parameters;
   const auto thrown_mps2 = [&](double tilt_rad) {
     return 1.5 * limits_at(parameters, 1.55, tilt_rad).emergency_linear_deceleration_mps2 + 9.81 * std::sin(tilt_rad);

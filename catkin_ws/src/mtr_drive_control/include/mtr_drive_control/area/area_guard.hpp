@@ -1,5 +1,5 @@
 /// @file
-/// How much of a wanted velocity keeps the robot in the test area.
+/// Reduces a desired velocity such that the robot stays in the test area.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,13 +16,13 @@
 
 namespace mtr_drive_control {
 
-/// The area that the Operator or the launch file has set.
+/// Test area set by the Operator or the launch file.
 struct TestArea {
-  /// A real robot: without a polygon the planner moves nothing.
+  /// True on a real robot: without a polygon the planner's motion is forbidden.
   bool required = false;
-  /// Origin of map to which the polygon refers.
+  /// Origin of the map to which the polygon refers.
   std::uint64_t origin_id = 0;
-  /// None: no area is set.
+  /// Empty: no area is set.
   std::optional<Polygon> polygon;
 };
 
@@ -36,46 +36,46 @@ struct AreaPose {
   std::uint64_t origin_id;
 };
 
-/// What is known of the area at a tick.
+/// Inputs on the area at a tick.
 struct AreaInputs {
   /// Null before the first message.
   std::shared_ptr<const TestArea> area;
-  /// Nothing while the position is unknown.
+  /// Empty while the position is unknown.
   std::optional<AreaPose> pose;
 };
 
-/// What the area makes of a desired motion.
+/// Result of the area for a desired motion.
 struct AreaAssessment {
   Velocity velocity;
   Zone zone = Zone::kClear;
-  /// One sentence when the area forbids motion, else empty.
+  /// One sentence if the area forbids motion, else empty.
   mtr_core::Problem message;
 };
 
 /// Poses from now to standstill of a stop from a velocity.
 using StopPath = std::function<std::vector<PathPoint>(const Velocity&)>;
 
-/// Third opinion on a motion, after locks and collision stop.
+/// Third check of a motion, after locks and collision stop.
 ///
-/// A velocity is permitted when the footprint stays inside the border by the gap and 2 sigma of the pose until the stop
-/// from it has ended. A robot that is outside already may move slowly such that it gets no farther out. With an area
-/// and without a pose in it a person may crawl, and the planner moves nothing.
+/// A velocity is permitted if the footprint stays inside the border by the gap and 2 sigma of the pose until the stop
+/// from it has ended. A robot that is already outside may move slowly, but not farther out. With an area and without a
+/// pose in it a person may crawl, and the planner's motion is forbidden.
 class AreaGuard {
  public:
   AreaGuard(const AreaParameters& parameters, const Footprint& footprint);
 
-  /// Takes what is known at a tick; to be called once per tick, first.
+  /// Accepts the inputs of a tick; must be called once per tick, first.
   /// @param wheels velocity since the pose's stamp
   void take(std::int64_t tick_ns, const AreaInputs& inputs, const Velocity& wheels);
 
-  /// Largest part of the desired motion that is permitted.
+  /// Returns the largest permitted part of the desired motion.
   AreaAssessment assess(const DesiredMotion& desired, const StopPath& stop_path) const;
 
-  /// True when a stop from this velocity ends inside.
+  /// Returns true if a stop from this velocity ends inside.
   bool permits(const DesiredMotion& desired, const StopPath& stop_path) const;
 
  private:
-  /// Where the robot is, and how far it has to stay from the border.
+  /// Pose of the robot, and its required distance from the border.
   struct Place {
     Pose map_from_base;
     double margin_m;
@@ -93,7 +93,7 @@ class AreaGuard {
   Footprint footprint_;
   std::shared_ptr<const TestArea> area_;
   std::optional<Place> place_;
-  /// Why the position in the area is unknown, or an area is missing.
+  /// Reason why the position in the area is unknown, or an area is missing.
   mtr_core::Problem obstruction_;
 };
 

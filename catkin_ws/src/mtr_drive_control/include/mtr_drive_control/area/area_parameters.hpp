@@ -9,13 +9,13 @@
 
 namespace mtr_drive_control {
 
-/// Margin at the border, and speeds at which the robot may move where it is not enforced to stay inside.
+/// Margin at the border, and permitted speeds if the robot cannot be kept inside.
 struct AreaParameters {
-  /// Left between the footprint and the border, in addition to 2 sigma of the position.
+  /// Distance between the footprint and the border, in addition to 2 sigma of the position.
   double area_gap_m = 0.05;
-  /// Speed of any corner of a robot outside of the area on its way back in.
+  /// Speed of any corner of a robot that returns from outside the area.
   double area_return_mps = 0.15;
-  /// Speed of any corner of a robot that is driven by hand while its position in the area is unknown.
+  /// Speed of any corner under manual control while the position in the area is unknown.
   double area_crawl_mps = 0.1;
   /// Age at which a pose is unknown; localization publishes one every 0.02 s.
   double area_pose_timeout_s = 0.2;

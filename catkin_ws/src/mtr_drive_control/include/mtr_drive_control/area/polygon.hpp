@@ -1,5 +1,5 @@
 /// @file
-/// Simple polygon, and how far the robot's outline is inside it.
+/// Simple polygon, and the clearance of the robot's outline from its border.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace mtr_drive_control {
 
-/// Corners in either direction of rotation, at least 3; edges do not cross each other.
+/// Polygon with at least 3 corners in either direction of rotation; edges do not cross each other.
 class Polygon {
  public:
   explicit Polygon(std::vector<Point> corners);

@@ -11,7 +11,7 @@
 
 namespace mtr_drive_control {
 
-/// Motion of the base about a moment, from the wheels' odometry.
+/// Motion of the base at an instant, from the wheels' odometry.
 struct Motion {
   std::int64_t stamp_ns;
   Pose odom_from_base;
@@ -22,15 +22,15 @@ struct Motion {
   }
 };
 
-/// Directions of one LiDAR's beams in base_link; its sweeps share them as long as their angles are the same.
+/// Directions of one LiDAR's beams in base_link; its sweeps share them as long as their angles are equal.
 class BeamDirections {
  public:
   explicit BeamDirections(const LidarMount& mount) : mount_(mount) {}
 
-  /// Continues with the angles of this sweep.
+  /// Updates the directions if this sweep has other angles.
   void follow(const Sweep& sweep);
 
-  /// Place in base_link at this range, like LidarMount::in_base.
+  /// Position in base_link at this range, as LidarMount::in_base.
   Point in_base(double range_m, std::size_t beam) const {
     const Point& direction = directions_[beam];
     return {mount_.x_m + range_m * direction.x_m, mount_.y_m + range_m * direction.y_m};
@@ -49,12 +49,12 @@ class BeamPoses {
   BeamPoses(const Sweep& sweep, const Motion& motion);
 
   const Pose& at(std::size_t beam) const { return poses_[poses_.size() == 1 ? 0 : beam]; }
-  /// At half of the sweep, which is between two beams when their number is odd.
+  /// Pose at half of the sweep, which is between two beams if their number is odd.
   const Pose& middle() const { return poses_.size() == 1 ? poses_.front() : middle_; }
 
  private:
   Pose middle_;
-  /// One when all are equal.
+  /// A single pose if all are equal.
   std::vector<Pose> poses_;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Parameters of the collision stop: what a person can do, and what the robot leaves between; SI units.
+/// Parameters of the collision stop: assumptions on persons, and distances; SI units.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,27 +9,27 @@
 
 namespace mtr_drive_control {
 
-/// Margins and time-outs; the robot's outline and its LiDARs are in its URDF (robot_shape.hpp).
+/// Margins and time-outs; the URDF defines the robot's outline and LiDARs (robot_shape.hpp).
 struct CollisionParameters {
-  /// A thing that may be a person may walk at this speed at any moment; walking speed of ISO 13855.
+  /// Speed at which a possible person may start to walk at any moment; walking speed of ISO 13855.
   double person_speed_mps = 1.6;
-  /// A foot swings so far ahead of the walking body (0.28 m at 1.5 m/s), and the body overhangs the legs that are seen.
+  /// Reach of a swinging foot ahead of the body (0.28 m at 1.5 m/s), and overhang of the body over the visible legs.
   double person_reach_m = 0.30;
-  /// Left between the footprint and what does not walk; three times the noise of a range, and slip.
+  /// Distance between the footprint and static surfaces; three times the noise of a range, and slip.
   double gap_m = 0.05;
-  /// From a decision to braking wheels: one period, and the wheels' response (0.06 s in simulation).
+  /// Time from a decision to braking wheels: one period, and the wheels' response (0.06 s in simulation).
   double reaction_s = 0.08;
-  /// Age of a sweep's first beam at which its LiDAR is blind; 0.06 s in health.
+  /// Age of a sweep's first beam at which its LiDAR counts as blind; 0.06 s in normal operation.
   double lidar_timeout_s = 0.14;
   double odometry_timeout_s = 0.10;
-  /// The way must be free for so long before the robot goes on.
+  /// Time for which the path must be free before the robot resumes.
   double resume_pause_s = 1.0;
-  /// Away from a thing within a person's reach that has stood still, no faster than this.
+  /// Maximum speed away from a stationary thing within a person's reach.
   double creep_mps = 0.1;
-  /// Within this distance of a possible person no point of the outline moves faster than this speed.
+  /// Maximum speed of any point of the outline within this distance of a possible person.
   double near_person_m = 2.0;
   double near_person_mps = 0.3;
-  /// Without a LiDAR at the rear: backwards no faster than this, into ground seen free within this time.
+  /// Without a rear LiDAR: maximum speed backwards, into ground that was seen free within this time.
   double unwatched_reverse_mps = 0.3;
   double ground_memory_s = 20.0;
   /// The base has a contact skirt that stops it on touch; without one the speed near a possible person is limited.

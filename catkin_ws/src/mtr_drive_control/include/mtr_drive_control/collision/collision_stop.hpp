@@ -1,5 +1,5 @@
 /// @file
-/// How much of a wanted velocity is safe: the robot must stop before it touches anything, or anybody touches it.
+/// Limits a desired velocity such that the robot stops before it touches anything, or a person touches it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,46 +15,46 @@
 
 namespace mtr_drive_control {
 
-/// Numbers of mtr_msgs/DriveStatus.
+/// Values of mtr_msgs/DriveStatus.
 enum class Zone : std::uint8_t { kClear = 0, kSlowed = 1, kBlocked = 2, kBlind = 3 };
 
-/// What is in the way.
+/// Obstacle in the path.
 struct Hindrance {
-  /// From the footprint to it, now; NaN for ground that was not seen.
+  /// Distance from the footprint, now; NaN for ground that was not seen.
   double distance_m = std::numeric_limits<double>::quiet_NaN();
   /// In base_link.
   double bearing_rad = std::numeric_limits<double>::quiet_NaN();
   bool is_unseen_ground = false;
 };
 
-/// What the collision stop makes of a desired motion.
+/// Result of the collision stop for a desired motion.
 struct Assessment {
   Velocity velocity;
   Zone zone = Zone::kClear;
   std::optional<Hindrance> hindrance;
-  /// One sentence when it forbids motion, else empty.
+  /// One sentence if it forbids motion, else empty.
   mtr_core::Problem message;
 };
 
-/// What is wanted at a tick.
+/// Desired motion at a tick.
 struct DesiredMotion {
   Velocity velocity;
-  /// By a person who holds the manual controller and sees what no LiDAR sees.
+  /// Set by a person with the manual controller, who sees more than the LiDARs.
   bool by_hand = false;
 };
 
 /// Second stage of drive control.
 ///
-/// A velocity is safe when the stop from it, along its own circle, ends before the footprint comes nearer to a wide
-/// thing than the gap, and before anything that may be a person could have walked up to the footprint. It is reduced
-/// by the normal deceleration; the emergency one is left for what appears suddenly. After a stop the way must be free
-/// for a pause. Near a possible person it is slow, unless the base has a contact skirt.
+/// A velocity is safe if the stop from it, along its own circle, ends before the footprint is closer to a wide thing
+/// than the gap, and before a possible person could have reached the footprint. It is reduced by the normal
+/// deceleration; the emergency deceleration is reserved for suddenly appearing obstacles. After a stop the path must be
+/// free for a pause. Near a possible person the robot is slow, unless the base has a contact skirt.
 class CollisionStop {
  public:
   CollisionStop(const CollisionParameters& parameters, const RobotShape& shape);
 
-  /// Takes the readings of a tick; to be called once per tick, first.
-  /// @param late_s so much later than usual the next decision may come
+  /// Accepts the readings of a tick; must be called once per tick, first.
+  /// @param late_s possible delay of the next decision
   void take(std::int64_t tick_ns, const Sensors& sensors, double late_s) {
     late_s_ = late_s;
     surroundings_.take(tick_ns, sensors);
@@ -62,18 +62,18 @@ class CollisionStop {
     assessed_ns_ = tick_ns;
   }
 
-  /// Largest part of the desired motion that is safe when stopped at this deceleration.
+  /// Returns the largest part of the desired motion that is safe when stopped at this deceleration.
   Assessment assess(std::int64_t tick_ns, const DesiredMotion& desired, const Deceleration& normal);
 
-  /// True when the velocity is safe when stopped at this deceleration.
+  /// Returns true if the velocity is safe when stopped at this deceleration.
   bool permits(const DesiredMotion& desired, const Deceleration& deceleration) const {
     return !hindrance_of(desired, deceleration);
   }
 
-  /// Nobody wants to move any more.
+  /// Handles that no source requests motion.
   void rest() { blocked_motion_.reset(); }
 
-  /// The robot may have been carried: it knows no ground.
+  /// Discards the memory of the ground, because the robot may have been carried.
   void forget_ground() { surroundings_.forget_ground(); }
 
   const mtr_core::Problem& blindness() const { return surroundings_.blindness(); }
@@ -85,18 +85,18 @@ class CollisionStop {
  private:
   std::optional<Hindrance> hindrance_of(const DesiredMotion& desired, const Deceleration& deceleration) const;
   bool is_backed_by_person(const DesiredMotion& desired) const;
-  /// False spares a closer test: it is too far away for any kind of obstacle.
+  /// Returns false without a detailed test if it is too far away for any kind of obstacle.
   bool may_be_reached(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
   bool is_in_reach(const Obstacle& obstacle, const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   bool gets_nearer_than(double limit_m, const Point& point, const std::vector<PathPoint>& path) const;
   bool is_approached_by_person(const Obstacle& obstacle, const std::vector<PathPoint>& path) const;
-  /// Ground that the outline would sweep, that no LiDAR sees, and that was not seen free.
+  /// Returns ground that the outline would sweep, that no LiDAR sees, and that was not seen free.
   std::optional<Hindrance> unseen_ground(const DesiredMotion& desired, const std::vector<PathPoint>& path) const;
   Hindrance hindrance_at(const Point& point) const;
   DesiredMotion within_sight(const DesiredMotion& desired) const;
-  /// The nearest possible person, while one was seen in the slow zone a moment ago; null without one.
+  /// Returns the nearest possible person if one was seen in the slow zone recently; null without one.
   const Obstacle* nearest_possible_person() const;
-  /// Fastest motion of the outline that keeps the slow zone of a possible person; infinite without one.
+  /// Returns the maximum speed of the outline that keeps the slow zone of a possible person; infinite without one.
   double slow_zone_mps(std::int64_t tick_ns, double deceleration_mps2);
   double safe_share(const DesiredMotion& desired, const Deceleration& normal) const;
   Assessment blocked(std::int64_t tick_ns, const DesiredMotion& desired, const std::optional<Hindrance>& hindrance);
@@ -108,16 +108,16 @@ class CollisionStop {
   Surroundings surroundings_;
   double late_s_ = 0.0;
   std::optional<std::int64_t> assessed_ns_;
-  /// Since the tick before.
+  /// Time since the previous tick.
   std::int64_t rested_ns_ = 0;
-  /// Direction of the motion that was stopped for an obstacle, until the way has been free for the pause.
+  /// Direction of the motion that was stopped for an obstacle, until the path has been free for the pause.
   std::optional<DesiredMotion> blocked_motion_;
   std::int64_t last_blocked_ns_ = 0;
-  /// When a possible person was in the slow zone.
+  /// Last time of a possible person in the slow zone.
   std::optional<std::int64_t> person_near_ns_;
 };
 
-/// "Blocked by an obstacle 0.6 m ahead." and the like.
+/// Returns a problem such as "Blocked by an obstacle 0.6 m ahead.".
 mtr_core::Problem problem_of(const Hindrance& hindrance);
 
 }  // namespace mtr_drive_control

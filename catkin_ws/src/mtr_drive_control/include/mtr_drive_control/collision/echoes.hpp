@@ -1,5 +1,5 @@
 /// @file
-/// From a sweep to the echoes that count: neither the robot itself nor rain, and whether they may be a person.
+/// Converts a sweep to the relevant echoes: without the robot itself and rain, classified as wide or possible person.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,38 +17,38 @@ struct Echo {
   std::int64_t stamp_ns;
   /// Part of a surface wider than a person, which does not walk: Car, wall.
   bool is_wide;
-  /// From the LiDAR.
+  /// Distance from the LiDAR.
   double range_m;
   std::size_t beam;
-  /// Angle over which its cluster is seen.
+  /// Visible angle of its cluster.
   double span_rad;
 };
 
-/// Turns the sweeps of one LiDAR into echoes.
+/// Converts the sweeps of one LiDAR to echoes.
 ///
-/// Neighbouring echoes form a cluster. One of few beams counts only when it stays in its place for some sweeps: a
-/// raindrop does not, a thin post does; a leg has more beams and counts at once. What is too near to be measured counts
-/// where it may be nearest: at the edge of the footprint.
+/// Neighbouring echoes form a cluster. A cluster of few beams counts only if it stays in its place for some sweeps: a
+/// raindrop does not, a thin post does; a leg has more beams and counts at once. An object closer than the measuring
+/// range counts at its closest possible position, the edge of the footprint.
 class EchoFinder {
  public:
-  /// @param own_view_rad to each side of where the LiDAR points: what nobody else watches
+  /// @param own_view_rad angle to each side of the LiDAR's direction that no other LiDAR covers
   EchoFinder(const LidarMount& mount, const Footprint& footprint, double own_view_rad);
 
-  /// Reads the next sweep; the questions below are about it.
+  /// Reads the next sweep; the functions below refer to it.
   void read(const Sweep& sweep);
 
-  /// What each of its beams returned.
+  /// Returns the sweep's view with the result of each beam.
   View view_of(const Sweep& sweep, const Motion& motion) const;
 
-  /// Echoes in the view of the sweep nearer than max_range_m; to be called once for a sweep.
+  /// Returns echoes in the view of the sweep nearer than max_range_m; must be called once per sweep.
   std::vector<Echo> find(const Sweep& sweep, const View& view, double max_range_m);
 
-  /// Widest piece of its own view that measures nothing, when it is wider than a leg: no measurement (NaN, zero), only
-  /// something within the footprint, which is the mast where it is small and a cover where it is not, or directions
-  /// that its sweeps do not contain any longer.
+  /// Returns the widest sector of its own view without a measurement, if it is wider than a leg. Such beams have no
+  /// measurement (NaN, zero), or only an echo within the footprint, which is the mast if small and a cover if not, or
+  /// are directions that the sweeps no longer contain.
   std::optional<Sector> covered_sector(const Sweep& sweep);
 
-  /// True when a place in base_link is in the view of its sweeps, as far as they are known to be seen.
+  /// Returns true if a position in base_link is in the view of its sweeps, as far as this view is known.
   bool sees(const Point& point) const;
 
   const BeamDirections& directions() const { return directions_; }
@@ -67,7 +67,7 @@ class EchoFinder {
   };
 
   std::vector<Hit> hits(double max_range_m) const;
-  /// Range of what a beam has met outside the footprint; nothing where it has met nothing there.
+  /// Returns the range of a beam's echo outside the footprint; empty without one.
   std::optional<double> range_of(const Sweep& sweep, std::size_t beam) const;
   int sweeps_seen(const Point& point) const;
   Sector in_base(double low_rad, double high_rad) const;
@@ -76,10 +76,10 @@ class EchoFinder {
   Footprint footprint_;
   double own_view_rad_;
   BeamDirections directions_;
-  /// By beam, as by `range_of`.
+  /// By beam, from `range_of`.
   std::vector<std::optional<double>> ranges_m_;
   std::vector<Small> small_;
-  /// Directions in the LiDAR's frame that its sweeps have contained.
+  /// Range of directions, in the LiDAR's frame, of its sweeps so far.
   double lowest_rad_;
   double highest_rad_;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// Beams that returned nothing from where something is known to be: a LiDAR that is covered, dirty or dazzled.
+/// Beams without an echo from a known surface: the LiDAR is covered, dirty or dazzled.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,23 +12,23 @@
 
 namespace mtr_drive_control {
 
-/// Beams of one sweep that contradict what is known.
+/// Beams of one sweep that contradict known surfaces.
 class EmptyBeams {
  public:
   /// @param bearing of the surface that the sweep does not show
   void add(const Bearing& bearing) { bearings_.push_back(bearing); }
 
-  /// Widest piece of them without an echo in between, when it is wider than a leg.
+  /// Returns the widest contiguous sector without an echo, if it is wider than a leg.
   std::optional<Sector> widest(const View& view) const;
 
-  /// Range of the nearest surface; infinite without any.
+  /// Range of the nearest surface; infinite without one.
   double nearest_m() const;
 
  private:
   std::vector<Bearing> bearings_;
 };
 
-/// Sector of one LiDAR that contradicts what is known for longer than a flicker.
+/// Sector of one LiDAR that contradicts known surfaces for longer than a flicker.
 class EmptySector {
  public:
   /// Evaluates the next sweep.
@@ -36,7 +36,7 @@ class EmptySector {
 
   const std::optional<Sector>& confirmed() const { return confirmed_; }
 
-  /// True when each sweep since this time has contradicted what is known.
+  /// Returns true if each sweep since this time has contradicted known surfaces.
   bool has_lasted_since(std::int64_t time_ns) const { return since_ns_ && *since_ns_ <= time_ns; }
 
  private:

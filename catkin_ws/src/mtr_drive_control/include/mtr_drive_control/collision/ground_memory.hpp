@@ -1,5 +1,5 @@
 /// @file
-/// What was seen of the ground near the robot, and when: a grid in odom that travels with the robot.
+/// Memory of observations of the ground near the robot: a grid in odom that moves with the robot.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,46 +10,46 @@
 
 namespace mtr_drive_control {
 
-/// A thing that was seen and has been neither seen again nor seen gone.
+/// Thing that was seen and has since been neither seen again nor seen to disappear.
 struct LostThing {
   /// In odom.
   Point point;
   std::int64_t seen_ns;
-  /// It had not been in its place for long: a person who walks.
+  /// It had only recently arrived at its place: a walking person.
   bool was_moving;
 };
 
-/// Remembers per cell when it was last seen free and when something was last seen there.
+/// Stores per cell the last times at which it was seen free and occupied.
 class GroundMemory {
  public:
   GroundMemory();
 
-  /// The ground under the footprint is free, and so is 1 cm around it where the robot came to rest.
+  /// Marks the ground under the footprint as free, and 1 cm around it where the robot came to rest.
   ///
-  /// Without that a robot that has seen nothing behind it could not set off: feedback turns it by some mm. Such places
-  /// are 0.3 m apart, so that the robot does not creep on.
+  /// Otherwise a robot that has seen nothing behind it could not start: feedback turns it by some mm. Such places are
+  /// 0.3 m apart, so that the robot cannot creep by them.
   void stand(const Footprint& footprint, const Motion& motion);
 
-  /// Beams of a sweep: free up to their echo.
+  /// Marks the beams of a sweep as free up to their echo.
   void observe(const Sweep& sweep, const BeamDirections& directions, const View& view);
 
-  /// Echoes that count, of the same sweep.
+  /// Adds the counting echoes of the same sweep.
   void remember(const std::vector<Echo>& echoes, const Motion& motion);
 
-  /// True when something wide was seen in this place and has not gone since.
+  /// Returns true if a wide surface was seen in this place and has not disappeared since.
   bool was_wide(const Point& point) const;
 
-  /// True when something has been in this place for so long that it stands.
+  /// Returns true if a thing has been in this place long enough to count as stationary.
   bool has_stood(const Point& point) const;
 
-  /// True when this ground was seen free not longer ago, and nothing was seen there since.
+  /// Returns true if this ground was seen free within max_age_s, and not seen occupied since.
   bool was_free(const Point& point, std::int64_t now_ns, double max_age_s) const;
 
-  /// Things that went out of view not longer ago.
+  /// Returns things that left the view within max_age_s.
   std::vector<LostThing> lost_things(std::int64_t now_ns, double max_age_s) const;
 
  private:
-  /// Where the robot came to rest, and when it was last near that.
+  /// Place where the robot came to rest, and the last time near it.
   struct Rest {
     Footprint outline;
     Pose odom_from_base;
@@ -70,7 +70,7 @@ class GroundMemory {
   void keep_rest(const Footprint& footprint, const Motion& motion);
   std::int64_t rested_ns(const Point& point) const;
 
-  /// The newest last.
+  /// The newest is last.
   std::vector<Rest> rests_;
   std::vector<Cell> cells_;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// The map of the site as a witness against a LiDAR that returns nothing.
+/// Uses the site map as a reference against a LiDAR without echoes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,26 +21,27 @@ struct FreeGround {
   std::vector<bool> cells;
 };
 
-/// Occupied places, in map, and the free ground between them.
+/// Occupied places in the map frame, and the free ground between them.
 struct SiteMap {
   std::vector<Point> occupied;
   FreeGround free = {};
 
-  /// True when all cells up to this distance along each axis of the grid were seen free; false outside of the map.
+  /// Returns true if all cells up to this distance along each axis of the grid were seen free; false outside of the
+  /// map.
   bool is_free_around(const Point& place, double distance_m) const;
 };
 
-/// A map and where odom lies in it.
+/// Map and the pose of odom in it.
 struct LocalizedMap {
   /// Null while the robot has a position but no map.
   std::shared_ptr<const SiteMap> map;
   Pose map_from_odom;
 };
 
-/// Compares sweeps with the map until a sweep proves that something has gone since it was made.
+/// Compares sweeps with the map until a sweep proves that a mapped surface has disappeared.
 class MapWitness {
  public:
-  /// Adds the beams of a sweep that returned nothing from occupied places.
+  /// Adds the beams of a sweep without an echo from occupied places.
   void observe(const View& view, const Witness& lidar, const std::vector<Echo>& echoes, const LocalizedMap& here,
                EmptyBeams& empty);
 
@@ -51,7 +52,7 @@ class MapWitness {
   };
 
   void take(const std::shared_ptr<const SiteMap>& map);
-  /// True when the sweep contradicts the place.
+  /// Returns true if the sweep contradicts the place.
   bool is_contradicted(Place& place, const View& view, const Bearing& bearing) const;
 
   std::shared_ptr<const SiteMap> map_;

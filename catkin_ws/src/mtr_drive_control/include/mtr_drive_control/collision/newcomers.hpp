@@ -1,5 +1,5 @@
 /// @file
-/// Memory of which surfaces near the robot came to their place while their place was observed.
+/// Memory of surfaces near the robot that came to their place while it was observed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,17 +12,17 @@
 
 namespace mtr_drive_control {
 
-/// What comes is observed up to this range; half of the grid is larger.
+/// Range up to which arrivals are observed; half of the grid is larger.
 inline constexpr double kNewcomerReachM = 5.7;
 
 /// Pose of the robot in a frame whose heading comes from the gyro, because wheels slip in turns.
 class SteadyFrame {
  public:
   /// Continues with the newest odometry and yaw rate.
-  /// @return false when the frame began again: places of the previous one are void
+  /// @return false if the frame restarted: places of the previous one are void
   bool follow(const Motion& motion, const std::optional<double>& gyro_radps);
 
-  /// Place in this frame of a point in odom.
+  /// Position in this frame of a point in odom.
   Point from_odom(const Point& point) const { return pose_.apply(odom_from_base_.undo(point)); }
   /// The newest motion in this frame.
   const Motion& motion() const { return motion_; }
@@ -35,26 +35,26 @@ class SteadyFrame {
   double bias_radps_ = 0.0;
 };
 
-/// Grid that tells surfaces that have always been in their place from those that came while it was observed.
+/// Grid that distinguishes surfaces that have always been in their place from surfaces that came while it was observed.
 ///
-/// A newcomer was seen in three sweeps in a row on ground that had been seen free, farther than a cell from everything
-/// that was there before. It remains one until its place is seen free. A surface is unmapped when the map of the site
-/// shows free ground in its place and within 0.4 m of it.
+/// A newcomer was seen in three consecutive sweeps on ground that had been seen free, more than a cell away from all
+/// earlier surfaces. It remains one until its place is seen free. A surface is unmapped if the map of the site shows
+/// free ground in its place and within 0.4 m of it.
 class Newcomers {
  public:
   Newcomers() : cells_(static_cast<std::size_t>(kSide * kSide)) {}
 
-  /// Beams of a sweep: free up to shortly before their echo. The motion is that of the steady frame.
+  /// Marks the beams of a sweep as free up to shortly before their echo. The motion is in the steady frame.
   void observe(const Sweep& sweep, const BeamDirections& directions, const Motion& motion);
 
-  /// One echo that counts, of the sweep with this stamp.
-  /// @param place in the steady frame, @param in_map nothing while the robot is not localized
+  /// Adds a counting echo of the sweep with this stamp.
+  /// @param place in the steady frame, @param in_map empty while the robot is not localized
   void remember(const Point& place, std::int64_t sweep_ns, const SiteMap* map, const std::optional<Point>& in_map);
 
-  /// True when something came to this place while it was observed, and remained.
+  /// Returns true if a surface came to this place while it was observed, and remained.
   bool has_come(const Point& place) const;
 
-  /// True for what came, and for what remains at a place where the map shows free ground.
+  /// Returns true for a newcomer, and for a lasting surface where the map shows free ground.
   bool may_be_person(const Point& place) const;
 
  private:
@@ -63,17 +63,17 @@ class Newcomers {
   struct Cell {
     int column = 0;
     int row = 0;
-    /// First and last time of the present run of free sights, 0 without one.
+    /// First and last time of the current run of free observations, 0 without one.
     std::int64_t free_since_ns = 0;
     std::int64_t free_ns = 0;
-    /// First and last sweep of the present surface.
+    /// First and last sweep of the current surface.
     std::int64_t since_ns = 0;
     std::int64_t sweep_ns = 0;
-    /// Sweeps in a row in which a surface was here or in a neighbouring cell.
+    /// Number of consecutive sweeps with a surface here or in a neighbouring cell.
     int run = 0;
     State state = State::kNone;
     bool is_unmapped = false;
-    /// Map that was asked for the present surface.
+    /// Map that was compared with the current surface.
     const SiteMap* asked = nullptr;
   };
 
@@ -81,12 +81,12 @@ class Newcomers {
   const Cell* find(int column, int row) const;
   const Cell* find(const Point& place) const;
   void see_free(const Point& place, std::int64_t stamp_ns);
-  /// True when this cell and the ground around it had been seen free.
+  /// Returns true if this cell and the ground around it had been seen free.
   bool was_free(const Cell& cell, std::int64_t sweep_ns) const;
   static bool is_known_free(const Cell& cell, std::int64_t sweep_ns);
   State state_of_hit(const Cell& cell, std::int64_t sweep_ns) const;
   int run_at(const Cell& cell, std::int64_t sweep_ns) const;
-  /// True when a cell of this state is next to the cell, and was hit since this time.
+  /// Returns true if a neighbouring cell has this state and was hit since this time.
   bool has_neighbour(const Cell& cell, State state, std::int64_t since_ns) const;
 
   std::vector<Cell> cells_;

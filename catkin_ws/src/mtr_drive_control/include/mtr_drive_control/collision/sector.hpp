@@ -1,11 +1,11 @@
 /// @file
-/// A piece of a LiDAR's view.
+/// Sector of a LiDAR's view.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 namespace mtr_drive_control {
 
-/// A wider piece without a measurement may hide a person: at 1 m a leg is as wide, and two legs are farther apart.
+/// A wider sector without a measurement may hide a person: at 1 m a leg has this width, and two legs are farther apart.
 inline constexpr double kLegRad = 0.175;
 
 /// Directions in base_link, counterclockwise from the first to the last.

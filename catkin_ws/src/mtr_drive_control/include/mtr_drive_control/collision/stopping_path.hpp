@@ -1,5 +1,5 @@
 /// @file
-/// Where the robot gets when it is stopped from a velocity.
+/// Path of the robot during a stop.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,16 +14,18 @@ struct Deceleration {
   double angular_radps2;
 };
 
-/// Pose in the present base_link, and how long from now the robot is there.
+/// Pose in the current base_link, and the time from now until the robot is there.
 struct PathPoint {
   Pose pose;
   double time_s;
 };
 
-/// No corner of the robot moves more from one pose of a stopping path to the next; it bulges by 4 mm at most between.
+/// Maximum motion of a corner of the robot between consecutive poses of a stopping path; the arc in between deviates by
+/// at most 4 mm.
 inline constexpr double kPathStepM = 0.1;
 
-/// Poses from now to standstill: the velocity is kept for the reaction, then reduced evenly along its own circle.
+/// Returns the poses from now to standstill: constant velocity during the reaction, then uniform braking along its
+/// circle.
 std::vector<PathPoint> stopping_path(const Velocity& velocity, const Deceleration& deceleration, double reaction_s,
                                      double radius_m);
 

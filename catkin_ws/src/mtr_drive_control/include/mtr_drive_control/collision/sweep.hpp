@@ -1,5 +1,5 @@
 /// @file
-/// One turn of a LiDAR, and what it alone says.
+/// One turn of a LiDAR, and the faults that it shows by itself.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace mtr_drive_control {
 
-/// Ranges in m by angle in the LiDAR's frame; REP-117: +inf nothing in reach, -inf too near, NaN no measurement.
+/// Ranges in m by angle in the LiDAR's frame; REP-117: +inf nothing in range, -inf too near, NaN no measurement.
 struct Sweep {
   /// Time of the first beam.
   std::int64_t stamp_ns;
@@ -23,36 +23,36 @@ struct Sweep {
   double range_min_m;
   double range_max_m;
   std::vector<float> ranges_m;
-  /// Frame that the LiDAR names, and the one that it should.
+  /// Frame that the LiDAR reports, and the expected one.
   std::string frame_id;
   std::string expected_frame_id;
-  /// Of one turn; 0 when the driver does not state it.
+  /// Duration of one turn; 0 if the driver does not state it.
   double scan_time_s = 0.0;
 
-  /// Time of a beam, or of a moment between two of them.
+  /// Time of a beam, or of an instant between two of them.
   std::int64_t time_ns(double beam) const {
     return stamp_ns + static_cast<std::int64_t>(1e9 * time_increment_s * beam);
   }
   double angle_of(std::size_t beam) const { return angle_min_rad + angle_increment_rad * static_cast<double>(beam); }
   bool is_echo(std::size_t beam) const { return ranges_m[beam] >= range_min_m && ranges_m[beam] <= range_max_m; }
-  /// Nothing in reach: the way of the beam is free.
+  /// Nothing in range: the path of the beam is free.
   bool is_far(std::size_t beam) const { return ranges_m[beam] > range_max_m; }
-  /// Something nearer than the LiDAR measures. Zero is what drivers say that know no REP-117: no measurement.
+  /// Object nearer than the measuring range. Drivers without REP-117 report zero for no measurement.
   bool is_near(std::size_t beam) const { return ranges_m[beam] < range_min_m && ranges_m[beam] != 0.0F; }
 };
 
-/// Why the sweep cannot be used, as the end of a sentence about the LiDAR; empty when it can.
+/// Reason why the sweep cannot be used, as the end of a sentence about the LiDAR; empty if it can.
 mtr_core::Problem defect_of(const Sweep& sweep, const std::string& lidar);
 
-/// Notices a LiDAR that is silent, frozen or covered.
+/// Detects a LiDAR that is silent, frozen or covered.
 class LidarWatch {
  public:
   LidarWatch(std::string name, double timeout_s) : name_(std::move(name)), timeout_s_(timeout_s) {}
 
-  /// Newest sweep at a tick, null before the first; true when it is new and fit for use.
+  /// Accepts the newest sweep at a tick, null before the first; returns true if it is new and valid.
   bool take(const std::shared_ptr<const Sweep>& sweep);
 
-  /// One sentence when it sees nothing now, else empty.
+  /// One sentence if it is blind now, else empty.
   mtr_core::Problem problem_at(std::int64_t tick_ns) const;
 
   const std::string& name() const { return name_; }

@@ -1,5 +1,5 @@
 /// @file
-/// One sweep as seen from the moving robot: what each beam returned, and where a point of odom lies in it.
+/// One sweep as seen from the moving robot: the result of each beam, and the position of points of odom in it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -19,34 +19,34 @@ struct Bearing {
   double range_m;
 };
 
-/// How a sweep relates to a point where a surface was seen.
+/// Relation of a sweep to a point at which a surface was seen.
 enum class Evidence {
   /// Outside the field of view.
   kOutOfView,
   /// A beam returned from this place.
   kConfirmed,
-  /// The beam returned from behind it: it is gone.
+  /// The beam returned from behind it: it has gone.
   kSeenThrough,
   /// The beam returned from something nearer.
   kHidden,
-  /// The beam returned nothing.
+  /// The beam returned no echo.
   kNothing,
 };
 
-/// A sweep with the motion of the robot meanwhile.
+/// Sweep with the motion of the robot during it.
 class View {
  public:
   /// @param returned_m by beam: range of its echo, 0 for the robot itself, +inf or NaN without an echo
   View(const Sweep& sweep, const LidarMount& mount, const Motion& motion, std::vector<double> returned_m);
 
-  /// Place of a point of odom in the sweep; nothing outside the field of view.
+  /// Position of a point of odom in the sweep; empty outside the field of view.
   std::optional<Bearing> bearing_of(const Point& point) const;
 
-  /// What the sweep says of a surface at this place.
+  /// Evidence of the sweep on a surface at this place.
   /// @param tolerance_m of its range, @param tolerance_rad of its direction
   Evidence evidence_at(const Bearing& bearing, double tolerance_m, double tolerance_rad) const;
 
-  /// True when the beam returned nothing at all.
+  /// True if the beam returned no echo.
   bool is_empty(std::size_t beam) const { return !(returned_m_[beam] < kInfinity); }
   std::size_t beams() const { return returned_m_.size(); }
   double step_rad() const { return std::abs(angle_increment_rad_); }
@@ -54,9 +54,9 @@ class View {
   double angle_rad(std::size_t beam) const;
   /// Direction of a beam in base_link.
   double angle_in_base_rad(std::size_t beam) const;
-  /// Of the robot in odom.
+  /// Position of the robot in odom.
   Point position() const { return position_; }
-  /// Of the robot in odom at the time of a beam.
+  /// Pose of the robot in odom at the time of a beam.
   const Pose& pose_at(std::size_t beam) const { return poses_.at(beam); }
   std::int64_t stamp_ns() const { return stamp_ns_; }
   double range_min_m() const { return range_min_m_; }

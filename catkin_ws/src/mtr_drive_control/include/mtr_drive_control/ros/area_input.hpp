@@ -14,7 +14,7 @@
 
 namespace mtr_drive_control {
 
-/// Subscription to both; a dispatcher that falls silent is a motion lock, and the last area remains in force.
+/// Subscription to both; a silent dispatcher is a motion lock, and the last area remains in force.
 class AreaInput {
  public:
   explicit AreaInput(ros::NodeHandle& node);

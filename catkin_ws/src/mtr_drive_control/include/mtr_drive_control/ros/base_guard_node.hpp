@@ -16,12 +16,12 @@ namespace mtr_drive_control {
 /// Relays the wheels' commands 50 times a second, by the machine's steady clock; it has no other input.
 class BaseGuardNode {
  public:
-  /// Limits from the node's private parameters, which are those of a diff_drive_controller.
+  /// Reads limits from the node's private parameters, which have the names of a diff_drive_controller's.
   static BaseLimits read(mtr_core::ParameterReader& reader);
 
   BaseGuardNode(ros::NodeHandle& node, const BaseLimits& limits);
 
-  /// Returns at shutdown: asked to leave it first brakes the base.
+  /// Returns at shutdown, after braking the base.
   void spin();
 
  private:

@@ -13,14 +13,14 @@ namespace mtr_drive_control {
 /// Namespace of the parameters in mtr_description/config/jackal_base.yaml.
 inline constexpr char kShippedController[] = "/jackal_velocity_controller";
 
-/// The limits of a base's controller; throws mtr_core::ConfigurationError when one is missing, or one that the mast
-/// does not survive.
+/// Returns the limits of a base's controller; throws mtr_core::ConfigurationError if one is missing, or if the mast
+/// does not survive it.
 BaseLimits checked_base(const std::string& controller, const Parameters& parameters);
 
-/// The limits of the base; throws mtr_core::ConfigurationError unless its parameters are there and the mast survives
-/// them.
+/// Returns the limits of the base; throws mtr_core::ConfigurationError unless its parameters exist and the mast
+/// survives them.
 ///
-/// A simulated robot without them has no base of its own, and is not asked for them: there are none.
+/// A simulated robot without them has no base of its own: the result is then empty.
 /// @param controller namespace of a diff_drive_controller's parameters
 std::optional<BaseLimits> limits_of_base(const std::string& controller, const Parameters& parameters);
 

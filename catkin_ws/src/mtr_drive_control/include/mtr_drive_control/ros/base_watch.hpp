@@ -12,18 +12,18 @@
 
 namespace mtr_drive_control {
 
-/// Reads the limits of the base's controller every 5 s, in a thread of its own. A master that is slow or gone delays
-/// nothing, and leaves the last answer in force.
+/// Reads the limits of the base's controller every 5 s, in a separate thread. A slow or missing master causes no delay,
+/// and leaves the last result in force.
 class BaseWatch {
  public:
   /// @param controller namespace of the parameters
-  /// @param limits as they were at the start
+  /// @param limits values at the start
   BaseWatch(std::string controller, const Parameters& parameters, const BaseLimits& limits);
   ~BaseWatch();
   BaseWatch(const BaseWatch&) = delete;
   BaseWatch& operator=(const BaseWatch&) = delete;
 
-  /// The limit that is not as it was; empty when there is none.
+  /// The changed limit; empty without one.
   std::string change() const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Messages of the topics as plain types, and back.
+/// Converts messages of the topics to plain types, and back.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -28,29 +28,29 @@ namespace mtr_drive_control {
 
 using mtr_core::Received;
 
-// No message, before the first of a topic, gives nothing.
+// Without a message, before the first of a topic, the result is empty.
 std::optional<SourceCommand> command_of(const Received<mtr_msgs::VelocityCommand>& received);
 
-/// Limit of the state machine's newest mode; one of no time before the first.
+/// Limit of the state machine's newest mode; its stamp is kNeverNs before the first.
 SpeedLimit speed_limit_of(const Received<mtr_msgs::RobotMode>& received);
 std::optional<Motion> motion_of(const Received<nav_msgs::Odometry>& received);
 std::optional<ImuReading> imu_reading_of(const Received<sensor_msgs::Imu>& received);
 std::optional<KeyHeight> key_height_of(const Received<mtr_msgs::PeripheralsState>& received);
 mtr_msgs::DriveStatus status_message(std::int64_t stamp_ns, const Decision& decision, const Interventions& counted);
 
-/// What is known of the emergency stop on a topic of its own, as the lock of an owner with the topic's name.
+/// State of an emergency stop with its own topic, as the lock of an owner with the topic's name.
 mtr_msgs::MotionLock e_stop_message(std::int64_t stamp_ns, const std::string& topic,
                                     const std::vector<EngagedLock>& engaged);
 
-/// Area as it is to be enforced. Corners that bound no area count as one without any room, in which nothing drives.
+/// Area to be enforced. Corners without a valid area count as an area without room, in which all motion is forbidden.
 std::shared_ptr<const TestArea> test_area_of(const mtr_msgs::TestArea& message);
-/// Pose in the area; nothing unless it is valid and finite.
+/// Pose in the area; empty unless it is valid and finite.
 std::optional<AreaPose> area_pose_of(const mtr_msgs::LocalizedPose& message, std::int64_t time_ns);
 
-/// Occupied cells of a map; null for one whose numbers do not fit together.
+/// Occupied cells of a map; null for inconsistent dimensions.
 std::shared_ptr<const SiteMap> site_map_of(const nav_msgs::OccupancyGrid& message);
 
-/// Sweeps of one LiDAR; a message is converted once.
+/// Converter of one LiDAR's sweeps; each message is converted once.
 class SweepReader {
  public:
   explicit SweepReader(std::string frame) : frame_(std::move(frame)) {}

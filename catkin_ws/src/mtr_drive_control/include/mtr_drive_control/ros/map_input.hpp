@@ -1,5 +1,5 @@
 /// @file
-/// The map of the site, and where the robot is in it.
+/// Map of the site, and the robot's pose in it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,18 +16,18 @@ namespace mtr_drive_control {
 
 /// Subscription to the map and the localized pose.
 ///
-/// Both only ever speak against a LiDAR that returns nothing; without them drive control works as well.
+/// Both only contradict a LiDAR without echoes; drive control also works without them.
 class MapInput {
  public:
   explicit MapInput(ros::NodeHandle& node);
 
-  /// Place of map in odom by the newest pose, and the map when the pose is in it; nothing without a valid pose.
+  /// Returns the pose of the map in odom, and the map if the pose refers to it; empty without a valid pose.
   std::optional<LocalizedMap> at(const std::optional<Motion>& motion) const;
 
  private:
   void take(const nav_msgs::OccupancyGrid& grid);
   void take(const mtr_msgs::LocalizedPose& pose);
-  /// The map that this pose is in.
+  /// Returns the map to which this pose refers.
   std::shared_ptr<const SiteMap> map_of(const mtr_msgs::LocalizedPose& pose);
 
   struct Located {
@@ -37,7 +37,7 @@ class MapInput {
   };
 
   std::shared_ptr<const SiteMap> map_;
-  /// Revision of the poses that are in this map; nothing before the first one after the map came.
+  /// Revision of the poses in this map; empty before the first one after the map arrived.
   std::optional<std::uint32_t> revision_;
   std::optional<Located> located_;
   std::int64_t usual_age_ns_ = 0;

@@ -33,19 +33,19 @@ struct NodeParameters {
   AreaParameters area;
   /// Owners whose silence forbids motion.
   std::vector<std::string> lock_owners{"dispatcher", "state_machine"};
-  /// std_msgs/Bool topics of emergency stops, true: stand still; their silence forbids motion too. The others hear of
-  /// them by drive control, as locks of owners with these names.
+  /// std_msgs/Bool topics of emergency stops, true: stop; their silence forbids motion too. Drive control republishes
+  /// them to other nodes as locks of owners with these names.
   std::vector<std::string> e_stop_topics;
   bool rear_lidar = true;
   /// Namespace of the parameters of the base's controller, which are checked at the start.
   std::string base_controller = kShippedController;
-  /// Commands go to the base guard in front of the base, and its parameters are those that are checked.
+  /// Commands go to the base guard in front of the base, and its parameters are checked instead.
   bool base_guard = false;
   /// In simulation: a manual controller takes part, so each tick waits for its command.
   bool manual_expected = false;
 };
 
-/// The newest sweep of a LiDAR at a tick.
+/// Newest sweep of a LiDAR at a tick.
 class LidarInput {
  public:
   LidarInput(ros::NodeHandle& node, const std::string& topic, const std::string& frame);
@@ -65,7 +65,7 @@ class Node {
 
   Node(ros::NodeHandle& node, const NodeParameters& parameters);
 
-  /// Returns at shutdown: asked to leave it first brakes the robot, and leaves when the wheels were told to rest.
+  /// Returns at shutdown, after braking the robot and publishing zero velocity.
   void spin();
 
  private:
@@ -97,7 +97,7 @@ class Node {
   InterventionCounter interventions_;
   std::int64_t lock_age_ns_ = 0;
   std::vector<ros::Subscriber> lock_subscribers_;
-  /// Locks of the emergency stops; advertised where there are any.
+  /// Locks of the emergency stops; advertised if there are any.
   ros::Publisher e_stops_;
   ros::Publisher wheels_;
   ros::Publisher status_;
@@ -107,7 +107,7 @@ class Node {
   bool logged_warning_ = false;
   std::optional<std::int64_t> begun_ns_;
   bool was_free_ = false;
-  /// In a row, since it was asked to leave.
+  /// Consecutive zero commands since the shutdown request.
   int zeros_sent_ = 0;
 };
 

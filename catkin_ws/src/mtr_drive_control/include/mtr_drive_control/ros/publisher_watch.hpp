@@ -1,5 +1,5 @@
 /// @file
-/// Whether anybody else commands the wheels.
+/// Detects other publishers of wheel commands.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace mtr_drive_control {
 
-/// A node that publishes on a topic where it must not.
+/// Node that publishes on a topic without permission.
 struct Intruder {
   std::string node;
   std::string topic;
 };
 
-/// Asks the master once a second who publishes on the wheels' topics, in a thread of its own: a master that is slow or
-/// gone delays nobody, and leaves the last answer in force.
+/// Queries the master once a second for publishers on the wheels' topics, in a separate thread: a slow or missing
+/// master causes no delay, and leaves the last result in force.
 class PublisherWatch {
  public:
-  /// Looks once before it returns.
-  /// @param permitted the one node that may publish on each topic
+  /// Queries once before it returns.
+  /// @param permitted the only node that may publish on each topic
   explicit PublisherWatch(std::map<std::string, std::string> permitted);
   ~PublisherWatch();
   PublisherWatch(const PublisherWatch&) = delete;

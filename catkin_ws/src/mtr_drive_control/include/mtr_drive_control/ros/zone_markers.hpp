@@ -12,8 +12,8 @@
 
 namespace mtr_drive_control {
 
-/// Draws the footprint's outlines on the way to a stop, coloured by the zone's state, five times a second while
-/// anybody looks.
+/// Draws the footprint's outlines along the path of a stop, coloured by the zone's state, five times a second while the
+/// topic has subscribers.
 class ZoneMarkers {
  public:
   explicit ZoneMarkers(ros::NodeHandle& node);
