@@ -1,4 +1,4 @@
-"""What a base has to give: each missing thing of a URDF is named, and what drive control needs follows from it."""
+"""Requirements on a base: each missing part of a URDF is named, and drive control's parameters follow from it."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re
@@ -24,7 +24,7 @@ HEADER = TOP / "catkin_ws" / "src" / "mtr_drive_control" / "include" / "mtr_driv
 
 
 def bad(findings):
-    """Subject and sentence of what is bad."""
+    """Return subjects and sentences of bad findings."""
     return {each.subject: each.text for each in findings if each.is_bad}
 
 
@@ -80,7 +80,7 @@ def test_base_without_parameters_is_told_what_to_do():
 
 
 def record(frame="odom", rate_hz=50.0):
-    """Of a base that is fine but for the frame or the rate."""
+    """Return the record of a base without faults, except for the frame or the rate."""
     def topic(kind, hz, frames=()):
         return TopicRecord(kind, ("/base",), [number / hz for number in range(int(3 * hz))], [0.01], Counter(frames))
     return RobotRecord({names.WHEEL_COMMAND: TopicRecord("geometry_msgs/Twist", ("/drive_control",)),

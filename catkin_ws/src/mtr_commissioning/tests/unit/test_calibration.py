@@ -1,4 +1,4 @@
-"""Guided calibration: what becomes of true and of foolish readings, the guides with a scripted person, the record."""
+"""Guided calibration: plausible and implausible readings, the guides with a scripted person, the record."""
 # SPDX-License-Identifier: Apache-2.0
 import datetime
 import itertools
@@ -29,7 +29,7 @@ KEY = (0.262, -0.011)
 
 
 def places(count=8, noise_m=0.0, seed=1, turn_rad=2.0 * math.pi):
-    """Poses at which the key touches a line at (3, -2)."""
+    """Return poses at which the key touches a line at (3, -2)."""
     draw = random.Random(seed)
     for number in range(count):
         heading = number * turn_rad / count
@@ -149,7 +149,7 @@ def test_way_is_negative_backwards_and_poses_are_averaged_over_the_half_turn():
 
 
 class FakeRobot:
-    """A robot that is where the readings need it."""
+    """Robot with the state that the readings need."""
 
     def __init__(self):
         self._places, self._heights = places(8, noise_m=0.001), itertools.cycle([0.4, 0.8, 1.2])

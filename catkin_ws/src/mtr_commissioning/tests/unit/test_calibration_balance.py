@@ -1,4 +1,4 @@
-"""Weighing of synthetic robots: what was put in is found, within its uncertainty, and optimism is named."""
+"""Weighing of synthetic robots: the true values are recovered within the uncertainty, and optimism is reported."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import random
@@ -23,9 +23,9 @@ KEYS_M = (0.35, 1.55)
 
 
 class Body:
-    """A robot whose masses are known; it is weighed by statics alone, without the formulas of the code.
+    """Robot with known masses; it is weighed by statics alone, without the formulas of the code.
 
-    The feet of the wheels carry vertical forces in the plane of the axles, and their moments balance.
+    The contact points of the wheels carry vertical forces in the plane of the axles, and their moments balance.
     """
 
     def __init__(self, *, mass_kg=25.0, ahead_m=0.003, left_m=-0.004, low_m=0.2665, rise=0.0345):
@@ -42,14 +42,14 @@ class Body:
 
     def raised(self, key_height_m, rise_m, noise=lambda: 0.0):
         pitch = math.asin(rise_m / self.chassis.base_m)
-        # Places in the world, from the rear axle; the body is turned by the pitch, nose up.
+        # Positions in the world, from the rear axle; the body is turned by the pitch, nose up.
         forward, up = 0.5 * self.chassis.base_m + self.ahead_m, self.height_m(key_height_m) - self.chassis.radius_m
         centre_x = forward * math.cos(pitch) - up * math.sin(pitch)
         front_kg = self.mass_kg * centre_x / (self.chassis.base_m * math.cos(pitch))
         return Raised(key_height_m, rise_m, front_kg + noise(), self.mass_kg - front_kg + noise())
 
     def tilt(self, key_height_m, across):
-        """At the angle found, the centre of mass is exactly above the lower feet."""
+        """Return the angle at which the centre of mass is exactly above the lower contact points."""
         lever_m = (0.5 * self.chassis.track_m + self.left_m if across
                    else 0.5 * self.chassis.base_m + self.ahead_m)
         low, high = 0.0, 0.5 * math.pi
@@ -180,7 +180,7 @@ def test_values_to_set_are_never_rounded_to_a_later_tip(body, key_height_m):
 
 
 def guided(body, tilts=()):
-    """What the guide says to a person who weighs this body with the shipped description, and its checks."""
+    """Return the guide's output for a person who weighs this body with the shipped description, and its checks."""
     geometry = shipped_geometry()
     wheels = geometry.wheels()
     body.chassis = Chassis(wheels.base_m, wheels.track_m, wheels.radius_m)

@@ -1,4 +1,4 @@
-"""Uncertainties of the weighing against numerical derivatives, and the ends of what it accepts."""
+"""Uncertainties of the weighing against numerical derivatives, and the limits of accepted readings."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 

@@ -1,4 +1,4 @@
-"""Mounts of LiDARs, scales and delay by a drive: found where it tells them, and kept where it does not."""
+"""Mounts of LiDARs, scales and delay from a drive: estimated if the drive determines them, else unchanged."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -17,8 +17,8 @@ GYRO = ASSUMED_GYRO_SCALE.value
 
 
 def driven(turns, noise):
-    """Times, poses of base_link (n, 3) and odometry of a drive ahead and back, in turns where wanted; the gyro has a
-    bias of 1 mrad/s, the wheels say 1 % too little."""
+    """Return times, poses of base_link (n, 3) and odometry of a drive ahead and back, optionally with turns. The gyro
+    has a bias of 1 mrad/s; the wheels report 1 % too little."""
     times = np.arange(0.0, END_S, 1.0 / RATE_HZ)
     speed = 0.5 * np.sign(np.sin(0.35 * times)) * np.minimum(1.0, 4.0 * np.abs(np.sin(0.35 * times)))
     rate = turns * np.sin(0.5 * times + 0.4)
@@ -30,8 +30,8 @@ def driven(turns, noise):
 
 
 def seen(track, mounts, delay_s, noise):
-    """What a LiDAR sees of a track (times, poses), whose description says mounts[0], which is at mounts[1], and whose
-    stamps are late."""
+    """Return the LiDAR's sweeps on a track (times, poses); it is described at mounts[0], but located at mounts[1], and
+    its stamps are late."""
     (times, poses), (told, true), noise_m = track, mounts, 0.004
     begin = np.arange(1.0, END_S - 2.0, 0.5)
     motions = []
@@ -45,7 +45,7 @@ def seen(track, mounts, delay_s, noise):
 
 
 def found_in(seed, turns=0.6, delay_s=0.03):
-    """Front LiDAR 6 mm beside and 0.8 degrees turned, rear one as described."""
+    """Front LiDAR 6 mm to the side and 0.8 degrees turned, rear one as described."""
     noise = np.random.default_rng(seed)
     times, poses, odometry = driven(turns, noise)
     true = FRONT @ Pose2(0.0, 0.006, math.radians(0.8))
@@ -70,7 +70,7 @@ def test_mount_scale_bias_and_delay_are_found():
 def test_sigmas_are_what_the_estimates_scatter_by():
     squares = [((found.lidars[0][name].value - true) / found.lidars[0][name].sigma) ** 2
                for found in map(found_in, range(2, 22)) for name, true in TRUTH.items()]
-    # Of 60 squares of unit normals; their mean has a sigma of 0.18.
+    # Mean of 60 squares of unit normals; its sigma is 0.18.
     assert 0.4 < np.mean(squares) < 1.7
 
 
@@ -81,7 +81,7 @@ def test_drive_without_turns_does_not_tell_where_a_lidar_sits_and_says_so():
 
 
 def test_point_about_which_tracks_turn_is_none_of_the_lidars():
-    # Where the base turns about another point, the places of both LiDARs ahead of it cannot be told from that.
+    # A shift of both LiDARs ahead cannot be distinguished from a base that turns about another point.
     assert not found_in(1).lidars[0]["x_m"].is_told
 
 

@@ -1,4 +1,4 @@
-"""The base's parameters, nodes that did not start, the clock and the network."""
+"""Base parameters, nodes that did not start, clock and network."""
 # SPDX-License-Identifier: Apache-2.0
 import copy
 
@@ -16,13 +16,13 @@ TRACKING = "A29FC801,192.168.1.7,3,1700000000.1,{offset},-0.000001,0.00002,-12.3
 
 
 def base_texts(values, setup=ROBOT):
-    """Subjects and sentences of bad findings."""
+    """Return subjects and sentences of bad findings."""
     findings = base_findings(RobotRecord(base=values), setup, shipped_base())
     return [(finding.subject, finding.text) for finding in findings if finding.is_bad]
 
 
 def changed(path, value):
-    """The shipped parameters with one changed, or taken away where the value is None."""
+    """Return the shipped parameters with one changed, or removed if the value is None."""
     values = copy.deepcopy(base_parameters_in(shipped_base_file()))
     *groups, name = path.split("/")
     inner = values
@@ -101,7 +101,7 @@ def test_robot_without_chrony_is_bad_and_a_simulation_is_not(output):
 
 
 def test_robot_whose_clock_is_the_source_of_its_own_wifi_is_right():
-    # chronyc 4.3 of a chronyd with `local stratum 10` and no source.
+    # Output of chronyc 4.3 for a chronyd with `local stratum 10` and no source.
     output = "7F7F0101,,10,1764115200.1,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,0.0,Normal\n"
     found = clock_finding(output, False)
     assert not found.is_bad

@@ -1,4 +1,4 @@
-"""The program: its options, its exit status, its file; without a ROS master."""
+"""Preflight program: options, exit status, file; without a ROS master."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os
@@ -108,7 +108,7 @@ def test_program_that_does_not_answer_says_nothing(monkeypatch):
 
 
 class Heard:
-    """Of a robot that stands and says nothing wrong."""
+    """Record of a stationary robot without faults."""
 
     names = {}
 
@@ -118,7 +118,7 @@ class Heard:
 
 @pytest.fixture
 def preflight(monkeypatch):
-    """preflight(*options, in_motion=...) looks at a robot beside one master; the report that the Operator reads."""
+    """preflight(*options, in_motion=...) checks a robot with one master; returns the report for the Operator."""
     master, now_s = {}, [1000.0]
     monkeypatch.setattr(command_line.rospy, "set_param", master.__setitem__)
     monkeypatch.setattr(command_line.rospy, "get_param", master.get)

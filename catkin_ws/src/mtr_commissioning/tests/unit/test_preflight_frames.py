@@ -17,7 +17,7 @@ RIGHT = {names.FRONT_SCAN: names.FRONT_LIDAR, names.REAR_SCAN: names.REAR_LIDAR,
 
 
 def texts(frames, setup=SETUP, geometry=None):
-    """Sentences of the bad findings for topic -> frame or frames."""
+    """Return sentences of the bad findings for topic -> frame or frames."""
     record = RobotRecord({topic: TopicRecord(frames=Counter([frame] if isinstance(frame, str) else frame))
                           for topic, frame in frames.items()})
     return [finding.text for finding in frame_findings(record, setup, geometry or shipped_geometry())

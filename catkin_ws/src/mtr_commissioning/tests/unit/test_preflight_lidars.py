@@ -1,5 +1,5 @@
-"""Each kind of LiDAR that ships, with the figures of its data sheet: nodes start with it, drive control is never blind
-with it, and preflight finds it right, and wrong when it is slower."""
+"""Each supported kind of LiDAR with the figures of its data sheet: nodes start with it, drive control is never blind,
+and preflight accepts it, and rejects it if it is slower."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -22,38 +22,38 @@ from mtr_description.shipped import shipped_urdf
 TOP = pathlib.Path(__file__).resolve().parents[5]
 PACKAGES = TOP / "catkin_ws" / "src"
 KINDS = sorted(path.stem for path in (PACKAGES / "mtr_description" / "config" / "lidars").glob("*.yaml"))
-# A chosen time from the last beam to the nodes: some ms in the LiDAR, and what a busy machine adds.
+# A chosen time from the last beam to the nodes: some ms in the LiDAR, and the delay of a busy machine.
 ON_THE_WAY_S = 0.015
 FIELD_OF_VIEW = 0.75  # of a turn, as all of them have
 
 
 def launched(kind):
-    """Parameters of robot.launch with LiDARs of a kind, by their names."""
+    """Return the parameters of robot.launch with LiDARs of a kind, by their names."""
     path = str(TOP / "launch" / "launch" / "robot.launch")
     config = roslaunch.config.load_config_default([(path, [f"lidar:={kind}"])], None, verbose=False)
     return {name: parameter.value for name, parameter in config.params.items()}
 
 
 def own(parameters, node):
-    """Parameters of one node."""
+    """Return the parameters of one node."""
     return {name[len(node) + 1:]: value for name, value in parameters.items() if name.startswith(f"{node}/")}
 
 
 @pytest.fixture(scope="module", params=KINDS)
 def lidar(request):
-    """Turns a second, and time between beams."""
+    """Return turns per second, and time between beams."""
     parameters = launched(request.param)
     return SimpleNamespace(rate_hz=parameters[names.LIDAR_TURN_RATE],
                            increment_s=parameters["/localization/time_increment_s"])
 
 
 def beams(lidar):
-    """Of a sweep."""
+    """Return the number of beams of a sweep."""
     return round(FIELD_OF_VIEW / lidar.rate_hz / lidar.increment_s) + 1
 
 
 def after_s(lidar):
-    """From a sweep's first beam to its arrival."""
+    """Return the time from a sweep's first beam to its arrival."""
     return (beams(lidar) - 1) * lidar.increment_s + ON_THE_WAY_S
 
 
@@ -69,7 +69,7 @@ def test_nodes_know_every_parameter_that_a_named_lidar_gives_them(kind):
 
 
 def driver_parameters(*arguments):
-    """Parameters of the driver of a front LiDAR."""
+    """Return the parameters of the driver of a front LiDAR."""
     given = ["side:=front", "host:=10.0.0.2", "frame:=front_lidar", *arguments]
     path = str(TOP / "launch" / "launch" / "lidar_driver.launch")
     params = roslaunch.config.load_config_default([(path, given)], None, verbose=False).params
@@ -101,7 +101,7 @@ def test_other_drivers_have_no_parameters_of_a_tim(driver):
 
 
 def record(lidar, share=1.0, lost=()):
-    """Five seconds of a LiDAR that makes this share of its turns; sweeps with these numbers get lost."""
+    """Return five seconds of a LiDAR with this share of its turns; sweeps with these numbers are lost."""
     period_s = 1.0 / (share * lidar.rate_hz)
     times = [number * period_s for number in range(int(5.0 / period_s)) if number not in lost]
     content = ScanContent(beams(lidar), 500, 0, (beams(lidar) - 1) * lidar.increment_s)
@@ -111,7 +111,7 @@ def record(lidar, share=1.0, lost=()):
 
 
 def bad_checks(lidar, **changes):
-    """Checks of the front LiDAR that are bad."""
+    """Return the bad checks of the front LiDAR."""
     setup = Setup(rear_lidar=False, turn_rate_hz=lidar.rate_hz)
     return [finding.check for finding in topic_findings(record(lidar, **changes), setup)
             if finding.is_bad and finding.subject == names.FRONT_SCAN]
@@ -123,7 +123,7 @@ def test_lidar_that_keeps_its_data_sheet_is_right_and_one_at_seven_tenths_of_it_
 
 
 def test_lidar_whose_sweeps_get_lost_until_drive_control_brakes_is_told(lidar):
-    # So many sweeps in a row that the newest one gets too old.
+    # Number of lost sweeps after which the newest one is too old.
     lost = math.ceil((0.14 - after_s(lidar)) * lidar.rate_hz)
     assert bad_checks(lidar, lost=range(10, 10 + lost)) == ["topic.gap"]
 
@@ -137,7 +137,7 @@ def test_reaction_time_is_that_of_drive_control():
 
 
 def sweep(lidar, number):
-    """All round there is something 5 m away; no two sweeps are the same."""
+    """Return a sweep with objects all around, 5 m away; no two sweeps are equal."""
     count = beams(lidar)
     return SimpleNamespace(
         stamp_ns=round(1e9 * (1.0 + number / lidar.rate_hz)), angle_min_rad=-math.pi * FIELD_OF_VIEW,
@@ -147,7 +147,7 @@ def sweep(lidar, number):
 
 def test_drive_control_is_never_blind_with_a_lidar_that_keeps_its_data_sheet(lidar):
     control, said, turn_radps, heading_rad = core.DriveControl(shipped_urdf()), set(), 0.0, 0.0
-    # From when the first sweep is there on, at each of its ticks.
+    # From the arrival of the first sweep on, at each tick.
     for tick in range(100):
         now_ns = round(1e9 * (1.0 + after_s(lidar))) + tick * DRIVE_CONTROL.period_ns
         newest = sweep(lidar, int((now_ns * 1e-9 - 1.0 - after_s(lidar) + 1e-6) * lidar.rate_hz))

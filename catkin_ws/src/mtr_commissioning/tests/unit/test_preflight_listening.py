@@ -1,4 +1,4 @@
-"""What is read from messages, parameters and the master."""
+"""Data from messages, parameters and the master."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -23,7 +23,7 @@ PUBLISHED = [[names.IMU_DATA, ["/b", "/a"]], ["/tf", ["/localization"]]]
 
 @pytest.fixture
 def robot(monkeypatch):
-    """Parameters of a robot, which a test may change; its clock stands at 100 s."""
+    """Parameters of a robot, which a test may change; its clock is stopped at 100 s."""
     parameters = {"/drive_control": {"rear_lidar": False, "base_guard": True,
                                      "lock_owners": ["dispatcher", "controller_input"]}}
     master = SimpleNamespace(getSystemState=lambda: (1, "", [PUBLISHED, [], []]),
@@ -98,7 +98,8 @@ def test_record_has_messages_publishers_types_parameters_and_failures(robot):
 
 @pytest.fixture
 def come(monkeypatch):
-    """come(topic, seconds, ...) lets messages come then; how many the record has, and when it was ready."""
+    """come(topic, seconds, ...) delivers messages at these times; returns the record's number, and when it was
+    ready."""
     def listened(topic, *times_s, seconds=2.0):
         listener, now_s, coming = Listener(), [0.0], list(times_s)
 

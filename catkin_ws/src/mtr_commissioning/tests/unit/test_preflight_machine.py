@@ -18,7 +18,7 @@ WIRELESS = """Inter-| sta-|   Quality        |   Discarded packets              
 
 
 def machine(root, total=100e9, free=50e9):
-    """A computer with these files and this disk."""
+    """Return a computer with these files and this disk."""
     return Machine(root, [pathlib.Path("/home")], lambda path: (int(total), int(total - free), int(free)))
 
 

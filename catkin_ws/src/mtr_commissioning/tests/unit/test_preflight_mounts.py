@@ -1,4 +1,4 @@
-"""The LiDARs' places by the description against those that base or driver say themselves."""
+"""LiDAR poses of the description compared with those of the base or a driver."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -18,7 +18,7 @@ FRONT = shipped_geometry().mount(names.FRONT_LIDAR)
 
 
 def turned(yaw_rad=0.0, pitch_rad=0.0):
-    """A quaternion about z or y."""
+    """Return a quaternion about z or y."""
     if pitch_rad:
         return 0.0, math.sin(pitch_rad / 2), 0.0, math.cos(pitch_rad / 2)
     return 0.0, 0.0, math.sin(yaw_rad / 2), math.cos(yaw_rad / 2)
@@ -29,7 +29,7 @@ def at(x, y, z, quaternion=(0.0, 0.0, 0.0, 1.0)):
 
 
 def jackal(forward_m=0.0, up_m=0.0, quaternion=(0.0, 0.0, 0.0, 1.0), node=BASE_NODE):
-    """Transforms of a stock Jackal, whose LiDAR is beside the description's by so much."""
+    """Return the transforms of a stock Jackal, whose LiDAR deviates from the description's by this offset."""
     x, y, z = FRONT.position
     return {(names.BASE, "chassis_link", node): at(0.0, 0.0, 0.0),
             ("chassis_link", "front_laser_mount", node): at(x, y, z - 0.05),

@@ -1,4 +1,4 @@
-"""Dead time and braking of simulated bases, by what was sent to them and what their wheels say."""
+"""Dead time and braking of simulated bases, from the commands and the wheels' odometry."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from collections import deque
@@ -12,13 +12,13 @@ from mtr_motion_check.recording import Recording, SentSample, WheelSample
 from mtr_motion_check.response import brakings, response, response_findings
 
 TICK_S = 0.02
-# Of the wheels, before the next command: the two are not in step.
+# Stamp of the wheels before the next command: the two are not synchronous.
 STAMPED_BEFORE_S = 0.007
 REACTION_S = Setup().reaction_s
 
 
 def commands(peak_mps, ramp_mps2=1.5, brakes=2, sign=1.0, steady_s=1.2):
-    """What drive control sends: rest, a ramp up at 1 m/s2, steady, a ramp down, rest; so many times."""
+    """Yield drive control's commands: rest, a ramp up at 1 m/s2, steady, a ramp down, rest; repeated `brakes` times."""
     for _ in range(brakes):
         speed, wanted = 0.0, [0.0] * 20 + [peak_mps] * round((peak_mps / 1.0 + steady_s) / TICK_S) + [0.0] * 80
         for target in wanted:
@@ -27,7 +27,8 @@ def commands(peak_mps, ramp_mps2=1.5, brakes=2, sign=1.0, steady_s=1.2):
 
 
 def driven(dead_time_s, braking_mps2=3.0, *, lag_s=0.0, noise_mps=0.005, seed=1, **kind):
-    """The recording of a base that follows commands later, with its own limit, and perhaps as a first-order lag."""
+    """Return the recording of a base that follows commands later, with its own limit, and optionally a first-order
+    lag."""
     recording, rng = Recording(), np.random.default_rng(seed)
     step_s, wheels = 0.002, 0.0
     waiting = deque([0.0] * round(dead_time_s / step_s))
@@ -54,7 +55,7 @@ def found_of(recording):
                                   {"noise_mps": 0.015}, {"brakes": 1}])
 def test_dead_time_is_measured(dead_time_s, kind, seed):
     found = found_of(driven(dead_time_s, **{"braking_mps2": 80.0 if "ramp_mps2" in kind else 3.0, **kind}, seed=seed))
-    # Velocities hold between two commands, which the wheels' stamps place half a tick later.
+    # Velocities are constant between two commands, which the wheels' stamps shift by half a tick.
     assert found.dead_time_s == pytest.approx(dead_time_s, abs=0.02)
 
 
@@ -73,7 +74,7 @@ def test_base_that_follows_the_ramp_brakes_as_sent(braking_mps2):
 
 
 def verdict(recording, reaction_s=REACTION_S):
-    """Sentences of bad findings, and all their checks."""
+    """Return sentences of bad findings, and all their checks."""
     found = response_findings(recording, reaction_s)
     return [each.text for each in found if each.is_bad], {each.check for each in found}
 

@@ -1,4 +1,4 @@
-"""Topics that are missing, doubled, slow, old, from the future or empty are told with value, limit and remedy."""
+"""Topics that are missing, doubled, slow, old, from the future or empty are reported with value, limit and remedy."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import replace
 
@@ -14,7 +14,7 @@ FULL_SCAN = ScanContent(720, 500, 0, 0.03)
 
 
 def heard(expected, seconds=5.0, age_s=0.01):
-    """A topic of which nothing is wrong."""
+    """Return a topic without faults."""
     times = [index * expected.period_s for index in range(int(seconds / expected.period_s))]
     record = TopicRecord(expected.type, ("/driver",), times)
     if expected.max_age_s:
@@ -25,7 +25,7 @@ def heard(expected, seconds=5.0, age_s=0.01):
 
 
 def robot(setup=SETUP):
-    """A record of a robot of which nothing is wrong."""
+    """Return a record of a robot without faults."""
     topics = {expected.topic: heard(expected) for expected in expected_topics(setup)}
     topics[names.WHEEL_COMMAND] = TopicRecord("geometry_msgs/Twist", ("/drive_control",))
     return RobotRecord(topics, listened_s=5.0)
@@ -36,7 +36,7 @@ def bad_findings(record, setup=SETUP):
 
 
 def only_bad(record, setup=SETUP):
-    """The one bad finding."""
+    """Return the only bad finding."""
     found = bad_findings(record, setup)
     assert len(found) == 1, [finding.line() for finding in found]
     return found[0]

@@ -1,10 +1,10 @@
-"""Wi-Fi of a robot that is in one and of one that is the access point, from what iw prints."""
+"""Wi-Fi of a robot that is a client and of one that is the access point, from the output of iw."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 
 from mtr_commissioning.preflight.wifi import Station, access_points_in, own_stations, stations_in, wifi_finding
 
-# As iw 5.4 and 5.19 print them.
+# Output of iw 5.4 and 5.19.
 CLIENT = """phy#1
 \tInterface wlx00c0
 \t\tifindex 4
@@ -48,7 +48,7 @@ Station cc:34:56:78:9a:bc (on wlp2s0)
 
 
 def said(interfaces, stations=""):
-    """Program iw of a computer; it is not installed where the interfaces are None."""
+    """Return the program iw of a computer; it is not installed if the interfaces are None."""
     return lambda command: {"iw dev": interfaces, "iw dev wlp2s0 station dump": stations}[" ".join(command)]
 
 

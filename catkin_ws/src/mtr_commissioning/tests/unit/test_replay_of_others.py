@@ -1,4 +1,4 @@
-"""The program replay on bags of other robots: what it makes of them, and what their sensors say of each other."""
+"""Program replay with bags of other robots: its conversion of them, and the comparison of their sensors."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -16,7 +16,7 @@ from tf2_msgs.msg import TFMessage
 from mtr_commissioning.calibration.command_line import main as calibrate
 from mtr_localization import replay
 
-# A hall with a pillar, which no turn brings onto itself.
+# Hall with a pillar, without rotational symmetry.
 WALLS = ((-4.0, -3.0, 6.0, -3.0), (6.0, -3.0, 6.0, 4.0), (6.0, 4.0, -4.0, 5.0), (-4.0, 5.0, -4.0, -3.0),
          (2.0, 1.0, 2.6, 1.0), (2.6, 1.0, 2.6, 1.8), (2.6, 1.8, 2.0, 1.8), (2.0, 1.8, 2.0, 1.0))
 BEAMS, FIRST_RAD, STEP_RAD = 540, -0.75 * math.pi, 1.5 * math.pi / 540
@@ -24,7 +24,7 @@ LIDAR_M, SPEED_MPS, TURN_RADPS, RATE_HZ, TURNS_FROM_S, END_S = 0.3, 0.4, 0.5, 10
 
 
 def ranges_at(x, y, heading, angles):
-    """Distances to the walls from a place, in the directions of the beams."""
+    """Return the distances to the walls from a pose, in the directions of the beams."""
     directions = heading + angles
     nearest = np.full(len(angles), np.inf)
     for ax, ay, bx, by in WALLS:
@@ -40,7 +40,7 @@ def ranges_at(x, y, heading, angles):
 
 
 def drive(path, told_rpy, hangs=False):
-    """A bag of a LiDAR that looks ahead; told_rpy is what its transform says. hangs: it is upside down."""
+    """Write a bag of a LiDAR that faces ahead; told_rpy: rotation in its transform. hangs: it is upside down."""
     x = y = heading = 0.0
     angles = FIRST_RAD + STEP_RAD * np.arange(BEAMS)
     noise = np.random.default_rng(1)
@@ -121,7 +121,7 @@ def test_bag_that_cannot_be_used_is_a_sentence(tmp_path, capsys):
 
 
 def spoil(scan, quirk):
-    """What drivers of other robots get wrong."""
+    """Apply a typical fault of other robots' drivers."""
     if quirk == "beams missing":
         scan.ranges = scan.ranges[:-10]
     elif quirk == "clockwise":
@@ -139,7 +139,7 @@ QUIRKS = ("beams missing", "clockwise", "milliseconds", "limits swapped", "angle
 
 
 def rewritten(source, target, change):
-    """The bag with each scan changed."""
+    """Return the bag with each scan changed."""
     with rosbag.Bag(str(source)) as read, rosbag.Bag(str(target), "w") as written:
         for topic, message, stamp in read.read_messages():
             written.write(topic, change(message) if topic == "/laser" else message, stamp)
@@ -183,7 +183,7 @@ def test_bag_that_begins_in_motion_is_advised_its_option(tmp_path, capsys, plain
 
 
 def old_format(path):
-    """Head of a bag in format 1.2: its version and a file header record."""
+    """Write the head of a bag in format 1.2: its version and a file header record."""
     def field(name, value):
         content = name + b"=" + value
         return len(content).to_bytes(4, "little") + content
@@ -192,7 +192,7 @@ def old_format(path):
 
 
 def cut_off(path, share):
-    """The first part of a recorded bag."""
+    """Write the first part of a recorded bag."""
     content = path.read_bytes()
     path.write_bytes(content[:int(share * len(content))])
 

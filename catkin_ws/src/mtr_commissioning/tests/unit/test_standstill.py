@@ -1,4 +1,4 @@
-"""An update requires a robot that stands with a stop engaged; silence and unknown values refuse it."""
+"""An update requires a robot at rest with a stop engaged; silence and unknown values refuse it."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 
@@ -23,7 +23,7 @@ STOP = Lock(NOW_S - 0.05, True, True)
 
 
 def judged(commanded=REST, measured=REST, lock=STOP, until_s=NOW_S, count=60):
-    """The answer after so many reports of both velocities, the last one at until_s."""
+    """Return the answer after a number of reports of both velocities, the last one at until_s."""
     judge = StandstillJudge()
     for number in reversed(range(count)):
         arrived_s = until_s - number * PERIOD_S

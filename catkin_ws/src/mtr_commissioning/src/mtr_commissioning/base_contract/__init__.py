@@ -1,2 +1,2 @@
-"""What a four-wheel base has to give, as checks: its URDF, its controller's parameters, its topics."""
+"""Requirements on a four-wheel base, as checks: its URDF, its controller's parameters, its topics."""
 # SPDX-License-Identifier: Apache-2.0

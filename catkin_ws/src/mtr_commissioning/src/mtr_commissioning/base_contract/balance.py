@@ -1,7 +1,7 @@
-"""Parameters of drive control that follow from the masses and places of a URDF.
+"""Parameters of drive control that follow from the masses and positions in a URDF.
 
-Drive control does not take them from the URDF, so that a robot that was weighed may have other ones; it refuses values
-that are farther off than AGREEMENT_M. C++ has the same sums in mtr_description/robot_geometry.hpp.
+Drive control does not read them from the URDF, so that a weighed robot may have different values; it rejects values
+that differ by more than AGREEMENT_M. The same sums in C++: mtr_description/robot_geometry.hpp.
 """
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, Iterator, Tuple
@@ -15,7 +15,7 @@ AGREEMENT_M = 0.005
 
 
 def balance_parameters(geometry: RobotGeometry) -> Dict[str, float]:
-    """Names and values for drive control; ConfigurationError when the URDF has no masses, wheels or key."""
+    """Return names and values for drive control; ConfigurationError if the URDF has no masses, wheels or key."""
     tree, key, wheels = geometry.tree, geometry.key(), geometry.wheels()
     masses = list(_masses(tree))
     total_kg = sum(mass_kg for _, mass_kg, _ in masses)

@@ -1,8 +1,9 @@
-"""rosrun mtr_commissioning base_contract: does a four-wheel base give what the robot's nodes need? It moves nothing.
+"""rosrun mtr_commissioning base_contract: checks if a four-wheel base meets the requirements of the robot's nodes.
 
-On the running robot: URDF, parameters of the base's controller, its topics, and what nodes said that could not start.
-With --robot-file (and --base-file) only the files are looked at, without a ROS master; the line on masses has the
-parameters that drive control needs for that URDF. What needs motion (signs, scales) is in preflight --drive.
+It never moves the robot. On the running robot it checks the URDF, the parameters of the base's controller, its topics,
+and the reports of nodes that could not start. With --robot-file (and --base-file) only the files are checked, without a
+ROS master; the line on masses contains the parameters that drive control needs for that URDF. Checks that need motion
+(signs, scales) are in preflight --drive.
 Exit status: 0 nothing is bad, 1 something is, 2 it could not be checked.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -37,7 +38,7 @@ from .interface import limit_findings, topic_rows
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Check the base; the exit status says whether something is bad."""
+    """Check the base; return the exit status."""
     options = parsed(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
     try:
         findings = file_findings(options) if options.robot_file else robot_findings(options.seconds)
@@ -49,7 +50,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def parsed(arguments: List[str]) -> argparse.Namespace:
-    """Options of the command line."""
+    """Return the options of the command line."""
     parser = argparse.ArgumentParser(prog="base_contract", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--robot-file", type=pathlib.Path, help="URDF or xacro file; without it the running robot")
@@ -66,7 +67,7 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
 
 
 def file_findings(options: argparse.Namespace) -> List[Finding]:
-    """Of the files alone; ConfigurationError when one cannot be read."""
+    """Check the files alone; ConfigurationError if one cannot be read."""
     findings = shown(description_findings(urdf_in(options.robot_file), not options.no_rear_lidar))
     if options.base_file:
         findings += shown(limit_findings(str(options.base_file), base_parameters_in(options.base_file)))
@@ -74,7 +75,7 @@ def file_findings(options: argparse.Namespace) -> List[Finding]:
 
 
 def robot_findings(seconds: float) -> List[Finding]:
-    """Of the running robot; ConfigurationError without a master."""
+    """Check the running robot; ConfigurationError without a master."""
     join_on_loopback(os.environ)
     if not master_answers():
         raise ConfigurationError("There is no ROS master; start the robot first (roslaunch mtr_bringup robot.launch), "
@@ -90,6 +91,6 @@ def robot_findings(seconds: float) -> List[Finding]:
 
 
 def wheel_listeners() -> List[str]:
-    """Nodes that take the command of the wheels, by the master."""
+    """Return the nodes that subscribe to the wheel command, as listed by the master."""
     _, _, state = rospy.get_master().getSystemState()
     return sorted(dict(state[1]).get(names.WHEEL_COMMAND, []))

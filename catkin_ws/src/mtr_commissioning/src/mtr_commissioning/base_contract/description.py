@@ -1,4 +1,4 @@
-"""What the nodes ask of a URDF, each question with an answer of its own: all that is missing is told at once."""
+"""Requirements of the nodes on a URDF, as independent checks, so that all missing parts are reported at once."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Callable, Dict, Iterator, List, Tuple
@@ -13,13 +13,13 @@ from .balance import balance_parameters
 
 DESCRIPTION = "contract.description"
 REMEDY = "Correct the file that robot_file:= names."
-# As drive control takes it (mtr_drive_control/src/robot_shape.cpp): m from base_link, and a LiDAR's turn.
+# Limits of drive control (mtr_drive_control/src/robot_shape.cpp): m from base_link, and rotation of a LiDAR.
 REACHES: Dict[str, Tuple[float, float]] = {"front_m": (0.1, 1.0), "rear_m": (0.1, 1.0), "half_width_m": (0.1, 0.6)}
 MAX_TURN_RAD = 0.25 * math.pi
 
 
 def description_findings(urdf_text: str, has_rear_lidar: bool) -> List[Finding]:
-    """One finding for each thing that a node reads from the URDF."""
+    """Return one finding for each part that a node reads from the URDF."""
     try:
         geometry = RobotGeometry(urdf_text)
     except ConfigurationError as error:
@@ -64,7 +64,7 @@ def _key(geometry: RobotGeometry) -> str:
 
 
 def _lidar(mount: Mount, ahead_rad: float) -> str:
-    # Raises for one that is upside down or not level.
+    # Raises if it is upside down or not level.
     mount.level()
     turn_rad = math.remainder(mount.yaw_rad - ahead_rad, 2.0 * math.pi)
     if abs(turn_rad) > MAX_TURN_RAD:

@@ -1,4 +1,4 @@
-"""What the base's controller and its topics have to be; plain values in, findings out."""
+"""Requirements on the base's controller and its topics; plain values in, findings out."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Dict, Iterator, List, Optional, Sequence
 
@@ -11,14 +11,14 @@ from ..preflight.records import RobotRecord
 from ..preflight.topics import topic_findings
 
 LIMITS, LISTENS, FRAMES = "contract.limits", "contract.listens", "contract.frames"
-# Of the base itself; LiDARs, firmware and joystick are not its own.
+# Topics of the base itself; LiDARs, firmware and joystick are separate.
 TOPICS = (names.WHEEL_COMMAND, names.WHEEL_ODOMETRY, names.IMU_DATA, names.BATTERY)
 NEEDED = {"cmd_vel_timeout": "s", "linear/x/max_velocity": "m/s", "linear/x/max_acceleration": "m/s2",
           "angular/z/max_velocity": "rad/s", "angular/z/max_acceleration": "rad/s2"}
 
 
 def limit_findings(where: str, base: Optional[Dict[str, Any]]) -> List[Finding]:
-    """Whether each limit is there as a number; how large it may be drive control says at its start, by the mast."""
+    """Check that each limit exists as a number; drive control checks its value at the start, against the mast."""
     if base is None:
         return [bad(LIMITS, where, "There are no parameters of the base's controller; load them there, see "
                     "docs/other-bases.md, or start with base_guard:=true.")]
@@ -34,10 +34,10 @@ def _missing(where: str, base: Dict[str, Any]) -> Iterator[Finding]:
 
 
 def topic_rows(record: RobotRecord, setup: Setup, listeners: Sequence[str]) -> List[Finding]:
-    """Of the base's topics: types, rates, ages; whether it listens; the frame of its odometry.
+    """Check the base's topics: types, rates, ages; its subscription; the frame of its odometry.
 
     Args:
-        listeners: nodes that subscribe to the command of the wheels.
+        listeners: nodes that subscribe to the wheel command.
     """
     found = [each for each in topic_findings(record, setup) if each.subject in TOPICS]
     found.append(good(LISTENS, names.WHEEL_COMMAND, f"{', '.join(listeners)} takes it.") if listeners else

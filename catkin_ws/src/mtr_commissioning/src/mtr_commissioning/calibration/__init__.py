@@ -1,2 +1,2 @@
-"""Guided calibration of the robot: readings of a person become dated entries of its calibration record."""
+"""Guided calibration of the robot: a person's readings become dated entries of its calibration record."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,7 +1,8 @@
 """rosrun mtr_commissioning calibrate lever|mast|wheels|lift|press|balance|lidars|status: guided, with a record.
 
-The person moves the robot, by the manual controller or by hand; this program only asks, listens and writes the record,
-which the Operator's application takes (--calibration FILE). `status` tells what was measured when, and what is overdue.
+The person moves the robot, by the manual controller or by hand; this program prompts, measures and writes the record,
+which the Operator's application reads (--calibration FILE). `status` lists the dates of the measurements, and which are
+overdue.
 Exit status: 0 measured, or nothing overdue; 1 not measured, or something overdue; 2 wrong options or no ROS master.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -27,13 +28,13 @@ from .record_file import load, save
 from .robot import Robot
 
 UNUSABLE = 2
-# By a recorded drive, without a robot.
+# From a recorded drive, without a robot.
 LIDARS = "lidars"
 DEFAULT_RECORD = pathlib.Path("~/mtr_calibration.yaml")
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Guide through one calibration; its exit status."""
+    """Guide through one calibration; return the exit status."""
     options = parsed(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
     path = options.record.expanduser()
     join_on_loopback(os.environ)
@@ -48,7 +49,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def parsed(arguments: List[str]) -> argparse.Namespace:
-    """Options of the command line."""
+    """Return the options of the command line."""
     parser = argparse.ArgumentParser(prog="calibrate", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("what", choices=[*GUIDES, LIDARS, "status"])
@@ -65,7 +66,7 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
 
 
 def status(path: pathlib.Path) -> int:
-    """Say what was measured when, and what is overdue."""
+    """Print the dates of the measurements, and which are overdue."""
     document = load(path)
     if document is None:
         print(f"There is no record {path}; nothing was measured, and the design's counts.")
@@ -80,8 +81,8 @@ def status(path: pathlib.Path) -> int:
 
 
 def calibrated(options: argparse.Namespace, path: pathlib.Path) -> int:
-    """Ask, measure and write the record."""
-    # A record that cannot be read, or is another robot's, is told before the work, not after it.
+    """Prompt, measure and write the record."""
+    # An unreadable record, or one of another robot, is reported before the work.
     document = load(path)
     if document is not None and options.robot:
         refuse_another(document, options.robot)
@@ -100,7 +101,7 @@ def calibrated(options: argparse.Namespace, path: pathlib.Path) -> int:
 
 def recorded(options: argparse.Namespace, path: pathlib.Path, document: Optional[Mapping[str, Any]],
              found: Sequence[Check], key_ahead_m: float) -> int:
-    """Write what was measured into the record."""
+    """Add the measurements to the record."""
     name = options.robot or (document or {}).get("robot") or input("Which robot is it? ").strip()
     by = options.by or input("Who measures? ").strip()
     origin = Origin(name or "unnamed", by or "unnamed", key_ahead_m)

@@ -1,4 +1,4 @@
-"""Questions to the person beside the robot; input and output are given, so that a test can answer."""
+"""Prompts to the person next to the robot; input and output are parameters, so that a test can answer."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Callable, Optional, TypeVar
 
@@ -10,18 +10,19 @@ Value = TypeVar("Value")
 
 
 class Console:
-    """Asks until the answer can be used; an end of the input is an EOFError, as Ctrl-C is a KeyboardInterrupt."""
+    """Console that repeats a prompt until the answer is valid; the end of the input is an EOFError, Ctrl-C a
+    KeyboardInterrupt."""
 
     def __init__(self, ask: Callable[[str], str], say: Callable[[str], None]):
         self._ask = ask
         self.say = say
 
     def go(self, text: str) -> None:
-        """Have something done, until Enter."""
+        """Prompt for an action, and wait for Enter."""
         self._ask(f"{text} Then press Enter. ")
 
     def number(self, question: str, low: float, high: float, unit: str) -> float:
-        """A number within a range, ends included."""
+        """Prompt for a number within a range, ends included."""
         while True:
             value = _number(self._ask(f"{question} [{unit}] "))
             if value is None:
@@ -33,7 +34,7 @@ class Console:
             self.say(problem)
 
     def reading(self, read: Callable[[], Value]) -> Value:
-        """What the robot says, asked again until it can be used."""
+        """Return a reading of the robot, repeated until it is usable."""
         while True:
             try:
                 return read()
@@ -41,7 +42,7 @@ class Console:
                 self.go(str(error))
 
     def yes(self, question: str) -> bool:
-        """Yes or no."""
+        """Prompt for yes or no."""
         while True:
             answer = self._ask(f"{question} [y/n] ").strip().lower()
             if answer in ("y", "yes", "n", "no"):

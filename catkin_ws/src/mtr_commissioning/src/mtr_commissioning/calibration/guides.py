@@ -1,7 +1,7 @@
-"""What the person is told to do, and what becomes of the readings: one guide for each thing that is calibrated.
+"""Instructions to the person, and evaluation of the readings: one guide for each calibration.
 
-None of them moves the robot: the person drives it with the manual controller, or pushes it, and moves the lift and
-presses in the application's Calibrate window.
+No guide moves the robot: the person drives it with the manual controller, or pushes it, and operates lift and presses
+in the application's Calibrate window.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -19,15 +19,15 @@ from .readings import Estimate
 from .record import LEVER, MAST, Check
 from .scales import MIN_TURN_RAD, MIN_WAY_M, scale_of
 
-# More error than this beside the drawing belongs into the URDF.
+# A larger deviation from the drawing must be corrected in the URDF.
 TOLD_FROM_M = 0.005
-# A height that is farther off is a lift that is not calibrated.
+# A larger deviation means that the lift is not calibrated.
 HEIGHT_LIMIT_M = 0.02
 MM_PER_M, HALF_TURN = 1000.0, "half a turn"
 
 
 def lever(console: Console, robot: Any) -> List[Check]:
-    """The key's lever: it touches a plumb line at several headings."""
+    """Measure the key's lever: the key touches a plumb line at several headings."""
     count = int(console.number(f"Hang a plumb line from a stand, at the key's height, and map the Car or anything else "
                                f"so that the robot is localized. At how many headings will the key touch the line? At "
                                f"least {MIN_PLACES}.", MIN_PLACES, 24, "headings"))
@@ -49,7 +49,7 @@ def lever(console: Console, robot: Any) -> List[Check]:
 
 
 def mast(console: Console, robot: Any) -> List[Check]:
-    """The mast's lean: the key beside a plumb line, low and high, facing both ways."""
+    """Measure the mast's lean: the key next to a plumb line, low and high, facing both ways."""
     count = int(console.number("Hang a long plumb line beside the mast, so that it passes the key. How many pairs of "
                                "readings, each with the robot facing both ways on the same spot? At least 2.", 2, 20,
                                "pairs"))
@@ -75,7 +75,7 @@ def _reading(console: Console, robot: Any, title: str) -> Reading:
 
 
 def wheels(console: Console, robot: Any) -> List[Check]:
-    """Scales of wheels and gyro, each out and back."""
+    """Measure the scales of wheels and gyro, each out and back."""
     ways, turns = [], []
     way_m = console.number("Mark a straight way on the floor. How long is it by the tape?", MIN_WAY_M, 50.0, "m")
     for sign, word in ((1.0, "forwards along the way"), (-1.0, "backwards to its start"), (1.0, "forwards again"),
@@ -105,7 +105,7 @@ def _say_scale(console: Console, check: Check, assumed: float, home: str) -> Non
 
 
 def lift(console: Console, robot: Any) -> List[Check]:
-    """The key's height against a tape measure."""
+    """Measure the key's height with a tape measure."""
     count = int(console.number("At how many heights will the key's middle be measured by a tape? At least "
                                f"{MIN_HEIGHTS}.", MIN_HEIGHTS, 20, "heights"))
     pairs = []
@@ -126,7 +126,7 @@ def lift(console: Console, robot: Any) -> List[Check]:
 
 
 def press(console: Console, robot: Any) -> List[Check]:
-    """Force and strength at which a press works."""
+    """Measure force and strength at which a press works."""
     count = int(console.number("How many presses, of different strengths? Order them in the Calibrate window, weak "
                                "ones too.", 2, 50, "presses"))
     presses = []

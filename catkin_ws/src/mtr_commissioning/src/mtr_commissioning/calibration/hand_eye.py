@@ -1,10 +1,10 @@
-"""Where the LiDARs are on the robot, by a recorded drive: each sees its own motion, and the base says its.
+"""Poses of the LiDARs on the robot from a recorded drive, by comparing each LiDAR's motion with the base's.
 
-Hand-eye calibration in the plane (Shiu and Ahmad 1989; with odometry Censi et al. 2013): base_from_lidar X fulfils
-B X = X L for every step, with the base's motion B by wheels and gyro and the LiDAR's L by matching two of its sweeps.
-Scales, the gyro's bias, the scans' delay and the point about which the base turns are unknowns beside X; sweeps are
-freed of the motion within them before. Each has a
-prior: a drive tells only some of them, and what it does not tell stays as it was, and says so.
+Hand-eye calibration in the plane (Shiu and Ahmad 1989; with odometry Censi et al. 2013): base_from_lidar X satisfies B
+X = X L for every step. B is the base's motion from wheels and gyro, L the LiDAR's from matching two of its sweeps.
+Further unknowns are scales, gyro bias, delay of the scans and the point about which the base turns. The motion within
+sweeps is compensated before. Each unknown has a prior: a drive determines only some of them, and the others keep their
+prior and are reported as such.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -22,26 +22,26 @@ from mtr_motion_check.recording import ScanSample, Sweep, scan_sample
 
 from .readings import ReadingsUnusable
 
-# Half a second of driving; within it the motion is summed up in so many parts.
+# Half a second of driving, in which the motion is integrated in this number of parts.
 STEP_S, PARTS = 0.5, 5
-# A step that moves less tells only noise.
+# A smaller motion contains only noise.
 MOVES_M, TURNS_RAD = 0.05, 0.05
 MIN_STEPS = 20
-# 1 sigma of what nobody has measured: a mount fitted by hand, stamps of a driver, tyres, tracks that turn about another
-# point than base_link.
+# 1 sigma of unmeasured quantities: a mount fitted by hand, stamps of a driver, tyres, tracks that turn about a point
+# other than base_link.
 MOUNT_M, MOUNT_RAD, DELAY_S, WHEELS = 0.01, math.radians(1.0) / math.sqrt(3.0), 0.02, 0.02
 TURNS_ABOUT_X_M, TURNS_ABOUT_Y_M = 0.05, 0.01
-# What is left of the prior's sigma when the drive has told something.
+# Ratio to the prior's sigma below which the drive has determined an unknown.
 TOLD = 0.7
-# Of the speeds within a sweep.
+# Time step for the speeds within a sweep.
 SPEED_S = 0.05
-# Of a match at first; then as the residuals are. Farther off counts less.
+# Initial sigma of a match; later ones follow from the residuals. Outliers have less weight.
 MATCH_M, MATCH_RAD, ROBUST = 0.005, 0.003, 2.0
 ROUNDS = 3
 
 
 class Unknown(NamedTuple):
-    """What is estimated: its difference from what is assumed, 1 sigma, and that of before."""
+    """Estimated difference from the assumed value, with 1 sigma and the prior sigma."""
 
     value: float
     sigma: float
@@ -49,25 +49,25 @@ class Unknown(NamedTuple):
 
     @property
     def is_told(self) -> bool:
-        """True when the drive says more than was known before."""
+        """True if the drive has improved the prior."""
         return self.sigma < TOLD * self.prior_sigma
 
 
 class Odometry(NamedTuple):
-    """Way in m and turn in rad that wheels and gyro have summed up at times in s."""
+    """Distance in m and rotation in rad at times in s, integrated from wheels and gyro."""
 
     times_s: FloatArray
     way_m: FloatArray
     turn_rad: FloatArray
 
     def speeds(self, time_s: float) -> Tuple[float, float]:
-        """m/s and rad/s about a time."""
+        """Return m/s and rad/s around a time."""
         times = np.array([time_s - SPEED_S, time_s + SPEED_S])
         way, turn = (np.interp(times, self.times_s, summed) for summed in (self.way_m, self.turn_rad))
         return float(np.diff(way)[0]) / (2.0 * SPEED_S), float(np.diff(turn)[0]) / (2.0 * SPEED_S)
 
     def parts(self, begin_s: FloatArray, end_s: FloatArray) -> Tuple[FloatArray, FloatArray]:
-        """Ways and turns (n, PARTS) between the times (n)."""
+        """Return distances and rotations (n, PARTS) between the times (n)."""
         times = begin_s[:, None] + (end_s - begin_s)[:, None] * np.linspace(0.0, 1.0, PARTS + 1)
         return (np.diff(np.interp(times, self.times_s, self.way_m), axis=1),
                 np.diff(np.interp(times, self.times_s, self.turn_rad), axis=1))
@@ -75,7 +75,7 @@ class Odometry(NamedTuple):
 
 @dataclass(frozen=True)
 class Pairs:
-    """Steps of one LiDAR: from when to when in s (n), and first_from_second of it (n, 3) in m and rad."""
+    """Steps of one LiDAR: start and end in s (n), and first_from_second of it (n, 3) in m and rad."""
 
     mount: Pose2
     begin_s: FloatArray
@@ -85,13 +85,13 @@ class Pairs:
 
 @dataclass(frozen=True)
 class Calibration:
-    """Of one drive.
+    """Result of one drive.
 
     Attributes:
         lidars: for each LiDAR x_m, y_m, yaw_rad and delay_s, differences from its mount and stamps.
         base: wheel_scale and gyro_scale as differences from 1, gyro_bias_radps, and the point about which the base
             turns, turns_about_x_m ahead of base_link and turns_about_y_m left of it.
-        steps: how many there were.
+        steps: their number.
     """
 
     lidars: List[Dict[str, Unknown]]
@@ -106,7 +106,7 @@ BASE_PRIORS = {"wheel_scale": WHEELS, "gyro_scale": ASSUMED_GYRO_SCALE.value,
 
 
 def pairs_of(scans: Sequence[ScanSample], mount: Pose2, odometry: Odometry) -> Pairs:
-    """Match sweeps half a second apart, where the robot moves."""
+    """Match sweeps half a second apart in which the robot moves."""
     found: List[Tuple[float, float, Pose2]] = []
     first = None
     for scan in scans:
@@ -122,7 +122,7 @@ def pairs_of(scans: Sequence[ScanSample], mount: Pose2, odometry: Odometry) -> P
 
 
 def still(sweep: Sweep, mount: Pose2, odometry: Odometry) -> ScanSample:
-    """The hits of a sweep as the LiDAR would have seen them from where it was in the middle of it."""
+    """Return the hits of a sweep as seen from the LiDAR's position in the middle of the sweep."""
     hits, beams = scan_sample(sweep), np.arange(len(sweep.ranges_m))
     with np.errstate(invalid="ignore"):
         ranges = np.asarray(sweep.ranges_m, dtype=np.float64)
@@ -136,13 +136,13 @@ def still(sweep: Sweep, mount: Pose2, odometry: Odometry) -> ScanSample:
 
 
 def calibrated(lidars: Sequence[Pairs], odometry: Odometry, gyro_scale_sigma: float) -> Calibration:
-    """The unknowns in the sense of least squares with outliers.
+    """Estimate the unknowns by least squares with outliers.
 
     Args:
-        gyro_scale_sigma: of what the turn comes from; the wheels know it worse than a gyro.
+        gyro_scale_sigma: of the source of the rotation; larger for the wheels than for a gyro.
 
     Raises:
-        ReadingsUnusable: the drive is too short, or the surroundings do not tell how the LiDARs move.
+        ReadingsUnusable: the drive is too short, or the surroundings do not determine the LiDARs' motion.
     """
     steps = min(len(pairs.begin_s) for pairs in lidars)
     if steps < MIN_STEPS:
@@ -172,7 +172,7 @@ def _weighted(unknowns: FloatArray, lidars: Sequence[Pairs], odometry: Odometry,
 
 
 def _residuals(unknowns: FloatArray, lidars: Sequence[Pairs], odometry: Odometry) -> List[FloatArray]:
-    """Of each LiDAR (n, 3): how the motion that it saw differs from the base's."""
+    """Return for each LiDAR (n, 3) the difference of its observed motion from the base's."""
     base, found = unknowns[:len(BASE_PRIORS)], []
     for index, pairs in enumerate(lidars):
         start = len(BASE_PRIORS) + len(MOUNT_PRIORS) * index
@@ -187,7 +187,7 @@ def _residuals(unknowns: FloatArray, lidars: Sequence[Pairs], odometry: Odometry
 
 
 def _base_motion(base: FloatArray, odometry: Odometry, begin_s: FloatArray, end_s: FloatArray) -> FloatArray:
-    """begin_from_end of base_link (n, 3)."""
+    """Return begin_from_end of base_link (n, 3)."""
     wheel_scale, gyro_scale, bias_radps, ahead_m, left_m = base
     ways, turns = odometry.parts(begin_s, end_s)
     ways = (1.0 + wheel_scale) * ways
@@ -202,7 +202,7 @@ def _base_motion(base: FloatArray, odometry: Odometry, begin_s: FloatArray, end_
 
 
 def _compose(first: FloatArray, second: FloatArray) -> FloatArray:
-    """a_from_c of rows a_from_b and b_from_c."""
+    """Return a_from_c for rows of a_from_b and b_from_c."""
     cos, sin = np.cos(first[:, 2]), np.sin(first[:, 2])
     return np.stack([first[:, 0] + cos * second[:, 0] - sin * second[:, 1],
                      first[:, 1] + sin * second[:, 0] + cos * second[:, 1], first[:, 2] + second[:, 2]], axis=1)
@@ -214,7 +214,7 @@ def _inverse(rows: FloatArray) -> FloatArray:
 
 
 def _points(points: FloatArray) -> FloatArray:
-    """As poses, whose headings do not matter."""
+    """Return points as poses with irrelevant headings."""
     return np.column_stack([points, np.zeros(len(points))])
 
 

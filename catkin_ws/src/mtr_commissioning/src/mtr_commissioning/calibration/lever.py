@@ -1,7 +1,7 @@
-"""The key's lever in base_link: the key touches one plumb line while the robot stands at several headings.
+"""Key's lever in base_link: the key touches the same plumb line from several headings of the robot.
 
-Where the robot is, localization says; the plumb line stays where it is: p_i + R(heading_i) lever = line. Least squares
-over all places give lever and line together, and their residuals tell how sure the lever is.
+Localization supplies the robot's poses; the plumb line is fixed: p_i + R(heading_i) lever = line. Least squares over
+all poses determine lever and line together, and the residuals determine the lever's accuracy.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -15,27 +15,27 @@ from mtr_core.se2 import Pose2
 
 from .readings import Estimate, ReadingsUnusable
 
-# Two unknowns of the lever and two of the line; one place more tells whether the others agree.
+# Two unknowns of the lever and two of the line; one additional pose tests the agreement of the others.
 MIN_PLACES = 4
-# With headings nearer to each other the line could be anywhere ahead.
+# With a smaller spread of headings the line is not determined along the robot's direction.
 MIN_SPREAD_RAD = math.radians(120.0)
-# A key that touches by hand and a pose are not better known than this; worse is a key that swings or a wrong reading.
+# Accuracy of a contact by hand and a pose; a larger sigma means a swinging key or a wrong reading.
 MAX_SIGMA_M = 0.01
 
 
 @dataclass(frozen=True)
 class Lever:
-    """Of the key in base_link: ahead of it and to its left, m."""
+    """Lever of the key in base_link: ahead and to the left, m."""
 
     ahead: Estimate
     left: Estimate
 
 
 def lever_of(places: Sequence[Pose2]) -> Lever:
-    """Lever from the robot's poses, in map, at which the key touched the line.
+    """Estimate the lever from the robot's poses, in map, at which the key touched the line.
 
     Raises:
-        ReadingsUnusable: too few places, headings too much alike, or places that contradict each other.
+        ReadingsUnusable: too few poses, headings too similar, or contradicting poses.
     """
     if len(places) < MIN_PLACES:
         raise ReadingsUnusable(f"The key touched the line at {len(places)} headings; at least {MIN_PLACES} are needed.")
@@ -58,7 +58,7 @@ def lever_of(places: Sequence[Pose2]) -> Lever:
 
 
 def spread_of(headings_rad: Sequence[float]) -> float:
-    """The full turn less the largest gap between neighbouring headings, rad."""
+    """Return the full turn less the largest gap between neighbouring headings, rad."""
     ordered = sorted(heading % (2.0 * math.pi) for heading in headings_rad)
     gaps = [after - before for before, after in zip(ordered, [*ordered[1:], ordered[0] + 2.0 * math.pi])]
     return 2.0 * math.pi - max(gaps)

@@ -1,4 +1,4 @@
-"""LiDARs by a recorded drive: bag in, sentences and checks for the record out."""
+"""Calibrates LiDARs from a recorded drive: bag in, sentences and checks for the record out."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import pathlib
@@ -19,19 +19,19 @@ from .hand_eye import Calibration, Odometry, Pairs, Unknown, calibrated, pairs_o
 from .readings import Estimate
 from .record import LIDAR_YAW, Check
 
-# How each is said: in which unit, by how much of SI's, and what it is.
+# Output of each unknown: unit, factor from SI, and meaning.
 SAID = {"x_m": ("mm", 1e3, "ahead of where it should be"), "y_m": ("mm", 1e3, "left of it"),
         "yaw_rad": ("degrees", math.degrees(1.0), "turned from it"), "delay_s": ("ms", 1e3, "late in its stamps"),
         "wheel_scale": ("%", 1e2, "more way than the wheels say"), "gyro_scale": ("%", 1e2, "more turn than it says"),
         "gyro_bias_radps": ("mrad/s", 1e3, "of the turn's rate at rest"),
         "turns_about_x_m": ("mm", 1e3, "ahead of the robot's frame is the point about which it turns"),
         "turns_about_y_m": ("mm", 1e3, "left of the robot's frame is the point about which it turns")}
-# What is farther off than the description's play is to be mended there, not recorded.
+# A larger deviation than the description's tolerance must be fixed in the description, not recorded.
 FAR_SIGMAS = 3.0
 
 
 def measured(bag: pathlib.Path) -> Tuple[List[str], List[Check]]:
-    """Sentences, and what goes into the record; RobotError with a sentence when the bag tells nothing."""
+    """Return sentences, and the checks for the record; RobotError with a sentence if the bag is unusable."""
     with tempfile.TemporaryDirectory() as folder:
         converted = pathlib.Path(folder) / "inputs.bag"
         found = convert(bag, converted, Asked(), True, lambda _: None)
@@ -47,7 +47,7 @@ def measured(bag: pathlib.Path) -> Tuple[List[str], List[Check]]:
 
 
 def odometry_of(recording: Recording) -> Odometry:
-    """Way and turn summed up at the wheels' stamps; a speed holds for the time before its stamp."""
+    """Return distance and rotation integrated at the wheels' stamps; a speed applies to the time before its stamp."""
     times = np.array([sample.time_s for sample in recording.wheels])
     ways = np.array([sample.linear_mps for sample in recording.wheels[1:]]) * np.diff(times)
     gyro_s = np.array([sample.time_s for sample in recording.imu])
@@ -57,7 +57,7 @@ def odometry_of(recording: Recording) -> Odometry:
 
 
 def sentences(found: Found, lidars: Sequence[Pairs], result: Calibration) -> List[str]:
-    """A line for each unknown: its value where the drive tells it, else that it does not."""
+    """Return a line for each unknown: its value if the drive determines it, else a note that it does not."""
     said = [f"{found.base}: {result.steps} steps of half a second.", *_lines("The robot", result.base)]
     for frame, pairs, unknowns in zip((frame for frame, _ in found.mounts.values()), lidars, result.lidars):
         said += _lines(f"{frame} at {pairs.mount.x:.3f}, {pairs.mount.y:.3f} m", unknowns)
@@ -79,7 +79,7 @@ def _lines(subject: str, unknowns: Dict[str, Unknown]) -> List[str]:
 
 
 def checks(bag: pathlib.Path, result: Calibration) -> List[Check]:
-    """What the drive told, in the record's units: the front LiDAR's yaw is a term of the budget."""
+    """Return the determined unknowns in the record's units: the front LiDAR's yaw is a term of the budget."""
     how = f"hand-eye calibration by {result.steps} steps of {bag.name}"
     front, base = result.lidars[0], result.base
     wanted = [(LIDAR_YAW, front["yaw_rad"], math.degrees(1.0), 0.0), ("wheel_scale", base["wheel_scale"], 1.0, 1.0),

@@ -1,4 +1,4 @@
-"""The lift's height: what the robot says of the key's height against a tape measure."""
+"""Calibrates the lift's height: the robot's key height compared with a tape measure."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Sequence, Tuple
@@ -13,9 +13,9 @@ MIN_SPAN_M = 0.3
 
 @dataclass(frozen=True)
 class HeightError:
-    """Tape less what the robot says, m: in the middle of the heights, and the largest beside the straight line.
+    """Tape measure less reported height, m: at the middle height, and the largest deviation from a straight line.
 
-    scale: by which a travel that the robot says has to be multiplied.
+    scale: factor from reported to true travel.
     """
 
     middle: Estimate
@@ -24,10 +24,10 @@ class HeightError:
 
 
 def height_error(pairs: Sequence[Tuple[float, float]]) -> HeightError:
-    """From heights above ground in m as the robot said and as the tape showed.
+    """Evaluate pairs of reported and true heights above ground in m.
 
     Raises:
-        ReadingsUnusable: fewer than three, or too near to each other.
+        ReadingsUnusable: fewer than three, or too close together.
     """
     if len(pairs) < MIN_HEIGHTS:
         raise ReadingsUnusable(f"There are {len(pairs)} heights; at least {MIN_HEIGHTS} are needed.")

@@ -1,4 +1,4 @@
-"""The strength at which a press works: the strongest that did not, and the weakest of those that always did."""
+"""Required strength of a press: between the strongest failure and the weakest reliable success."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -6,13 +6,14 @@ from typing import Sequence
 
 from .readings import Estimate, ReadingsUnusable
 
-# More strength than the button needs, for a key that sits otherwise and a weak battery of the servo.
+# Factor for variations of the key's position and the supply of the servo.
 MARGIN = 1.25
 
 
 @dataclass(frozen=True)
 class Press:
-    """strength: 0 to 1, as ordered. force_n: what a gauge in the key's place read, N. worked: the button went down."""
+    """One press. strength: 0 to 1, as ordered. force_n: reading of a gauge in place of the key, N. worked: the button
+    was pressed."""
 
     strength: float
     force_n: float
@@ -21,17 +22,17 @@ class Press:
 
 @dataclass(frozen=True)
 class PressNeed:
-    """force: that the button needs, N. strength: that is to be ordered at least, with a margin."""
+    """Requirement of the button. force: N. strength: minimum order, with a margin."""
 
     force: Estimate
     strength: float
 
 
 def need_of(presses: Sequence[Press]) -> PressNeed:
-    """What the button needs.
+    """Return the requirement of the button.
 
     Raises:
-        ReadingsUnusable: none worked, none failed, or a weaker one worked where a stronger one did not.
+        ReadingsUnusable: none worked, none failed, or a weaker press worked while a stronger one failed.
     """
     worked, failed = ([press for press in presses if press.worked is wanted] for wanted in (True, False))
     if not worked or not failed:
@@ -42,7 +43,7 @@ def need_of(presses: Sequence[Press]) -> PressNeed:
         raise ReadingsUnusable(f"A press of {weakest.force_n:g} N worked and one of {strongest.force_n:g} N did not; "
                                "the key sits loosely, or the gauge slips. Fasten it, and begin again.")
     half = (weakest.force_n - strongest.force_n) / 2.0
-    # The border lies anywhere between both.
+    # The threshold is anywhere between both.
     return PressNeed(Estimate(strongest.force_n + half, half / math.sqrt(3.0), math.inf),
                      min(1.0, MARGIN * weakest.strength))
 

@@ -1,4 +1,4 @@
-"""What repeated readings say: their mean, how sure it is, and how many of them say so."""
+"""Statistics of repeated readings: mean, uncertainty and degrees of freedom."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import statistics
@@ -9,7 +9,7 @@ from mtr_core.errors import RobotError
 
 
 class ReadingsUnusable(RobotError):
-    """The readings tell nothing; the sentence says what to do."""
+    """The readings are unusable; the sentence states the remedy."""
 
 
 @dataclass(frozen=True)
@@ -22,14 +22,14 @@ class Estimate:
 
 
 def mean_of(values: Sequence[float], resolution: float = 0.0) -> Estimate:
-    """Mean of repeated readings.
+    """Return the mean of repeated readings.
 
     Args:
-        resolution: step of the scale that was read; readings that are all alike are not exact, so sigma is at least
-            that of a value somewhere in the step (GUM 4.3.7).
+        resolution: step of the scale; equal readings are not exact, so sigma is at least that of a uniform value within
+            the step (GUM 4.3.7).
 
     Raises:
-        ReadingsUnusable: there are fewer than two.
+        ReadingsUnusable: fewer than two readings.
     """
     if len(values) < 2:
         raise ReadingsUnusable(f"There is {len(values)} reading; at least 2 are needed. Read again.")

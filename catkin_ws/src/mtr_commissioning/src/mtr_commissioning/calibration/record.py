@@ -1,7 +1,7 @@
-"""The calibration record as the budget of distances reads it, from what was measured; plain values in and out.
+"""Calibration record for the budget of distances, from the measurements; plain values in and out.
 
-Format: docs/operator/limits.md, Calibration record. What is not measured yet stays as the design has it.
-`date` is the day of the oldest measurement that a term rests on; each measurement stands with its own day in `checks`.
+Format: docs/operator/limits.md, Calibration record. Terms without a measurement keep the values of the design. `date`
+is the date of the oldest measurement that a term relies on; `checks` lists each measurement with its own date.
 """
 # SPDX-License-Identifier: Apache-2.0
 import datetime
@@ -13,9 +13,9 @@ from .readings import Estimate, ReadingsUnusable
 
 VALID_DAYS = 365
 LEVER, MAST, LIDAR_YAW = "key_lever_m", "mast_lean_deg", "lidar_yaw_deg"
-# Beyond it the record is refused: something is to be mended, and not to be recorded.
+# Larger values are rejected: the robot must be fixed instead.
 LARGEST = {LEVER: 0.1, MAST: 10.0, LIDAR_YAW: 10.0}
-# Keys of two descriptions are in one place; both are written to the micrometre.
+# Tolerance for equal key positions in two descriptions; both are written to the micrometre.
 SAME_M = 1e-6
 # Terms of the design, as in operator_gui's calibration/default.yaml.
 DESIGN_TERMS: Dict[str, Dict[str, Any]] = {
@@ -28,7 +28,7 @@ DESIGN_TERMS: Dict[str, Dict[str, Any]] = {
 
 @dataclass(frozen=True)
 class Origin:
-    """Which robot it is, who measures, and how far its key is before base_link by its URDF, m."""
+    """Robot and person of a measurement, and the key's distance ahead of base_link by its URDF, m."""
 
     robot: str
     by: str
@@ -37,13 +37,13 @@ class Origin:
 
 @dataclass(frozen=True)
 class Check:
-    """One thing that was measured.
+    """One measurement.
 
     Attributes:
         name: key_lever_m, mast_lean_deg, lidar_yaw_deg, wheel_scale, gyro_scale, lift_height_m, press_force_n,
             mass_kg or a parameter of drive control: a promise.
-        estimate: in the unit that its name ends with, scales without.
-        how: what was done, in some words.
+        estimate: in the unit of the name's suffix; scales are dimensionless.
+        how: method in some words.
     """
 
     name: str
@@ -51,22 +51,23 @@ class Check:
     how: str
 
     def entry(self, today: datetime.date, by: str) -> Dict[str, Any]:
-        """Plain values."""
+        """Return plain values."""
         return {"name": self.name, "date": today.isoformat(), "by": by, "value": round(self.estimate.value, 6),
                 "uncertainty": round(self.estimate.sigma, 6), "source": self.how}
 
 
 def refuse_another(document: Mapping[str, Any], robot: str) -> None:
-    """Raise ReadingsUnusable when the record is not that robot's."""
+    """Raise ReadingsUnusable if the record belongs to another robot."""
     if document["robot"] != robot:
         raise ReadingsUnusable(f"The record is of the robot {document['robot']}, not of {robot}; name a file for "
                                f"{robot} with --record.")
 
 
 def continued(document: Mapping[str, Any], key_ahead_m: float) -> Tuple[Dict[str, Any], str]:
-    """The record as far as it holds with a key so far before base_link, and a sentence about what does not; empty: all.
+    """Return the part of the record that is valid with this key position, and a sentence about the invalid part or
+    empty.
 
-    The lever is measured against the description, so that it ends with the description that it was measured against.
+    The lever is relative to the description, so it becomes invalid when the description changes.
     """
     before_m, now_m = float(document["key_ahead_m"]), round(key_ahead_m, 6)
     if math.isclose(before_m, now_m, abs_tol=SAME_M):
@@ -80,13 +81,13 @@ def continued(document: Mapping[str, Any], key_ahead_m: float) -> Tuple[Dict[str
 
 def updated(document: Optional[Mapping[str, Any]], origin: Origin, check: Check,
             today: datetime.date) -> Dict[str, Any]:
-    """The record with what was measured today.
+    """Return the record with today's measurement.
 
     Args:
-        document: as before; None for a robot that has none.
+        document: previous record; None for a robot without one.
 
     Raises:
-        ReadingsUnusable: the error is too large to be recorded, or the record another robot's.
+        ReadingsUnusable: the error is too large to be recorded, or the record belongs to another robot.
     """
     before: Dict[str, Any] = {}
     if document is not None:
@@ -116,7 +117,7 @@ def _term(check: Check) -> Dict[str, Any]:
 
 
 def overdue(document: Mapping[str, Any], today: datetime.date) -> List[str]:
-    """A sentence for each measurement that is too old, and for each term that nobody has measured."""
+    """Return a sentence for each measurement that is too old, and for each term without a measurement."""
     valid_days = document["valid_days"]
     measured = {each["name"] for each in document.get("checks", [])}
     sentences = [f"{name} was never measured; the design's counts." for name in document["terms"]

@@ -1,4 +1,4 @@
-"""The calibration record as a file, which the Operator's application reads."""
+"""Calibration record as a file, which the Operator's application reads."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import pathlib
@@ -13,10 +13,10 @@ KEYS = ("robot", "date", "by", "valid_days", "key_ahead_m", "terms")
 
 
 def load(path: pathlib.Path) -> Optional[Dict[str, Any]]:
-    """The record in a file; None when there is none.
+    """Return the record in a file; None without a file.
 
     Raises:
-        ReadingsUnusable: the file is no record.
+        ReadingsUnusable: the file is not a record.
     """
     try:
         document = yaml.safe_load(path.read_text(encoding="utf-8"))
@@ -33,7 +33,7 @@ def load(path: pathlib.Path) -> Optional[Dict[str, Any]]:
 
 
 def save(path: pathlib.Path, document: Mapping[str, Any]) -> None:
-    """Write it whole, or leave what was there.
+    """Write the whole record, or leave the file unchanged.
 
     Raises:
         ReadingsUnusable: it cannot be written.

@@ -1,4 +1,5 @@
-"""What the running robot says while a person moves it: pose, way of the wheels, turn of the gyro, height of the key."""
+"""State of the running robot while a person moves it: pose, distance of the wheels, rotation of the gyro, key
+height."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import threading
@@ -19,13 +20,13 @@ from mtr_msgs.msg import LocalizedPose, PeripheralsState
 from .odometer import GyroTurn, mean_pose, way_between
 from .readings import ReadingsUnusable
 
-# Poses of a standing robot, of this time, are averaged.
+# Averaging time for the poses of a stationary robot.
 STANDING_S = 1.0
 SILENT_AFTER_S = 1.0
 
 
 class Robot:
-    """Listens from its making on; it publishes nothing."""
+    """Subscriber to the robot's topics from its construction on; it publishes nothing."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -42,15 +43,15 @@ class Robot:
         rospy.Subscriber(names.PERIPHERALS_STATE, PeripheralsState, self._take_peripherals)
 
     def key(self) -> KeyMount:
-        """The key as the robot's URDF has it."""
+        """Return the key as described in the robot's URDF."""
         return described_robot().key()
 
     def geometry(self) -> RobotGeometry:
-        """The robot as its URDF has it."""
+        """Return the robot as described in its URDF."""
         return described_robot()
 
     def pose(self) -> Pose2:
-        """Mean pose in map over a second; ReadingsUnusable when the robot moves or does not know where it is."""
+        """Return the mean pose in map over a second; ReadingsUnusable if the robot moves or is not localized."""
         with self._lock:
             self._poses, self._moved, self._wants_poses = [], False, True
         time.sleep(STANDING_S)
@@ -71,19 +72,20 @@ class Robot:
             self._gyro.begin()
 
     def way_m(self) -> float:
-        """Of the wheels since begin(), in a straight line, negative backwards; ReadingsUnusable while silent."""
+        """Distance of the wheels since begin(), in a straight line, negative backwards; ReadingsUnusable while
+        silent."""
         with self._lock:
             if self._start is None or self._odometry is None:
                 raise ReadingsUnusable(f"Nothing is heard on {names.WHEEL_ODOMETRY}; start the base, and try again.")
             return way_between(self._start, self._odometry)
 
     def turn_rad(self) -> float:
-        """Of the gyro since begin(), less its offset at rest, positive to the left."""
+        """Rotation of the gyro since begin(), less its offset at rest, positive to the left."""
         with self._lock:
             return self._gyro.turn_rad()
 
     def key_height_m(self) -> float:
-        """Of the key above ground; ReadingsUnusable when the board is silent."""
+        """Return the key's height above ground; ReadingsUnusable while the board is silent."""
         with self._lock:
             if time.monotonic() - self._height_s > SILENT_AFTER_S or math.isnan(self._height_m):
                 raise ReadingsUnusable(f"No height is heard on {names.PERIPHERALS_STATE}; look at the board of the "

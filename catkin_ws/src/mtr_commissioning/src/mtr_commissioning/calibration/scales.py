@@ -1,24 +1,24 @@
-"""Scale of wheels and gyro: a way against a tape, full turns against a mark; each out and back."""
+"""Scales of wheels and gyro: a distance against a tape, full turns against a mark; each out and back."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Sequence, Tuple
 
 from .readings import Estimate, ReadingsUnusable, mean_of
 
-# The start and the end of a way are read to some millimetres, those of a turn to a degree or so.
+# The ends of a path are read to some millimetres, the ends of a turn to about a degree.
 MIN_WAY_M = 2.0
 MIN_TURN_RAD = 6.0
 
 
 def scale_of(pairs: Sequence[Tuple[float, float]], least: float, unit: str) -> Estimate:
-    """What the sensor says has to be multiplied by this, to be true.
+    """Return the factor from the sensor's value to the true one.
 
     Args:
-        pairs: what the sensor said, and what was true, in one unit with signs; out and back.
-        least: a shorter way or turn tells too little.
+        pairs: sensor values and true values, in one unit with signs; out and back.
+        least: minimum distance or rotation.
         unit: of both, for the sentence.
 
     Raises:
-        ReadingsUnusable: fewer than two, too short, all in one direction, or of the other sign than the truth.
+        ReadingsUnusable: fewer than two, too short, all in one direction, or of opposite sign to the true value.
     """
     for said, true in pairs:
         if abs(true) < least:

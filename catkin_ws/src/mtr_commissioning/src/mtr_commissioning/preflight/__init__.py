@@ -1,2 +1,2 @@
-"""Is the robot put together and set up as its nodes take it to be? Only command_line and listening know ROS."""
+"""Checks the running robot against the assumptions of its nodes. Only command_line and listening import ROS."""
 # SPDX-License-Identifier: Apache-2.0

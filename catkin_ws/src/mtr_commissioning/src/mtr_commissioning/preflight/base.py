@@ -1,7 +1,7 @@
-"""Is the base's own controller set up so that the mast survives a stop without drive control?
+"""Checks the base's own controller: the mast must survive a stop without drive control.
 
-What drive control accepts is decided by drive control alone, at its start; it leaves its refusal for others to read.
-Here the base's parameters of now are compared with those that ship, because they may have been loaded after that.
+Drive control alone decides which limits it accepts, at its start, and publishes the reason of a rejection. This module
+compares the base's current parameters with the shipped ones, because they may have been changed after that.
 """
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Dict, Iterator, List, Optional, Tuple
@@ -17,13 +17,13 @@ HINT = "load mtr_description/config/jackal_base.yaml before the base's controlle
 
 
 def start_findings(record: RobotRecord) -> List[Finding]:
-    """Nodes that could not start, with their own sentence."""
+    """Report nodes that could not start, with their own sentences."""
     return [bad(START, node, f"It cannot start. {why}") for node, why in sorted(record.start_failures.items())]
 
 
 def parameter_findings(record: RobotRecord) -> List[Finding]:
-    """What node_parameters says of no node, and the emergency stops that the robot has by its parameters."""
-    # One in a namespace has its parameters there.
+    """Report node_parameters of unknown nodes, and the emergency stops in the robot's parameters."""
+    # A node in a namespace has its parameters there.
     known = {node.split("/")[0] for node in (*record.nodes, *record.start_failures)}
     found = [bad(PARAMETERS, node, "The file of node_parameters names it, but no node of this name runs, so that what "
                  "it says there counts for nothing: correct the name, or remove it.")
@@ -34,7 +34,7 @@ def parameter_findings(record: RobotRecord) -> List[Finding]:
 
 
 def base_findings(record: RobotRecord, setup: Setup, shipped: BaseController) -> List[Finding]:
-    """Parameters of the base, or of the node in front of it."""
+    """Check the parameters of the base, or of the node in front of it."""
     where = setup.base_parameters
     if record.base is None:
         if setup.is_simulated:
@@ -46,7 +46,7 @@ def base_findings(record: RobotRecord, setup: Setup, shipped: BaseController) ->
 
 
 def switch_problems(where: str, values: Dict[str, Any]) -> Iterator[Finding]:
-    """Limits that are switched off, or others that would delay a stop."""
+    """Report disabled limits, and limits that would delay a stop."""
     for axis in ("linear/x", "angular/z"):
         if value_of(values, f"{axis}/has_acceleration_limits") is not True:
             yield bad(LIMITS, f"{where}/{axis}", "Its has_acceleration_limits is not true, allowed is true: without "
@@ -57,7 +57,7 @@ def switch_problems(where: str, values: Dict[str, Any]) -> Iterator[Finding]:
 
 
 def value_problems(where: str, values: Dict[str, Any], shipped: BaseController) -> Iterator[Finding]:
-    """Numbers that are missing, beyond the shipped ones, or below what drive control brakes with."""
+    """Report numbers that are missing, beyond the shipped ones, or below drive control's deceleration."""
     rows: Tuple[Tuple[str, float, str], ...] = (
         ("cmd_vel_timeout", shipped.command_timeout_s, "s"),
         ("linear/x/max_acceleration", shipped.linear_acceleration_mps2, "m/s2"),
@@ -73,7 +73,7 @@ def value_problems(where: str, values: Dict[str, Any], shipped: BaseController) 
 
 
 def value_of(values: Dict[str, Any], path: str) -> Optional[Any]:
-    """Value of nested parameters; None when there is none."""
+    """Return the value of nested parameters; None if missing."""
     value: Any = values
     for word in path.split("/"):
         value = value.get(word) if isinstance(value, dict) else None

@@ -1,4 +1,4 @@
-"""Is this computer's clock synchronised, where is the ROS master, and is there but one?"""
+"""Checks the synchronisation of this computer's clock, the address of the ROS master, and that it is the only one."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Mapping, NamedTuple, Optional, Sequence
 from urllib.parse import urlparse
@@ -6,8 +6,8 @@ from urllib.parse import urlparse
 from mtr_motion_check.finding import Finding, bad, good
 
 CLOCK, MASTER, MASTERS = "clock.synchronised", "ros.network", "ros.masters"
-# The laptop reads the robot's times beside those of the Car's bus; it estimates the offset itself, but a clock that is
-# being set moves it. Chrony on one Wi-Fi hop keeps a few ms.
+# The laptop compares the robot's times with the Car's bus. It estimates the offset itself, but a clock that is being
+# adjusted changes it. Chrony on one Wi-Fi hop keeps a few ms.
 MAX_OFFSET_S = 0.02
 # Fields of `chronyc -c tracking`, by chronyc(1): reference, name of the source, current offset in s, leap status.
 REFERENCE, SOURCE, OFFSET, LEAP = 0, 1, 4, 13
@@ -18,7 +18,7 @@ LOOPBACK = ("localhost", "127.0.0.1", "::1")
 
 
 class Tracking(NamedTuple):
-    """What chrony says of this computer's clock; the source is empty where it is the clock itself."""
+    """State of this computer's clock by chrony; the source is empty if it is the clock itself."""
 
     source: str
     offset_s: float
@@ -26,7 +26,7 @@ class Tracking(NamedTuple):
 
 
 def tracking_in(text: str) -> Optional[Tracking]:
-    """From the output of `chronyc -c tracking`; None when it is none, because chronyd does not run for one."""
+    """Parse the output of `chronyc -c tracking`; None for other output, for example if chronyd is not running."""
     fields = text.strip().split(",")
     try:
         source = "" if fields[REFERENCE] == OWN_CLOCK else fields[SOURCE]
@@ -36,11 +36,11 @@ def tracking_in(text: str) -> Optional[Tracking]:
 
 
 def clock_finding(output: Optional[str], is_simulated: bool) -> Finding:
-    """Of the clock.
+    """Check the clock.
 
     Args:
-        output: of `chronyc -c tracking`; None: there is no chrony.
-        is_simulated: nobody minds its absence.
+        output: of `chronyc -c tracking`; None without chrony.
+        is_simulated: a missing chrony is acceptable.
     """
     tracking = tracking_in(output) if output is not None else None
     if tracking is None:
@@ -65,11 +65,11 @@ def clock_finding(output: Optional[str], is_simulated: bool) -> Finding:
 
 
 def masters_finding(master_uri: str, ports: Sequence[int], is_simulated: bool) -> Finding:
-    """Of the ROS masters that run on this computer; those of other computers cannot be seen.
+    """Check the ROS masters on this computer; masters on other computers are not visible.
 
     Args:
         ports: of the masters.
-        is_simulated: several simulations may run beside each other.
+        is_simulated: several simulations may run in parallel.
     """
     if len(ports) < 2 or is_simulated:
         return good(MASTERS, "ROS masters", f"{len(ports)} on this computer.", len(ports), 1)
@@ -80,7 +80,7 @@ def masters_finding(master_uri: str, ports: Sequence[int], is_simulated: bool) -
 
 
 def network_findings(environment: Mapping[str, str], master_uri: str) -> List[Finding]:
-    """Where the master is, and by which name this computer is known to nodes elsewhere."""
+    """Check the master's address, and this computer's name for nodes on other computers."""
     host = urlparse(master_uri).hostname or ""
     own = environment.get("ROS_IP") or environment.get("ROS_HOSTNAME") or ""
     if host in LOOPBACK:

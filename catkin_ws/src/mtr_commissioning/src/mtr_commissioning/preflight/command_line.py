@@ -1,6 +1,6 @@
-"""rosrun mtr_commissioning preflight: checks the running robot and says ok or BAD, a sentence for each check.
+"""rosrun mtr_commissioning preflight: checks the running robot and prints ok or BAD, a sentence for each check.
 
-The robot is never moved by it. With --drive a person drives it by hand while its sensors are compared.
+It never moves the robot. With --drive a person drives it by hand while its sensors are compared.
 Exit status: 0 nothing is bad, 1 something is, 2 it could not be checked.
 """
 # SPDX-License-Identifier: Apache-2.0
@@ -42,14 +42,14 @@ from .wifi import own_stations, wifi_finding
 
 CANNOT_CHECK = 2
 MIN_SECONDS, MAX_SECONDS, DEFAULT_SECONDS = 2.0, 60.0, 5.0
-# A person drives within it, and the sensors are asked so often whether that is enough.
+# Time limit of the drive, and period of the check for sufficient data.
 DRIVE_S, JUDGE_EVERY_S = 20.0, 1.0
 PROGRAM_TIMEOUT_S = 5.0
 CHRONY = ["chronyc", "-c", "tracking"]
 
 
 def main(arguments: Optional[List[str]] = None) -> int:
-    """Check the robot; the exit status says whether something is bad."""
+    """Check the robot; return the exit status."""
     options = parsed(rospy.myargv(sys.argv)[1:] if arguments is None else arguments)
     join_on_loopback(os.environ)
     uri = os.environ.get("ROS_MASTER_URI", "")
@@ -67,7 +67,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
 
 
 def parsed(arguments: List[str]) -> argparse.Namespace:
-    """Options of the command line."""
+    """Return the options of the command line."""
     parser = argparse.ArgumentParser(prog="preflight", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seconds", type=float, default=DEFAULT_SECONDS,
@@ -83,15 +83,15 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
 
 
 def shown(findings: List[Finding]) -> List[Finding]:
-    """The findings, printed."""
+    """Print the findings and return them."""
     for finding in findings:
         print(finding.line(), flush=True)
     return findings
 
 
 def computer_findings(uri: str, setup: Setup) -> List[Finding]:
-    """Clock, network, disk and the like."""
-    # Bags are begun in the home of whoever looks; where the nodes write, the robot says.
+    """Check clock, network, disk and other parts of the computer."""
+    # Bags are started in the home of the user; the robot reports the folders of its nodes.
     machine = Machine(pathlib.Path("/"), [pathlib.Path.home(), *map(pathlib.Path, setup.written_folders)])
     return [*network_findings(os.environ, uri),
             masters_finding(uri, machine.ros_master_ports(), setup.is_simulated),
@@ -100,7 +100,7 @@ def computer_findings(uri: str, setup: Setup) -> List[Finding]:
 
 
 def said_by(command: List[str]) -> Optional[str]:
-    """What a program says; None when it is not installed, empty when it does not answer."""
+    """Return the output of a program; None if it is not installed, empty if it does not answer."""
     if shutil.which(command[0]) is None:
         return None
     try:
@@ -110,7 +110,7 @@ def said_by(command: List[str]) -> Optional[str]:
 
 
 def robot_findings(options: argparse.Namespace) -> List[Finding]:
-    """What is heard of the robot, and of its motion where that is wanted."""
+    """Check the robot's messages, and its motion if requested."""
     setup, found = setup_of_robot(), []
     geometry: Optional[RobotGeometry] = None
     try:
@@ -130,19 +130,19 @@ def robot_findings(options: argparse.Namespace) -> List[Finding]:
 
 
 def named(findings: List[Finding], listener: Listener) -> List[Finding]:
-    """The findings with the robot's own names of its topics."""
+    """Return the findings with the robot's own topic names."""
     return [replace(finding, subject=listener.names.get(finding.subject, finding.subject)) for finding in findings]
 
 
 def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup: Setup) -> List[Finding]:
-    """Sensors against each other while a person drives; the last verdict, when nothing more is to be learnt."""
+    """Compare the sensors while a person drives; return the last verdict when no further data is needed."""
     mounts = lidar_mounts(geometry, setup) if geometry else None
     if mounts is None:
         return [bad(DESCRIPTION, names.ROBOT_DESCRIPTION, "Nothing was compared in motion, because it does not say "
                     "where the LiDARs are.")]
     print(f"Drive the robot by hand, forward, back and a turn, and release the dead-man button in motion, within "
           f"{DRIVE_S:.0f} s ...", flush=True)
-    # What stopped the wheels before is over.
+    # Earlier reasons for stopped wheels no longer apply.
     listener.drive_control.clear()
     judge, end_s = MotionJudge(mounts), time.monotonic() + DRIVE_S
     found: List[Finding] = []
@@ -159,8 +159,8 @@ def motion_findings(listener: Listener, geometry: Optional[RobotGeometry], setup
 
 
 def leave(parameter: str, findings: List[Finding]) -> None:
-    """Leave them with the ROS master until it ends: for the dispatcher, which tells the application, and for the next
-    preflight."""
+    """Store the findings at the ROS master until it ends: for the dispatcher, which reports them to the application,
+    and for the next preflight."""
     items = tuple(PreflightItem(finding.subject, finding.is_bad, finding.text) for finding in findings)
     try:
         rospy.set_param(parameter, parameter_of(report_of(clock.steady_ns() * NS, items)))
@@ -170,7 +170,7 @@ def leave(parameter: str, findings: List[Finding]) -> None:
 
 
 def saved(findings: List[Finding], path: Optional[pathlib.Path]) -> bool:
-    """Write the file that was asked for; False, with a sentence, when it cannot be written."""
+    """Write the requested file; return False, with a sentence, if it cannot be written."""
     try:
         if path:
             write(findings, path)

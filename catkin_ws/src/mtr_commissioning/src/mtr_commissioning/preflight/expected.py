@@ -1,4 +1,4 @@
-"""Topics that the robot's nodes need, and how often they have to come."""
+"""Topics that the robot's nodes need, with their minimum rates."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
 from typing import List, Mapping, NamedTuple, Sequence
@@ -7,17 +7,16 @@ from mtr_core import names
 from mtr_core.schedule import CONTROLLER_INPUT, FIRMWARE, LIDAR, SENSORS, Slot
 from mtr_description.base_controller import CONTROLLER
 
-# Once a second, as a Jackal and the simulated robot say it; nobody decides by it within seconds.
-# Owner of a motion lock that drive control has when the manual controller is started with the robot.
+# Period of 1 s, as on a Jackal and the simulated robot; no decision depends on it within seconds.
 CONTROLLER_OWNER = "controller_input"
 BATTERY = Slot(1_000_000_000, 0)
-# Less often than this share of the expected rate a driver is set up wrongly, or messages get lost.
+# Below this share of the expected rate a driver is configured wrongly, or messages are lost.
 MIN_RATE_SHARE = 0.8
 # Drive control brakes after 0.10 s without odometry.
 MAX_GAP_PERIODS, MIN_GAP_LIMIT_S = 3.0, 0.1
-# From the stamp to the arrival here. The median has half of it.
+# Limit from the stamp to the arrival here. The limit of the median is half of it.
 MAX_AGE_S = 0.1
-# Drive control brakes when the first beam of a LiDAR's newest sweep is older: its lidar_timeout_s.
+# Drive control brakes if the first beam of a LiDAR's newest sweep is older: its lidar_timeout_s.
 LIDAR_TIMEOUT_S = 0.14
 # Drive control's default of this name.
 REACTION_S = 0.08
@@ -25,7 +24,7 @@ REACTION_S = 0.08
 
 @dataclass(frozen=True)
 class Setup:
-    """What the robot was started with; parameters of its nodes say it.
+    """Configuration of the running robot, from the parameters of its nodes.
 
     Attributes:
         rear_lidar: there is one.
@@ -33,12 +32,12 @@ class Setup:
         base_guard: the node in front of a base without limits runs.
         base_controller: namespace of the base's parameters.
         is_simulated: time or robot are simulated.
-        written_folders: into which its nodes write.
-        frames: link of the description -> frame in which the sensor speaks, where that has another name.
-        time_increment_s: from beam to beam, as the nodes take it where the scans do not say it; 0: they do not know.
-        turn_rate_hz: of the LiDARs by the data sheet of their kind; where none is named, that of the simulated ones.
-        lidar_timeout_s: drive control brakes when the first beam of the newest sweep is older.
-        reaction_s: that drive control assumes from a decision to braking wheels.
+        written_folders: folders to which its nodes write.
+        frames: link of the description -> frame of the sensor's messages, if its name differs.
+        time_increment_s: time between beams that the nodes assume if the scans do not state it; 0: unknown.
+        turn_rate_hz: of the LiDARs by the data sheet of their kind; without a kind, of the simulated ones.
+        lidar_timeout_s: drive control brakes if the first beam of the newest sweep is older.
+        reaction_s: assumption of drive control on the time from a decision to braking wheels.
     """
 
     rear_lidar: bool = True
@@ -55,20 +54,20 @@ class Setup:
 
     @property
     def base_parameters(self) -> str:
-        """Namespace of the parameters that stop the robot when drive control is dead."""
+        """Namespace of the parameters that stop the robot if drive control is dead."""
         return f"{names.BASE_GUARD}/{CONTROLLER}" if self.base_guard else self.base_controller
 
 
 class Expected(NamedTuple):
-    """One topic.
+    """Requirements on one topic.
 
     Attributes:
         topic: its name.
         type: of its messages.
         period_s: between two messages.
-        max_age_s: from the stamp to the arrival; 0 for messages without stamp.
-        remedy: what to do when it does not come.
-        max_newest_age_s: of the newest message at any time, before the next one comes; 0: nobody minds.
+        max_age_s: from the stamp to the arrival; 0 for messages without a stamp.
+        remedy: for a missing topic.
+        max_newest_age_s: of the newest message at any time, before the next one arrives; 0: no limit.
     """
 
     topic: str
@@ -80,17 +79,17 @@ class Expected(NamedTuple):
 
     @property
     def max_gap_s(self) -> float:
-        """Longest time between two messages that nobody minds."""
+        """Longest acceptable time between two messages."""
         return max(MIN_GAP_LIMIT_S, MAX_GAP_PERIODS * self.period_s)
 
     @property
     def min_rate_hz(self) -> float:
-        """Least rate."""
+        """Minimum rate."""
         return MIN_RATE_SHARE / self.period_s
 
 
 def expected_topics(setup: Setup) -> List[Expected]:
-    """All topics that have to come, given what the robot was started with."""
+    """Return all topics that are required in this configuration."""
     topics = [expected_scan(names.FRONT_SCAN, setup, "start the front LiDAR's driver")]
     if setup.rear_lidar:
         topics.append(expected_scan(names.REAR_SCAN, setup, "start the rear LiDAR's driver, or the robot with "
@@ -109,12 +108,12 @@ def expected_topics(setup: Setup) -> List[Expected]:
 
 
 def expected_scan(topic: str, setup: Setup, remedy: str) -> Expected:
-    """The sweeps of one LiDAR, each stamped with its first beam: as often as its data sheet says, and so that drive
-    control is never without one."""
+    """Return the requirements on the sweeps of one LiDAR, each stamped with its first beam: the rate of its data sheet,
+    and no gap for drive control."""
     return Expected(topic, "sensor_msgs/LaserScan", 1.0 / setup.turn_rate_hz, setup.lidar_timeout_s, remedy,
                     setup.lidar_timeout_s)
 
 
 def seconds(slot: Slot) -> float:
-    """Period of a slot in s."""
+    """Return the period of a slot in s."""
     return slot.period_ns * 1e-9

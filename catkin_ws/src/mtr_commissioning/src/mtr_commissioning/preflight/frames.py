@@ -1,4 +1,4 @@
-"""Do scans and IMU come in the frames that the robot's description has for their topics?"""
+"""Checks the frames of scans and IMU against the robot's description."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Mapping, Optional
 
@@ -16,7 +16,7 @@ SCAN_FRAMES = {names.FRONT_SCAN: names.FRONT_LIDAR, names.REAR_SCAN: names.REAR_
 
 
 def frame_findings(record: RobotRecord, setup: Setup, geometry: RobotGeometry) -> List[Finding]:
-    """Mounts in the description, and the frame of each topic that came."""
+    """Check mounts in the description, and the frame of each received topic."""
     frames = {topic: setup.frames.get(link, link) for topic, link in {**SCAN_FRAMES, names.IMU_DATA: names.IMU}.items()}
     if not setup.rear_lidar:
         del frames[names.REAR_SCAN]
@@ -29,7 +29,7 @@ def frame_findings(record: RobotRecord, setup: Setup, geometry: RobotGeometry) -
 
 
 def description_finding(geometry: RobotGeometry, setup: Setup) -> Finding:
-    """The description has what every node asks of it."""
+    """Check that the description has all parts that the nodes need."""
     try:
         geometry.lidars(setup.rear_lidar)
         geometry.mount(names.IMU)
@@ -42,7 +42,7 @@ def description_finding(geometry: RobotGeometry, setup: Setup) -> Finding:
 
 def frame_finding(topic: str, frame: str, found: List[str], geometry: RobotGeometry, others: Mapping[str, str]
                   ) -> Finding:
-    """The frame of a topic's messages. others: of the other LiDARs' topics."""
+    """Check the frame of a topic's messages. others: of the other LiDARs' topics."""
     if found == [frame]:
         return good(FRAME, topic, f"It comes in the frame {frame}.")
     wrong = next(name for name in found if name != frame)
@@ -59,7 +59,7 @@ def frame_finding(topic: str, frame: str, found: List[str], geometry: RobotGeome
 
 
 def unknown(frame: str, geometry: RobotGeometry) -> str:
-    """Says that the robot's description has no such frame."""
+    """Return a sentence that the robot's description lacks this frame."""
     try:
         geometry.tree.chain(frame)
     except ConfigurationError:
@@ -68,7 +68,7 @@ def unknown(frame: str, geometry: RobotGeometry) -> str:
 
 
 def lidar_mounts(geometry: RobotGeometry, setup: Setup) -> Optional[LidarMounts]:
-    """Of the description; None where it has none that can be used, which description_finding says."""
+    """Return the mounts of the description; None if they are unusable, which description_finding reports."""
     try:
         return geometry.lidars(setup.rear_lidar)
     except ConfigurationError:

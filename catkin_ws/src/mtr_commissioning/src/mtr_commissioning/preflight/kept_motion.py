@@ -1,4 +1,4 @@
-"""What was found in motion counts until somebody drives again: a look at the robot that stands does not clear it."""
+"""Findings in motion, which remain valid until the next drive: a check of the stationary robot does not clear them."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, Optional
 
@@ -9,13 +9,13 @@ MOTION = "motion.last"
 
 
 def findings_kept(report: Optional[PreflightReport], now_s: float) -> List[Finding]:
-    """Findings of the last preflight with --drive, each with its age; one that says so where there is none.
+    """Return the findings of the last preflight with --drive, each with its age, or one that states there are none.
 
     Args:
-        report: of the motion alone; None when none was made in this run of the robot.
+        report: of the motion alone; None without one since the robot's start.
         now_s: on the robot's steady clock.
     """
-    # A simulated clock begins anew, the master may stay.
+    # A simulated clock restarts while the master may remain.
     if report is None or report.made_s > now_s:
         return [good(MOTION, "motion", "Nothing was compared in motion yet; preflight --drive does it.")]
     ago = age_text(now_s - report.made_s)
@@ -24,6 +24,6 @@ def findings_kept(report: Optional[PreflightReport], now_s: float) -> List[Findi
 
 
 def age_text(age_s: float) -> str:
-    """In minutes, or in hours where it is many."""
+    """Return the age in minutes, or in hours if it is large."""
     minutes = round(age_s / 60.0)
     return f"{minutes} min" if minutes < 120 else f"{minutes // 60} h"

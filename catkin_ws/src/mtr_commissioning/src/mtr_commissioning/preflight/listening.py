@@ -1,4 +1,4 @@
-"""Listens to the running robot: what is on its topics, who publishes them, and its parameters."""
+"""Records the running robot: messages on its topics, their publishers, and its parameters."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import time
@@ -23,9 +23,9 @@ TYPES: Dict[str, Type[Any]] = {
     names.FRONT_SCAN: numpy_msg(LaserScan), names.REAR_SCAN: numpy_msg(LaserScan), names.WHEEL_ODOMETRY: Odometry,
     names.IMU_DATA: Imu, names.BATTERY: BatteryState, names.FIRMWARE_STATE: FirmwareState, names.JOY: Joy}
 
-# With two LiDARs, each watches so much to each side alone: drive control's kSharedViewRad.
+# View to each side that a LiDAR covers alone if there are two: drive control's kSharedViewRad.
 SHARED_VIEW_RAD = 2.0
-# A battery speaks once a second, and on a busy computer a connection takes its time: two messages within it.
+# A battery publishes once a second, and on a busy computer a connection needs time: two messages within it.
 PATIENCE_S, LOOK_EVERY_S = 4.0, 0.1
 
 
@@ -35,8 +35,8 @@ ARGUMENTS = {"front_scan": names.FRONT_SCAN, "rear_scan": names.REAR_SCAN, "imu_
 
 
 def topics_of_robot() -> Dict[str, str]:
-    """Topics of sensors and base by their names in the nodes: as the robot was started, or as this program was told
-    (/front/scan:=/scan)."""
+    """Return topics of sensors and base by their names in the nodes: as the robot was started, or as remapped on this
+    program's command line (/front/scan:=/scan)."""
     started: Dict[str, Any] = rospy.get_param(names.ROBOT_TOPICS, {})
     found = {}
     for argument, topic in ARGUMENTS.items():
@@ -46,7 +46,7 @@ def topics_of_robot() -> Dict[str, str]:
 
 
 def setup_of_robot() -> Setup:
-    """What the robot was started with, by the parameters of drive control and of ROS."""
+    """Return the configuration of the running robot, from the parameters of drive control and of ROS."""
     drive: Dict[str, Any] = rospy.get_param("/drive_control", {})
     default = Setup()
     return Setup(
@@ -63,24 +63,24 @@ def setup_of_robot() -> Setup:
 
 
 def publishers() -> Dict[str, Tuple[str, ...]]:
-    """Topic -> nodes that publish it, by the master."""
+    """Return topic -> publishing nodes, as listed by the master."""
     _, _, state = rospy.get_master().getSystemState()
     return {topic: tuple(sorted(nodes)) for topic, nodes in state[0]}
 
 
 def nodes() -> FrozenSet[str]:
-    """Nodes that run, by the master; each of them publishes or offers something."""
+    """Return the running nodes, as listed by the master; each of them publishes or offers a service."""
     _, _, state = rospy.get_master().getSystemState()
     return frozenset(node.lstrip("/") for table in state for _, owners in table for node in owners)
 
 
 class Listener:
-    """Subscribes at once; what comes is kept until it is asked for.
+    """Subscriber from its construction on, which stores the messages until they are requested.
 
     Attributes:
-        recording: what came of the sensors that are compared in motion.
-        drive_control: sentences of drive control about what stops the wheels, by their codes; the newest of each.
-        names: where the robot has its topics, by their names in the nodes; the records bear these.
+        recording: messages of the sensors that are compared in motion.
+        drive_control: sentences of drive control about stops of the wheels, by their codes; the newest of each. names:
+        topics of the robot by their names in the nodes; the records use the latter.
     """
 
     def __init__(self) -> None:
@@ -104,8 +104,8 @@ class Listener:
             rospy.Subscriber(topic, TFMessage, self._take_transforms)
 
     def listen(self, seconds: float, setup: Setup) -> RobotRecord:
-        """What came within that time, and for up to PATIENCE_S more where a node publishes that was not yet heard."""
-        # Not by the simulated clock, which may stand still.
+        """Record for this time, and for up to PATIENCE_S more if a publishing node has not been received yet."""
+        # The simulated clock is not used, because it may be stopped.
         time.sleep(seconds)
         end_s = time.monotonic() + PATIENCE_S
         record = self.record(setup.base_parameters)
@@ -115,7 +115,7 @@ class Listener:
         return record
 
     def record(self, base_parameters: str) -> RobotRecord:
-        """Everything that came until now, with what the master knows."""
+        """Return all messages so far, with the master's lists."""
         types, known = dict(rospy.get_master().getTopicTypes()[2]), publishers()
         for topic in {*known, *self.names}:
             heard, name = self._topics.setdefault(topic, TopicRecord()), self.names.get(topic, topic)
@@ -142,7 +142,7 @@ class Listener:
 
     def _take_drive_status(self, message: Any) -> None:
         self.recording.sent.append(SentSample(message.header.stamp.to_sec(), message.linear_mps))
-        # Causes of it follow; the first one is what it says.
+        # Further problems are its consequences; the first one is the cause.
         for problem in message.problems[:1]:
             self.drive_control[problem.code] = problem.text
 
@@ -172,15 +172,16 @@ class Listener:
 
 
 def said_transform(transform: Any) -> SaidTransform:
-    """Of a message."""
+    """Convert the transform of a message."""
     at, turn = transform.translation, transform.rotation
     return SaidTransform((at.x, at.y, at.z), (turn.x, turn.y, turn.z, turn.w))
 
 
 def content_of(message: Any, own_view_rad: float) -> ScanContent:
-    """Beams of a scan message, hits and what is no number, or zero, as drivers say it that know no REP 117.
+    """Count the beams of a scan message, the hits, and the beams without a number or with zero, as from drivers without
+    REP 117.
 
-    own_view_rad: to each side of where the LiDAR points; what no other LiDAR watches.
+    own_view_rad: to each side of the LiDAR's direction; not covered by another LiDAR.
     """
     ranges = np.asarray(message.ranges)
     with np.errstate(invalid="ignore"):
@@ -194,12 +195,12 @@ def content_of(message: Any, own_view_rad: float) -> ScanContent:
 
 
 def longest_run(flags: "np.ndarray[Any, Any]") -> int:
-    """How many true ones follow each other at most."""
+    """Return the length of the longest run of true values."""
     ends = np.flatnonzero(np.diff(np.concatenate(([0], flags.astype(np.int8), [0]))))
     return int(np.max(ends[1::2] - ends[::2], initial=0))
 
 
 def sample_of(message: Any) -> ScanSample:
-    """Hits of a scan message."""
+    """Return the hits of a scan message."""
     return scan_sample(Sweep(message.header.stamp.to_sec(), message.angle_min, message.angle_increment,
                              message.time_increment, message.range_min, message.range_max, message.ranges))

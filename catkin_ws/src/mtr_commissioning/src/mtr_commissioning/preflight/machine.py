@@ -1,4 +1,4 @@
-"""Disk, temperature, memory and Wi-Fi of the robot's computer, as Linux tells them in files."""
+"""Disk, temperature, memory and Wi-Fi of the robot's computer, from files of Linux."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import pathlib
@@ -11,22 +11,22 @@ from mtr_dispatcher.disks.room import Usage, room_at
 from mtr_motion_check.finding import Finding, bad, good
 
 DISK, HEAT, MEMORY = "machine.disk", "machine.temperature", "machine.memory"
-# Intel's and AMD's processors slow down at 95 to 105 C.
+# Intel's and AMD's processors throttle at 95 to 105 C.
 MAX_TEMPERATURE_C = 85.0
-# A chosen reserve: the nodes of the robot need less, and without any the kernel ends the largest process.
+# A chosen reserve: the nodes of the robot need less, and without free memory the kernel kills the largest process.
 MIN_MEMORY_BYTES = 3e8
 GIGA = 1e9
-# As roslaunch and roscore start it, behind an interpreter and its options; the port where none is named.
+# Command of roslaunch and roscore, after an interpreter and its options; the default port.
 MASTER_PROGRAM, MASTER_OPTION, MASTER_WITHIN_WORDS, MASTER_PORT = "rosmaster", "--core", 3, 11311
 
 
 @dataclass(frozen=True)
 class Machine:
-    """Reads this computer.
+    """Reader of this computer's state.
 
     Attributes:
-        root: under which proc and sys lie.
-        folders: of whose disks' free space is asked.
+        root: parent of proc and sys.
+        folders: their disks' free space is checked.
         usage: total, used and free bytes of a path's disk.
     """
 
@@ -35,31 +35,31 @@ class Machine:
     usage: Usage = shutil.disk_usage
 
     def temperature_c(self) -> Optional[float]:
-        """The hottest zone; None where there are none."""
+        """Return the temperature of the hottest zone; None without any."""
         found = []
         for path in self.root.glob("sys/class/thermal/thermal_zone*/temp"):
-            # A zone may be there and its sensor not.
+            # A zone may exist without its sensor.
             with contextlib.suppress(OSError, ValueError):
                 found.append(1e-3 * float(path.read_text(encoding="ascii")))
         return max(found, default=None)
 
     def available_bytes(self) -> Optional[float]:
-        """Memory that programs can still have; None where it is not told."""
+        """Return the memory available to programs; None if not reported."""
         found = re.search(r"^MemAvailable:\s+(\d+) kB", self._text("proc/meminfo"), re.MULTILINE)
         return 1024.0 * float(found[1]) if found else None
 
     def signal_dbm(self) -> Optional[Tuple[str, float]]:
-        """Interface and level of the strongest Wi-Fi connection; None without one."""
+        """Return interface and level of the strongest Wi-Fi connection; None without one."""
         rows = re.findall(r"^\s*(\w+):\s+\S+\s+\S+\s+(-\d+)\.?\s", self._text("proc/net/wireless"), re.MULTILINE)
-        # -256 stands for no connection.
+        # -256 means no connection.
         levels = [(name, float(level)) for name, level in rows if float(level) > -200.0]
         return max(levels, key=lambda each: each[1]) if levels else None
 
     def ros_master_ports(self) -> List[int]:
-        """Ports of the ROS masters that run on this computer, whoever started them."""
+        """Return the ports of all ROS masters on this computer."""
         found = set()
         for path in self.root.glob("proc/[0-9]*/cmdline"):
-            # Processes end while they are looked at.
+            # Processes may end during the search.
             with contextlib.suppress(OSError):
                 found.update(master_ports_in(path.read_bytes().decode("utf-8", "replace").split("\0")))
         return sorted(found)
@@ -72,7 +72,7 @@ class Machine:
 
 
 def master_ports_in(command: List[str]) -> List[int]:
-    """The port of a ROS master by its command line; none when it is another program. An interpreter goes before it."""
+    """Return the port of a ROS master by its command line; empty for another program. An interpreter may precede it."""
     names = [pathlib.PurePath(word).name for word in command[:MASTER_WITHIN_WORDS]]
     if MASTER_PROGRAM not in names or MASTER_OPTION not in command:
         return []
@@ -81,12 +81,12 @@ def master_ports_in(command: List[str]) -> List[int]:
 
 
 def machine_findings(machine: Machine) -> List[Finding]:
-    """But for the Wi-Fi, of which programs tell, too."""
+    """Check the machine without the Wi-Fi, which needs other programs."""
     return [disk_finding(machine), temperature_finding(machine), memory_finding(machine)]
 
 
 def disk_finding(machine: Machine) -> Finding:
-    """Free space for logs and bags, of the disk that lacks most."""
+    """Check the free space for logs and bags on the disk with the least."""
     rooms = [room for room in (room_at(folder, machine.usage) for folder in machine.folders) if room]
     if not rooms:
         return bad(DISK, "disk", "This computer does not tell what is free on it: look at the disk (dmesg).")
@@ -100,7 +100,7 @@ def disk_finding(machine: Machine) -> Finding:
 
 
 def temperature_finding(machine: Machine) -> Finding:
-    """Of the processor."""
+    """Check the processor's temperature."""
     hottest = machine.temperature_c()
     if hottest is None:
         return good(HEAT, "temperature", "This computer does not tell it.")
@@ -111,7 +111,7 @@ def temperature_finding(machine: Machine) -> Finding:
 
 
 def memory_finding(machine: Machine) -> Finding:
-    """Memory that is left."""
+    """Check the available memory."""
     available = machine.available_bytes()
     if available is None:
         return good(MEMORY, "memory", "This computer does not tell it.")

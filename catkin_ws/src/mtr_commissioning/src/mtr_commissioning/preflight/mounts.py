@@ -1,6 +1,7 @@
-"""Are the LiDARs where the base or a driver says, too? The robot's nodes believe the robot's description alone.
+"""Compares the LiDARs' poses in the description with transforms of the base or a driver.
 
-A stock Jackal says base_link -> ... -> front_laser by its own description: somebody has measured there as well.
+The robot's nodes use only the description. A stock Jackal publishes base_link -> ... -> front_laser from its own
+description, which is an independent measurement.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -18,33 +19,33 @@ from .expected import Setup
 from .records import RobotRecord, SaidTransform
 
 CHECK = "frame.mount"
-# Of robot.launch: what it says is the description itself.
+# Publisher of robot.launch, whose transforms are the description itself.
 OWN_PUBLISHER = "/robot_state_publisher"
-# A tape measures to 1 cm; 2 cm and 1 deg (5 cm at 3 m) are seen in every distance.
+# A tape measures to 1 cm; 2 cm and 1 deg (5 cm at 3 m) affect every distance.
 MAX_APART_M, MAX_TURN_RAD = 0.02, math.radians(1.0)
-# tf2 refuses a quaternion that is farther from 1 than this, and says so.
+# tf2 rejects a quaternion whose norm is farther from 1 than this, and reports it.
 MAX_NORM_ERROR = 1e-2
 _CM_PER_M = 100.0
 
 
 class SaidPlace(NamedTuple):
-    """base_from_frame as the transforms that came say it, and the nodes that said them."""
+    """base_from_frame by the received transforms, with the nodes that published them."""
 
     place: Place
     nodes: Set[str]
 
 
 def mount_findings(record: RobotRecord, setup: Setup, geometry: RobotGeometry) -> List[Finding]:
-    """One for each LiDAR of whose frame somebody else says where it is."""
+    """Return a finding for each LiDAR with a pose from another publisher."""
     links = [names.FRONT_LIDAR, names.REAR_LIDAR] if setup.rear_lidar else [names.FRONT_LIDAR]
     found = (mount_finding(link, setup.frames.get(link, link), record, geometry) for link in links)
     return [finding for finding in found if finding is not None]
 
 
 def mount_finding(link: str, frame: str, record: RobotRecord, geometry: RobotGeometry) -> Optional[Finding]:
-    """link: of the description. frame: in which the LiDAR's scans have to come. None where there is nothing to compare,
-    because nobody else says where it is; what of itself is told wrongly, by a publisher that was started before the
-    description was changed, is compared too."""
+    """Compare one LiDAR. link: of the description. frame: of the LiDAR's scans. Return None without a transform from
+    another publisher. An outdated transform of the own publisher, from before a change of the description, is compared
+    too."""
     try:
         described = geometry.tree.place(link)
     except ConfigurationError:  # description_finding says it.
@@ -64,7 +65,7 @@ def mount_finding(link: str, frame: str, record: RobotRecord, geometry: RobotGeo
 
 
 def far_finding(link: str, frame: str, said: SaidPlace, described: Place) -> Finding:
-    """The two places do not agree."""
+    """Report two poses that do not agree."""
     distance_m, turn_rad = apart_m(said.place, described), turn_between_rad(said.place, described)
     value = ((turn_rad, MAX_TURN_RAD, "rad") if distance_m <= MAX_APART_M else (distance_m, MAX_APART_M, "m"))
     return bad(CHECK, frame, f"{', '.join(sorted(said.nodes))} has {frame} at {shown(said.place)} in {names.BASE}, "
@@ -76,7 +77,7 @@ def far_finding(link: str, frame: str, said: SaidPlace, described: Place) -> Fin
 
 
 def said_places(frame: str, said: Dict[Tuple[str, str, str], SaidTransform]) -> Iterator[SaidPlace]:
-    """The place of a frame in base_link along each way of transforms that leads there."""
+    """Yield the pose of a frame in base_link along each chain of transforms."""
     yield from _ways_up(frame, said, frozenset())
 
 
@@ -94,7 +95,7 @@ def _ways_up(frame: str, said: Dict[Tuple[str, str, str], SaidTransform], below:
 
 
 def place_of(transform: SaidTransform) -> Optional[Place]:
-    """parent_from_child; None for numbers that are no transform."""
+    """Return parent_from_child; None for invalid numbers."""
     position, quaternion = np.array(transform.position_m), np.array(transform.quaternion)
     norm = float(np.linalg.norm(quaternion))
     if not np.isfinite(position).all() or not abs(norm - 1.0) < MAX_NORM_ERROR:
@@ -107,24 +108,24 @@ def place_of(transform: SaidTransform) -> Optional[Place]:
 
 
 def excess(said: Place, described: Place) -> float:
-    """Distance or turn between the two in parts of what is allowed; more than 1: too much."""
+    """Return distance or rotation between the two relative to the limits; above 1 is too much."""
     return max(apart_m(said, described) / MAX_APART_M, turn_between_rad(said, described) / MAX_TURN_RAD)
 
 
 def apart_m(said: Place, described: Place) -> float:
-    """Distance of the two origins."""
+    """Return the distance of the two origins."""
     return float(np.linalg.norm(said.position - described.position))
 
 
 def turn_between_rad(said: Place, described: Place) -> float:
-    """Angle of the turn from one to the other, about whichever axis."""
+    """Return the angle of the rotation between the two, about any axis."""
     turn = described.rotation.T @ said.rotation
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     return math.atan2(float(np.linalg.norm(axis)), float(np.trace(turn)) - 1.0)
 
 
 def shown(place: Place) -> str:
-    """Position and direction for a person."""
+    """Return position and direction for a person."""
     x, y, z = place.position
     roll, pitch, yaw = (math.degrees(angle) for angle in place.rpy())
     return f"({x:.3f}, {y:.3f}, {z:.3f}) m with roll, pitch and yaw ({roll:.1f}, {pitch:.1f}, {yaw:.1f}) deg"

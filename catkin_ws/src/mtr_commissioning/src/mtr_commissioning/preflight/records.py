@@ -1,4 +1,4 @@
-"""What was heard of the robot, in plain types; the checks read it."""
+"""Received data of the robot as plain types for the checks."""
 # SPDX-License-Identifier: Apache-2.0
 from collections import Counter
 from dataclasses import dataclass, field
@@ -7,9 +7,8 @@ from typing import Counter as Count
 
 
 class ScanContent(NamedTuple):
-    """Beams of one scan, how many of them hit something or are no measurement, the time from first to last beam, and
-    the widest piece without a measurement in the LiDAR's own view.
-    """
+    """Numbers of beams, of hits and of beams without a measurement in one scan, the time from first to last beam, and
+    the widest sector without a measurement in the LiDAR's own view."""
 
     beams: int
     hits: int
@@ -19,7 +18,7 @@ class ScanContent(NamedTuple):
 
 
 class SaidTransform(NamedTuple):
-    """parent_from_child as one node said it last: position in m, quaternion as x, y, z, w."""
+    """Latest parent_from_child of one node: position in m, quaternion as x, y, z, w."""
 
     position_m: Tuple[float, float, float]
     quaternion: Tuple[float, float, float, float]
@@ -27,15 +26,15 @@ class SaidTransform(NamedTuple):
 
 @dataclass
 class TopicRecord:
-    """What came on a topic.
+    """Received messages of a topic.
 
     Attributes:
-        type: of its messages by the master; empty when it knows none.
+        type: of its messages by the master; empty if unknown.
         publishers: names of the nodes that publish it.
-        arrivals_s: of the messages, on a clock that nobody sets; in simulation the simulated one.
+        arrivals_s: of the messages, on a steady clock; in simulation the simulated one.
         ages_s: from a message's stamp to its arrival, on the robot's clock.
-        frames: frame of the messages -> how many.
-        scans: what was in them, where they are scans.
+        frames: frame of the messages -> number.
+        scans: contents, if they are scans.
     """
 
     type: str = ""
@@ -48,18 +47,18 @@ class TopicRecord:
 
 @dataclass
 class RobotRecord:
-    """All that the standing checks need.
+    """Data for all standing checks.
 
     Attributes:
         topics: by name.
         transforms: (parent, child) -> nodes that published it.
-        said: (parent, child, node) -> that transform, as that node said it last.
-        listened_s: for so long.
-        base: parameters of the base's controller; None: there are none.
+        said: (parent, child, node) -> that node's latest transform.
+        listened_s: duration of the recording.
+        base: parameters of the base's controller; None without any.
         start_failures: node -> why it cannot start.
-        nodes: that run, by the master, without the first slash.
-        node_parameters: node -> parameters that it has beside the defaults.
-        e_stop_topics: on which drive control listens to emergency stops.
+        nodes: running ones, by the master, without the first slash.
+        node_parameters: node -> parameters in addition to the defaults.
+        e_stop_topics: drive control's topics of emergency stops.
     """
 
     topics: Dict[str, TopicRecord] = field(default_factory=dict)
@@ -73,5 +72,5 @@ class RobotRecord:
     e_stop_topics: Tuple[str, ...] = ()
 
     def topic(self, name: str) -> TopicRecord:
-        """What came on a topic; an empty record when nothing did."""
+        """Return the messages of a topic; an empty record without any."""
         return self.topics.get(name, TopicRecord())

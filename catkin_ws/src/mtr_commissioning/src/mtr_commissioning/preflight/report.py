@@ -1,4 +1,4 @@
-"""The standing checks together, and findings as a file."""
+"""All standing checks, and findings as a file."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import pathlib
@@ -16,19 +16,19 @@ from .records import RobotRecord
 from .topics import topic_findings
 from .transforms import transform_findings
 
-# Of the file; a new one only when something is taken away.
+# Version of the file, increased only if a part is removed.
 VERSION = 1
 
 
 def standing_findings(record: RobotRecord, setup: Setup, geometry: Optional[RobotGeometry], shipped: BaseController
                       ) -> List[Finding]:
-    """All checks of what was heard of the robot. Without geometry no frames are checked."""
+    """Run all checks of the received data. Without geometry no frames are checked."""
     frames = [*frame_findings(record, setup, geometry), *mount_findings(record, setup, geometry)] if geometry else []
     return [*start_findings(record), *parameter_findings(record), *topic_findings(record, setup), *frames,
             *transform_findings(record.transforms), *base_findings(record, setup, shipped)]
 
 
 def write(findings: List[Finding], path: pathlib.Path) -> None:
-    """The findings as JSON: version, ok, and one object for each; OSError when the file cannot be written."""
+    """Write the findings as JSON: version, ok, and one object for each; OSError if the file cannot be written."""
     content = {"version": VERSION, "ok": exit_code(findings) == 0, "findings": [each.fields() for each in findings]}
     path.write_text(json.dumps(content, indent=2) + "\n", encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Is every topic there, from one node, often enough and fresh?"""
+"""Checks that every topic has one publisher, a sufficient rate and fresh messages."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 import statistics
@@ -11,13 +11,13 @@ from mtr_motion_check.finding import Finding, bad, good
 from .expected import Expected, Setup, expected_topics
 from .records import RobotRecord, ScanContent, TopicRecord
 
-# Stamps ahead of the robot's clock: nothing but rounding and a network clock's jitter. A simulator's messages may
+# Tolerance for stamps ahead of the robot's clock: rounding and a network clock's jitter. A simulator's messages may
 # overtake its clock by a step.
 MAX_AHEAD_S = 0.005
 MAX_AHEAD_SIMULATED_S = CLOCK_STEP.period_ns * 1e-9 + MAX_AHEAD_S
-# Beams that are not a number are no measurement (REP 117), nor are those of zero; a few are usual with some drivers.
+# Beams without a number, or with zero, are not measurements (REP 117); a few are usual with some drivers.
 MAX_NOT_NUMBERS = 0.1
-# Drive control stands for a wider piece without a measurement in one scan: its kLegRad.
+# Drive control stops for a wider sector without a measurement in one scan: its kLegRad.
 MAX_UNSEEN_RAD = 0.175
 # A sweep ends before the next one begins; drivers round both.
 MAX_SWEEP_PERIODS = 1.05
@@ -27,7 +27,7 @@ MIN_MESSAGES = 2
 
 
 def topic_findings(record: RobotRecord, setup: Setup) -> List[Finding]:
-    """Of all expected topics, and of the wheels' command."""
+    """Check all expected topics, and the wheel command."""
     found = [command_finding(record.topic(names.WHEEL_COMMAND))]
     for expected in expected_topics(setup):
         heard = record.topic(expected.topic)
@@ -40,7 +40,7 @@ def topic_findings(record: RobotRecord, setup: Setup) -> List[Finding]:
 
 
 def command_finding(heard: TopicRecord) -> Finding:
-    """One node commands the wheels."""
+    """Check that one node commands the wheels."""
     topic, count = names.WHEEL_COMMAND, len(heard.publishers)
     if count == 1:
         return good(PUBLISHERS, topic, f"{heard.publishers[0]} alone commands the wheels.", count, 1)
@@ -52,7 +52,7 @@ def command_finding(heard: TopicRecord) -> Finding:
 
 
 def presence_problems(expected: Expected, heard: TopicRecord, listened_s: float) -> Iterator[Finding]:
-    """Nothing, or the wrong thing, comes."""
+    """Report missing messages and wrong types."""
     topic, count = expected.topic, len(heard.publishers)
     if not count:
         yield bad(PRESENCE, topic, f"No node publishes it, 1 is needed: {expected.remedy}.", 0, 1)
@@ -69,30 +69,30 @@ def presence_problems(expected: Expected, heard: TopicRecord, listened_s: float)
 
 
 def silent_topics(record: RobotRecord, setup: Setup) -> List[str]:
-    """Topics that a node publishes, and of which too few messages came until now to say anything about them."""
+    """Return topics with a publisher but too few messages so far for a check."""
     heard = {expected.topic: record.topic(expected.topic) for expected in expected_topics(setup)}
     return [topic for topic, each in heard.items() if each.publishers and len(each.arrivals_s) < MIN_MESSAGES]
 
 
 def rate_hz(heard: TopicRecord) -> float:
-    """Mean rate between the first and the last message."""
+    """Return the mean rate between the first and the last message."""
     span_s = heard.arrivals_s[-1] - heard.arrivals_s[0]
     return (len(heard.arrivals_s) - 1) / span_s if span_s > 0.0 else 0.0
 
 
 def longest_gap_s(heard: TopicRecord) -> float:
-    """Between two messages that follow each other."""
+    """Return the longest time between two consecutive messages."""
     return max(after - before for before, after in zip(heard.arrivals_s, heard.arrivals_s[1:]))
 
 
 def newest_age_s(heard: TopicRecord) -> float:
-    """How old the newest message was at most before the next one came; 0 where they have no stamps."""
+    """Return the maximum age of the newest message before the next one arrived; 0 without stamps."""
     return max((age_s + after - before
                 for age_s, before, after in zip(heard.ages_s, heard.arrivals_s, heard.arrivals_s[1:])), default=0.0)
 
 
 def timing_problems(expected: Expected, heard: TopicRecord, setup: Setup) -> Iterator[Finding]:
-    """Too seldom, with too long a gap, too old or from the future."""
+    """Report a low rate, a long gap, old messages, or messages from the future."""
     topic, rate, gap_s = expected.topic, rate_hz(heard), longest_gap_s(heard)
     if rate < expected.min_rate_hz:
         yield bad(RATE, topic, f"It comes at {rate:.1f} Hz, at least {expected.min_rate_hz:.1f} Hz are needed: raise "
@@ -111,7 +111,7 @@ def timing_problems(expected: Expected, heard: TopicRecord, setup: Setup) -> Ite
 
 
 def age_problems(expected: Expected, ages_s: List[float], max_ahead_s: float) -> Iterator[Finding]:
-    """Stamps from the future, or too far in the past."""
+    """Report stamps from the future, or too far in the past."""
     topic, median_s, worst_s, first_s = expected.topic, statistics.median(ages_s), max(ages_s), min(ages_s)
     if first_s < -max_ahead_s:
         yield bad(AGE, topic, f"Its stamps are up to {-first_s:.3f} s ahead of this computer's clock, allowed is "
@@ -127,7 +127,7 @@ def age_problems(expected: Expected, ages_s: List[float], max_ahead_s: float) ->
 
 
 def scan_problems(topic: str, scans: List[ScanContent]) -> Iterator[Finding]:
-    """Scans without anything in them."""
+    """Report scans without content."""
     if not scans:
         return
     empty = sum(scan.hits == 0 for scan in scans)
@@ -150,13 +150,13 @@ def scan_problems(topic: str, scans: List[ScanContent]) -> Iterator[Finding]:
 
 
 def beam_time_problems(topic: str, heard: TopicRecord, setup: Setup) -> Iterator[Finding]:
-    """Beams that are said to be measured all at once, or one after the other for longer than there is.
+    """Report beams whose stated times are all equal, or exceed the time of a turn.
 
     In the first case a robot that turns at 0.5 rad/s sees its surroundings sheared by 1 degree with a LiDAR of 25 Hz,
-    and nothing else says so. Some simulators do measure all beams at once.
+    without any other symptom. Some simulators do measure all beams at once.
     """
     rate = rate_hz(heard)
-    # Without a rate, as on a clock that stands still, there is nothing to hold a sweep against.
+    # Without a rate, as with a stopped clock, there is no reference for a sweep.
     if not heard.scans or not rate:
         return
     sweep_s, period_s = statistics.median(scan.sweep_s for scan in heard.scans), 1.0 / rate
@@ -171,7 +171,7 @@ def beam_time_problems(topic: str, heard: TopicRecord, setup: Setup) -> Iterator
 
 
 def summary(heard: TopicRecord) -> str:
-    """Rate, gap and age of a topic of which nothing is wrong."""
+    """Return rate, gap and age of a topic without faults."""
     text = f"{rate_hz(heard):.1f} Hz, longest gap {longest_gap_s(heard):.3f} s"
     if heard.ages_s:
         text += f", age {statistics.median(heard.ages_s):.3f} s (median), {max(heard.ages_s):.3f} s (worst)"

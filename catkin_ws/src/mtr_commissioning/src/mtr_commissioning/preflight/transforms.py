@@ -1,4 +1,4 @@
-"""Does every transform come from one node alone?"""
+"""Checks that every transform comes from a single node."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Dict, List, Set, Tuple
 
@@ -14,7 +14,7 @@ REMEDIES = {
 
 
 def transform_findings(transforms: Dict[Tuple[str, str], Set[str]]) -> List[Finding]:
-    """Transforms that two nodes publish, and frames that hang on two others."""
+    """Report transforms that two nodes publish, and frames with two parents."""
     found = [several_nodes(pair, nodes) for pair, nodes in sorted(transforms.items()) if len(nodes) > 1]
     children = sorted({child for _, child in transforms})
     for child in children:
@@ -27,7 +27,7 @@ def transform_findings(transforms: Dict[Tuple[str, str], Set[str]]) -> List[Find
 
 
 def several_nodes(pair: Tuple[str, str], nodes: Set[str]) -> Finding:
-    """Two nodes publish the same transform."""
+    """Report two nodes that publish the same transform."""
     remedy = REMEDIES.get(pair, "let all but one of them publish elsewhere")
     return bad(CHECK, f"{pair[0]} -> {pair[1]}", f"{len(nodes)} nodes publish it ({', '.join(sorted(nodes))}), allowed "
                f"is 1: {remedy}.", len(nodes), 1)

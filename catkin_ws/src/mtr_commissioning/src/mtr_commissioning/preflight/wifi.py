@@ -1,4 +1,4 @@
-"""How well the robot hears by Wi-Fi: the access point that it is connected to, or the laptops in a Wi-Fi of its own."""
+"""Reception of the robot's Wi-Fi: from its access point, or from the laptops in its own network."""
 # SPDX-License-Identifier: Apache-2.0
 import re
 from typing import Callable, List, NamedTuple, Optional, Tuple
@@ -6,15 +6,15 @@ from typing import Callable, List, NamedTuple, Optional, Tuple
 from mtr_motion_check.finding import Finding, bad, good
 
 WIFI = "machine.wifi"
-# 802.11 at its lowest rates receives down to about -82 dBm; 7 dB are for the robot's turning about.
+# 802.11 at its lowest rates receives down to about -82 dBm; 7 dB are reserved for the robot's rotation.
 MIN_SIGNAL_DBM = -75.0
-# An application sends several times a second; whoever is silent for longer does not operate the robot now.
+# An application sends several times a second; a client that is silent for longer does not operate the robot now.
 PRESENT_S = 10.0
 INTERFACES = ["iw", "dev"]
 
 
 class Station(NamedTuple):
-    """Who is in the robot's own Wi-Fi, by `iw dev INTERFACE station dump`; a level that is not told is None."""
+    """Client of the robot's own Wi-Fi, from `iw dev INTERFACE station dump`; a missing level is None."""
 
     address: str
     silent_s: float
@@ -22,13 +22,13 @@ class Station(NamedTuple):
 
 
 def access_points_in(text: str) -> List[str]:
-    """Interfaces that are an access point, from the output of `iw dev`."""
+    """Return interfaces that are an access point, from the output of `iw dev`."""
     blocks = re.findall(r"^\s*Interface (\S+)\n((?:(?!^\s*Interface ).*\n?)*)", text, re.MULTILINE)
     return [name for name, block in blocks if re.search(r"^\s*type AP\s*$", block, re.MULTILINE)]
 
 
 def stations_in(text: str) -> List[Station]:
-    """From the output of `iw dev INTERFACE station dump`."""
+    """Parse the output of `iw dev INTERFACE station dump`."""
     found = []
     for address, block in re.findall(r"^Station (\S+)[^\n]*\n((?:(?!^Station ).*\n?)*)", text, re.MULTILINE):
         silent, level = (re.search(rf"^\s*{name}:\s*(-?\d+)", block, re.MULTILINE) for name in (
@@ -38,9 +38,9 @@ def stations_in(text: str) -> List[Station]:
 
 
 def own_stations(said_by: Callable[[List[str]], Optional[str]]) -> Optional[List[Station]]:
-    """Who is in the robot's own Wi-Fi; None where it has none, or where nobody tells.
+    """Return the clients of the robot's own Wi-Fi; None without a network of its own, or if it is unknown.
 
-    said_by: output of a program, None where it is not installed.
+    said_by: output of a program, None if it is not installed.
     """
     names = access_points_in(said_by(INTERFACES) or "")
     if not names:
@@ -49,7 +49,7 @@ def own_stations(said_by: Callable[[List[str]], Optional[str]]) -> Optional[List
 
 
 def wifi_finding(signal: Optional[Tuple[str, float]], stations: Optional[List[Station]]) -> Finding:
-    """Of the robot's own Wi-Fi where it has one, else of its connection.
+    """Check the robot's own Wi-Fi if it has one, else its connection.
 
     signal: interface and level of the connection in dBm, None without one; stations: as own_stations.
     """

@@ -1,4 +1,4 @@
-"""Say whether the robot may be stopped for an update; exit status 0: yes, 4: no, 3: it does not answer."""
+"""Report if the robot may be stopped for an update; exit status 0: yes, 4: no, 3: it does not answer."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 
@@ -19,7 +19,7 @@ LISTENED_S = 3.0 * WATCHED_S
 
 
 def main() -> int:
-    """Listen for a while, print the answer."""
+    """Record for some time and print the answer."""
     join_on_loopback(os.environ)
     answer = listened() if master_answers() else Answer(Verdict.SILENT, "There is no ROS master.")
     print(answer.sentence)
@@ -27,7 +27,7 @@ def main() -> int:
 
 
 def listened() -> Answer:
-    """What the running nodes report."""
+    """Return the verdict on the reports of the running nodes."""
     rospy.init_node("standstill", anonymous=True, disable_signals=True)
     judge = StandstillJudge()
 

@@ -1,4 +1,4 @@
-"""Decide whether the robot may be stopped for an update. Pure."""
+"""Decides if the robot may be stopped for an update. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 import enum
 import math
@@ -8,12 +8,12 @@ from mtr_core.liveness import is_fresh
 
 # Velocities of wheels at rest, with the noise of their encoders.
 STANDING_MPS, STANDING_RADPS = 0.01, 0.02
-# Time within which every velocity has to be one of rest; drive control and odometry report each 20 ms.
+# Time within which every velocity must be zero; drive control and odometry report every 20 ms.
 WATCHED_S = 1.0
 LEAST_MESSAGES = 10
-# A lock is published each 100 ms; drive control takes one as silent after 0.25 s.
+# A lock is published every 100 ms; drive control counts one as silent after 0.25 s.
 LOCK_AGE_S = 0.5
-# A velocity that is older than this is silence.
+# An older velocity counts as silence.
 VELOCITY_AGE_S = 0.2
 
 
@@ -33,7 +33,7 @@ class Answer(NamedTuple):
 
 
 class Velocity(NamedTuple):
-    """Velocity that is commanded or measured, and when it arrived on the steady clock, s."""
+    """Commanded or measured velocity, with its arrival on the steady clock, s."""
 
     arrived_s: float
     linear_mps: float
@@ -41,7 +41,7 @@ class Velocity(NamedTuple):
 
     @property
     def is_rest(self) -> bool:
-        """False also for NaN."""
+        """True at rest; False also for NaN."""
         return abs(self.linear_mps) <= STANDING_MPS and abs(self.angular_radps) <= STANDING_RADPS
 
 
@@ -54,7 +54,7 @@ class Lock(NamedTuple):
 
 
 class StandstillJudge:
-    """Collects what the robot reports; answer() decides at a time of the steady clock."""
+    """Collects the robot's reports; answer() decides at a time of the steady clock."""
 
     def __init__(self) -> None:
         self._commanded: List[Velocity] = []
@@ -62,19 +62,20 @@ class StandstillJudge:
         self._locks: Dict[str, Lock] = {}
 
     def take_command(self, velocity: Velocity) -> None:
-        """Velocity that drive control sends to the wheels."""
+        """Add a velocity that drive control sends to the wheels."""
         self._commanded.append(velocity)
 
     def take_odometry(self, velocity: Velocity) -> None:
-        """Velocity of the wheels by their odometry."""
+        """Add a velocity of the wheels by their odometry."""
         self._measured.append(velocity)
 
     def take_lock(self, owner: str, lock: Lock) -> None:
-        """A motion lock."""
+        """Add a motion lock."""
         self._locks[owner] = lock
 
     def answer(self, now_s: float) -> Answer:
-        """Decide; a robot without drive control's reports does not answer, anything else unknown is refused."""
+        """Decide: a robot without reports of drive control does not answer, and any other unknown value is a
+        refusal."""
         commanded, measured = (_recent(velocities, now_s) for velocities in (self._commanded, self._measured))
         if not commanded:
             return Answer(Verdict.SILENT, "The robot's software does not answer: drive control reports nothing.")

@@ -1,4 +1,4 @@
-"""Compare what was weighed with the description, and state the values to set. Pure."""
+"""Compares the weighing with the description, and states the values to set. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Dict, List, Mapping
@@ -11,7 +11,7 @@ _STEPS_PER_M = 1e4
 
 
 def values_to_set(balance: Balance) -> Dict[str, float]:
-    """Parameters of drive control, rounded to the side on which it brakes more gently."""
+    """Return the parameters of drive control, rounded in the direction of gentler braking."""
     rounded = {}
     for name, estimate in balance.parameters().items():
         steps = round(estimate.value * _STEPS_PER_M, 6)
@@ -20,9 +20,9 @@ def values_to_set(balance: Balance) -> Dict[str, float]:
 
 
 def optimistic(balance: Balance, described: Mapping[str, float], key_heights_m: List[float]) -> List[str]:
-    """A sentence for each direction and height of the key at which the description tips later than the robot does.
+    """Return a sentence for each direction and key height at which the description tips later than the robot.
 
-    A difference within 1 sigma of the measurement is none.
+    Differences within 1 sigma of the measurement are ignored.
     """
     measured = {name: estimate.value for name, estimate in balance.parameters().items()}
     sentences = []
@@ -39,9 +39,9 @@ def optimistic(balance: Balance, described: Mapping[str, float], key_heights_m: 
 
 
 def relative_sigma(balance: Balance, lever: str, key_height_m: float) -> float:
-    """1 sigma of the measured limit, as a share of it."""
+    """Return 1 sigma of the measured limit, relative to it."""
     parameters = balance.parameters()
     height_m = balance.low.value + balance.rise.value * key_height_m
-    # An upper bound: height at zero and slope are taken as independent.
+    # Upper bound: height at zero and slope count as independent.
     height_sigma_m = math.hypot(balance.low.sigma, balance.rise.sigma * key_height_m)
     return math.hypot(parameters[lever].sigma / parameters[lever].value, height_sigma_m / height_m)

@@ -9,23 +9,23 @@ import numpy as np
 from ..readings import Estimate, ReadingsUnusable, mean_of
 from .readings import Chassis, Height, Level, Raised, Tilt
 
-# Between the lowest and the highest key; closer heights do not show how the centre rises with the key.
+# Minimum distance of the lowest and the highest key; closer heights do not show the rise of the centre with the key.
 LEAST_KEY_TRAVEL_M = 0.3
 LEAST_HEIGHTS = 4
-# Heights that differ by more of their sigmas contradict each other.
+# Chi-square per degree of freedom above which heights contradict each other.
 LARGEST_CHI_SQUARE_PER_FREEDOM = 9.0
 GRAVITY_MPS2 = 9.81
 
 
 @dataclass(frozen=True)
 class Balance:
-    """What was weighed.
+    """Result of the weighing.
 
     Attributes:
         mass: kg.
-        ahead, left: of the centre of mass from the middle of the wheels' feet, m.
-        low: height of the centre of mass above ground with the key at height zero, m (extrapolated).
-        rise: of the centre of mass per rise of the key.
+        ahead, left: of the centre of mass from the middle of the wheels' contact points, m.
+        low: height of the centre of mass above ground with the key at height zero, m (extrapolated). rise: of the
+        centre of mass per rise of the key.
     """
 
     chassis: Chassis
@@ -36,7 +36,7 @@ class Balance:
     rise: Estimate
 
     def parameters(self) -> Dict[str, Estimate]:
-        """Parameters of drive control by their names."""
+        """Return the parameters of drive control by their names."""
         return {"centre_of_mass_m": self.low, "centre_of_mass_rise": self.rise,
                 "tip_lever_along_m": _lever(self.chassis.base_m, self.ahead),
                 "tip_lever_across_m": _lever(self.chassis.track_m, self.left)}
@@ -44,13 +44,13 @@ class Balance:
 
 def balance_of(chassis: Chassis, levels: Sequence[Level], raised: Sequence[Raised], tilts: Sequence[Tilt],
                step_kg: float) -> Balance:
-    """Mass and centre of mass.
+    """Return mass and centre of mass.
 
     Args:
         step_kg: step of the scales.
 
     Raises:
-        ReadingsUnusable: too few readings, or readings that contradict each other.
+        ReadingsUnusable: too few or contradicting readings.
     """
     mass = mean_of([level.mass_kg for level in levels], step_kg)
     ahead = mean_of([level.ahead_m(chassis) for level in levels], 0.5 * chassis.base_m * step_kg / mass.value)
@@ -62,7 +62,7 @@ def balance_of(chassis: Chassis, levels: Sequence[Level], raised: Sequence[Raise
 
 
 def line_through(heights: List[Height]) -> List[Estimate]:
-    """Height of the centre with the key at zero, and its slope, by weighted least squares; ReadingsUnusable."""
+    """Return the centre's height with the key at zero, and its slope, by weighted least squares; ReadingsUnusable."""
     if len(heights) < LEAST_HEIGHTS:
         raise ReadingsUnusable(f"The height was read {len(heights)} times; at least {LEAST_HEIGHTS} are needed.")
     keys = np.array([each.key_height_m for each in heights])
@@ -88,6 +88,6 @@ def _lever(width_m: float, offset: Estimate) -> Estimate:
 
 
 def limit_mps2(parameters: Dict[str, float], lever: str, key_height_m: float) -> float:
-    """Acceleration at which the robot tips on level ground about the feet of this lever."""
+    """Return the acceleration at which the robot tips on level ground about the contact points of this lever."""
     height_m = parameters["centre_of_mass_m"] + parameters["centre_of_mass_rise"] * key_height_m
     return GRAVITY_MPS2 * parameters[lever] / height_m

@@ -1,4 +1,4 @@
-"""Guide through the weighing: level, with the front wheels raised, and on a tilt table where there is one."""
+"""Guide through the weighing: level, with the front wheels raised, and optionally on a tilt table."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, Dict, List
@@ -12,13 +12,13 @@ from .readings import LEAST_RISE_M, Chassis, Level, Raised, Tilt
 
 MM_PER_M, G_PER_KG = 1000.0, 1000.0
 LARGEST_KG = 200.0
-# A block raises the robot to this share of the tangent at which its description tips.
+# Height of a block relative to the tangent at which the described robot tips.
 TIPPING_SHARE = 0.25
 RISES_PER_HEIGHT = 2
 
 
 def balance(console: Console, robot: Any) -> List[Check]:
-    """Mass and centre of mass, and what drive control's limits have to be."""
+    """Measure mass and centre of mass, and derive drive control's limits."""
     geometry = robot.geometry()
     wheels, described = geometry.wheels(), balance_parameters(geometry)
     chassis = Chassis(wheels.base_m, wheels.track_m, wheels.radius_m)

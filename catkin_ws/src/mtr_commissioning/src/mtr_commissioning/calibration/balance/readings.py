@@ -1,4 +1,4 @@
-"""Readings of scales and of a tilt table, with what the centre of mass has to be for each. Pure."""
+"""Readings of scales and of a tilt table, and the centre of mass from each. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import dataclass
@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 from ..readings import ReadingsUnusable
 
-# A smaller rise changes the loads by less than scales resolve.
+# A smaller rise changes the loads by less than the resolution of scales.
 LEAST_RISE_M = 0.015
 # Sums of the loads that differ by more than this percentage of the mass contradict each other.
 SUM_PERCENT = 2.0
 SUM_SHARE = SUM_PERCENT / 100.0
-# A robot that loses more of the load of its raised axle is near to tipping backwards.
+# Minimum remaining load of the raised axle; with less the robot may tip backwards.
 LEAST_LOAD_SHARE = 0.25
 # 1 sigma of a block's height and of the angle of a tilt table.
 BLOCK_SIGMA_M, TILT_SIGMA_DEG = 0.0005, 0.3
@@ -19,7 +19,7 @@ MM_PER_M = 1000.0
 
 
 class Chassis(NamedTuple):
-    """Places of the wheels' feet, m: between the axles, between the sides, radius of a wheel."""
+    """Positions of the wheels' contact points, m: between the axles, between the sides; radius of a wheel."""
 
     base_m: float
     track_m: float
@@ -52,11 +52,11 @@ class Level:
         return 0.5 * (self.front_kg + self.rear_kg + self.left_kg + self.right_kg)
 
     def ahead_m(self, chassis: Chassis) -> float:
-        """Of the centre of mass before the middle between the axles."""
+        """Return the distance of the centre of mass ahead of the middle between the axles."""
         return 0.5 * chassis.base_m * (self.front_kg - self.rear_kg) / (self.front_kg + self.rear_kg)
 
     def left_m(self, chassis: Chassis) -> float:
-        """Of the centre of mass to the left of the middle."""
+        """Return the distance of the centre of mass to the left of the middle."""
         return 0.5 * chassis.track_m * (self.left_kg - self.right_kg) / (self.left_kg + self.right_kg)
 
 
@@ -70,9 +70,9 @@ class Raised:
     rear_kg: float
 
     def height(self, chassis: Chassis, mass_kg: float, ahead_m: float, step_kg: float) -> Height:
-        """Height of the centre of mass from the load that moved to the rear wheels.
+        """Return the height of the centre of mass from the load that moved to the rear wheels.
 
-        About the rear wheels' axle: front load * base = mass * (distance to the axle - height above the axle * tan).
+        Moments about the rear axle: front load * base = mass * (distance to the axle - height above the axle * tan).
 
         Raises:
             ReadingsUnusable: the rise is too small or too large, or the loads contradict the mass.
@@ -86,7 +86,7 @@ class Raised:
             raise ReadingsUnusable(f"The front wheels carry {self.front_kg:.1f} kg of {level_kg:.1f} kg: the robot is "
                                    "near to tipping. Use a lower block.")
         tangent = math.tan(math.asin(self.rise_m / chassis.base_m))
-        # Loads share their sum: the front one relative to it is free of the scales' common error.
+        # The front load relative to the sum of both is free of the scales' common error.
         front_share = self.front_kg / (self.front_kg + self.rear_kg)
         above_axle_m = (0.5 * chassis.base_m + ahead_m - chassis.base_m * front_share) / tangent
         of_loads_m = chassis.base_m * step_kg / math.sqrt(12.0) / (mass_kg * tangent)
@@ -103,12 +103,12 @@ class Tilt:
     across: bool
 
     def height(self, chassis: Chassis, ahead_m: float, left_m: float) -> Height:
-        """Height of the centre of mass, which is then above the lower wheels' feet.
+        """Return the height of the centre of mass, which is then above the lower wheels' contact points.
 
-        Backwards the lower feet are the rear ones, across the right ones.
+        The lower wheels are the rear ones if tilted backwards, the right ones if tilted across.
 
         Raises:
-            ReadingsUnusable: no robot tips at such an angle.
+            ReadingsUnusable: the angle is impossible.
         """
         if not 1.0 <= self.angle_deg <= 60.0:
             raise ReadingsUnusable(f"The angle is {self.angle_deg:g} degrees; it has to be between 1 and 60.")
