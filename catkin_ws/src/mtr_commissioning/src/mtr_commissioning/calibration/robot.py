@@ -66,7 +66,7 @@ class Robot:
         return mean_pose(poses)
 
     def begin(self) -> None:
-        """Count way and turn from here."""
+        """Start counting distance and rotation."""
         with self._lock:
             self._start = self._odometry
             self._gyro.begin()

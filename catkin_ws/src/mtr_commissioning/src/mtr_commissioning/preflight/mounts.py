@@ -48,7 +48,7 @@ def mount_finding(link: str, frame: str, record: RobotRecord, geometry: RobotGeo
     too."""
     try:
         described = geometry.tree.place(link)
-    except ConfigurationError:  # description_finding says it.
+    except ConfigurationError:  # description_finding reports it
         return None
     said = list(said_places(frame, record.said))
     if not said:

@@ -156,7 +156,7 @@ def beam_time_problems(topic: str, heard: TopicRecord, setup: Setup) -> Iterator
     without any other symptom. Some simulators do measure all beams at once.
     """
     rate = rate_hz(heard)
-    # Without a rate, as with a stopped clock, there is no reference for a sweep.
+    # Without a rate, as with a stopped clock, a sweep has no reference.
     if not heard.scans or not rate:
         return
     sweep_s, period_s = statistics.median(scan.sweep_s for scan in heard.scans), 1.0 / rate
