@@ -1,4 +1,4 @@
-"""Shipped launch and configuration files load, and say what their arguments are for."""
+"""Shipped launch and configuration files load, and document their arguments."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re

@@ -1,4 +1,4 @@
-"""Programs that have moved also run by their former name, for one version."""
+"""Moved programs also run by their former names, for one version."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import re

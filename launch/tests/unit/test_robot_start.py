@@ -1,4 +1,4 @@
-"""The start of the robot's service: which launch file, with which arguments, of which release."""
+"""Start of the robot's service: selection of launch file, arguments and release."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 import shutil
@@ -16,7 +16,7 @@ echo "$ROS_HOSTNAME"
 
 @pytest.fixture
 def robot(tmp_path):
-    """The folder of releases, one of them in use; roslaunch only says what it was told."""
+    """Folder of releases with one in use; roslaunch only prints its arguments."""
     release = tmp_path / "a"
     (release / "lib").mkdir(parents=True)
     (release / "roslaunch").write_text(ROSLAUNCH, encoding="ascii")
@@ -31,14 +31,14 @@ def robot(tmp_path):
 
 
 def run(robot, *words, **environment):
-    """The start, which has ended."""
+    """Return the finished start."""
     given = {"PATH": "/usr/bin:/bin", "HOME": "/home/x", "CONFIGURATION_DIRECTORY": str(robot / "etc"),
              "ROS_MASTER_URI": "http://127.0.0.1:11311", **environment}
     return subprocess.run([robot / "start", *words], check=False, capture_output=True, text=True, env=given)
 
 
 def started(robot, *words, **environment):
-    """The start's output by lines."""
+    """Return the start's output by lines."""
     done = run(robot, *words, **environment)
     assert done.returncode == 0, done.stderr
     return done.stdout.splitlines()
@@ -64,7 +64,7 @@ def test_graph_on_loopback_has_its_library(robot, address, is_preloaded):
 
 
 def test_name_of_the_computer_opens_no_graph(robot):
-    # As the start of a Jackal's own service leaves it, and ROS takes it before ROS_IP.
+    # Value of ROS_HOSTNAME left by a Jackal's own service, which has priority over ROS_IP in ROS.
     assert started(robot, ROS_IP="127.0.0.1", ROS_HOSTNAME="cpr-j100-0001")[2] == ""
 
 
@@ -97,7 +97,7 @@ def test_base_and_robot_have_the_description_of_the_persons_own(robot, words, la
     ((), {"MTR_ARGUMENTS": "bind_address:=10.0.0.1 rear_lidr:=false"}, "robot.launch has no argument rear_lidr;"),
     ((), {"MTR_ARGUMENTS": "joy.device:=/dev/js1"}, "robot.launch has no argument joy.device;"),
     ((), {"MTR_ARGUMENTS": "lidr:=sick_lms111", "MTR_LAUNCH": "jackal.launch"}, "jackal.launch has no argument lidr;"),
-    # Of the LiDAR's driver alone, to which jackal.launch says it.
+    # Argument of the LiDAR's driver alone, which jackal.launch sets.
     ((), {"MTR_ARGUMENTS": "host:=10.0.0.2", "MTR_LAUNCH": "jackal.launch"}, "jackal.launch has no argument host;"),
     (("base",), {"MTR_BASE_ARGUMENTS": "efk:=false"}, "jackal_base.launch has no argument efk;")])
 def test_argument_that_the_launch_file_does_not_know_is_refused(robot, words, environment, told):

@@ -1,4 +1,5 @@
-"""A start of the robot on a ROS master that outlived the one before: nothing of that one counts. MTR_MASTER=wait"""
+"""Start of the robot on a ROS master that survived the previous start (MTR_MASTER=wait): old parameters have no
+effect."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from xml.etree import ElementTree
@@ -16,7 +17,7 @@ FOUND_OUT = {"/preflight_report/bad": 0, "/preflight_motion/bad": 0, "/start_fai
 
 
 class Master:
-    """Parameters of a ROS master, which robot.launch is loaded onto as roslaunch does it."""
+    """Parameters of a ROS master, onto which robot.launch is loaded as by roslaunch."""
 
     def __init__(self):
         self.parameters = {}
@@ -42,7 +43,7 @@ def test_start_has_the_parameters_of_its_own_arguments_only(master, tmp_path):
     anew = Master()
     anew.start()
     assert set(master.parameters) == set(anew.parameters)
-    # Lift and servos would wait for the emergency stop's word for ever.
+    # Lift and servos would wait forever for the emergency stop's message.
     assert master.parameters["/peripherals/emergency_owners"] == ["controller_input", "service_mode"]
     master.start("controller:=false")
     assert master.parameters["/peripherals/emergency_owners"] == ["service_mode"]
