@@ -1,2 +1,2 @@
-"""Recording of the robot's topics, bounded in size, and what a replay of it decided otherwise."""
+"""Recording of the robot's topics with bounded size, and comparison of decisions with a replay."""
 # SPDX-License-Identifier: Apache-2.0

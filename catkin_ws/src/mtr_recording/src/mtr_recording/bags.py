@@ -1,4 +1,4 @@
-"""What is in recorded bags: decisions, and every message as it is."""
+"""Reads recorded bags: decisions, and raw messages."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from typing import Any, Iterable, Iterator
@@ -18,7 +18,7 @@ DECIDED = [names.CAR_ESTIMATE, names.LOCALIZED_POSE]
 
 
 def decisions_in(bags: Iterable[pathlib.Path]) -> Decisions:
-    """Of bags in the order of their times; CannotRecord when one cannot be read."""
+    """Return the decisions in bags in the order of their times; CannotRecord if one cannot be read."""
     found = Decisions()
     for path in bags:
         try:
@@ -31,7 +31,7 @@ def decisions_in(bags: Iterable[pathlib.Path]) -> Decisions:
 
 
 def messages_in(path: pathlib.Path) -> Iterator[Recorded]:
-    """All messages of a bag in the order of their times; CannotRecord when it cannot be read."""
+    """Yield all messages of a bag in the order of their times; CannotRecord if it cannot be read."""
     try:
         with rosbag.Bag(str(path)) as bag:
             for topic, raw, time, header in bag.read_messages(raw=True, return_connection_header=True):
@@ -41,7 +41,7 @@ def messages_in(path: pathlib.Path) -> Iterator[Recorded]:
 
 
 def _text(value: Any) -> str:
-    # Of a header of ROS's protocol, which Python 3 reads as bytes or as text, by the version of ROS.
+    # Fields of a ROS connection header are bytes or text in Python 3, depending on the version of ROS.
     return value.decode() if isinstance(value, bytes) else str(value)
 
 

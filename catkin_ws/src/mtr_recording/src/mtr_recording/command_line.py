@@ -1,10 +1,10 @@
-"""rosrun mtr_recording record [--profile small|full] [--mcap]: bags of the running robot, bounded in size, until Ctrl-C
-ends it.
+"""rosrun mtr_recording record [--profile small|full] [--mcap]: records bags of the running robot, bounded in size,
+until Ctrl-C.
 
-With --mcap the same as MCAP beside it when the recording has ended. The parameters of the nodes are written beside it
-(PREFIX.yaml), so that a replay has the same. Topics that the robot has under other names: /front/scan:=/scan and the
-like, as for every node.
-Exit status: that of rosbag; 2 when nothing can be recorded.
+With --mcap it also writes an MCAP file next to each bag after the recording. The parameters of the nodes are written
+next to it (PREFIX.yaml), so that a replay can use them. Topics with other names are remapped as for every node:
+/front/scan:=/scan.
+Exit status: that of rosbag; 2 if recording is impossible.
 """
 # SPDX-License-Identifier: Apache-2.0
 import argparse
@@ -38,12 +38,12 @@ from .relay import relay_orders
 CANNOT = 2
 MIN_RATE, MAX_RATE = 0.05, 20.0
 READY_EVERY_S, READY_LIMIT_S = 0.1, 10.0
-# Of nodes that are started again in a replay.
+# Parameters of nodes that are restarted in a replay.
 KEPT_PARAMETERS = (names.ROBOT_DESCRIPTION, names.ROBOT_FRAMES, "/localization", "/car_locator", "/state_machine")
 
 
 def record(arguments: Optional[List[str]] = None) -> int:
-    """Record until Ctrl-C; the exit status."""
+    """Record until Ctrl-C; return the exit status."""
     given = sys.argv[1:] if arguments is None else arguments
     options = parsed(rospy.myargv(given))
     join_on_loopback(os.environ)
@@ -70,8 +70,8 @@ def record(arguments: Optional[List[str]] = None) -> int:
 
 
 def written_as_mcap(prefix: pathlib.Path) -> int:
-    """Write an MCAP file beside each bag of a recording; the exit status."""
-    # Of now on Ctrl-C ends this program, and leaves no file that looks whole.
+    """Write an MCAP file next to each bag of a recording; return the exit status."""
+    # From now on Ctrl-C ends this program, without leaving a file that looks complete.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, signal.SIG_DFL)
     try:
@@ -85,7 +85,7 @@ def written_as_mcap(prefix: pathlib.Path) -> int:
 
 
 def parsed(arguments: List[str]) -> argparse.Namespace:
-    """Options of the command line."""
+    """Return the options of the command line."""
     parser = argparse.ArgumentParser(prog="record", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--profile", choices=list(PROFILES), default="small",
@@ -107,7 +107,7 @@ def parsed(arguments: List[str]) -> argparse.Namespace:
 
 
 def keep_parameters(path: pathlib.Path) -> None:
-    """Write what the nodes of a replay were started with, and whether the recorded clock waited for them."""
+    """Write the parameters of the replayed nodes, and whether the recorded clock waited for them."""
     kept: Dict[str, Any] = {}
     for name in KEPT_PARAMETERS:
         value = rospy.get_param(name, None)
@@ -119,12 +119,12 @@ def keep_parameters(path: pathlib.Path) -> None:
 
 
 def run(command: List[str], is_ready: Callable[[], bool], sentence: str) -> int:
-    """The program's exit status; Ctrl-C and the end of a service end it, and it is waited for, so that the bag is
+    """Run a program and return its exit status; on Ctrl-C or at the end of a service, end it and wait until the bag is
     closed.
 
     Args:
-        is_ready: looks whether the program does its work.
-        sentence: said when it does.
+        is_ready: checks if the program is working.
+        sentence: printed when it is.
     """
     started: List[subprocess.Popen[bytes]] = []
     asked: List[int] = []
@@ -134,14 +134,14 @@ def run(command: List[str], is_ready: Callable[[], bool], sentence: str) -> int:
         for process in started:
             process.send_signal(signal.SIGINT)
 
-    # Before the start: a Ctrl-C right after it must not leave the program alone.
+    # Set before the start, because a Ctrl-C right after it must also end the program.
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end)
-    # In a session of its own, so that it gets one Ctrl-C and not a second one from the terminal.
+    # A separate session prevents a second Ctrl-C from the terminal.
     started.append(subprocess.Popen(command, env=as_around(os.environ), start_new_session=True))
     if asked:
         started[0].send_signal(signal.SIGINT)
-    # A node that has died without a word is never heard.
+    # The loop ends if the node dies without connecting.
     until_s = time.monotonic() + READY_LIMIT_S
     while started[0].poll() is None and not is_ready() and time.monotonic() < until_s:
         time.sleep(READY_EVERY_S)
@@ -151,9 +151,9 @@ def run(command: List[str], is_ready: Callable[[], bool], sentence: str) -> int:
 
 
 def play(arguments: Optional[List[str]] = None) -> int:
-    """rosrun mtr_recording play BAG... [--rate R]: the inputs of a recording for localization, Car locator and state
-    machine, which replay.launch starts. Never faster than they follow, so that a busy machine takes longer and decides
-    the same."""
+    """rosrun mtr_recording play BAG... [--rate R]: plays the inputs of a recording for localization, Car locator and
+    state machine, which replay.launch starts. It is never faster than they follow, so that a busy machine is slower but
+    decides the same."""
     parser = argparse.ArgumentParser(prog="play", description=play.__doc__)
     parser.add_argument("bags", type=pathlib.Path, nargs="+", help="files of one recording")
     parser.add_argument("--rate", type=float, default=1.0, help="recorded seconds per second at most (1)")
@@ -172,7 +172,8 @@ def play(arguments: Optional[List[str]] = None) -> int:
 
 
 def compare(arguments: Optional[List[str]] = None) -> int:
-    """rosrun mtr_recording same_decisions RECORDED... --replayed BAG...: 0 when both decided the same."""
+    """rosrun mtr_recording same_decisions RECORDED... --replayed BAG...: exit status 0 if both have the same
+    decisions."""
     parser = argparse.ArgumentParser(prog="same_decisions", description=compare.__doc__)
     parser.add_argument("recorded", type=pathlib.Path, nargs="+")
     parser.add_argument("--replayed", type=pathlib.Path, nargs="+", required=True)

@@ -1,7 +1,7 @@
-"""What localization and Car locator decided in a recording, and where a replay decided otherwise.
+"""Decisions of localization and Car locator in a recording, and their differences in a replay.
 
-Both run on their own clocks again, so a replay is not bit for bit the same: it decides the same when states, modes and
-revisions follow each other alike and the Car is found at the same place, as large.
+Both nodes run on their own clocks, so a replay is not bit-identical. The decisions are equal if states, modes and
+revisions have the same order, and the Car has the same position and size.
 """
 # SPDX-License-Identifier: Apache-2.0
 import math
@@ -11,7 +11,7 @@ from typing import Iterable, List, Optional, Tuple
 from mtr_core.se2 import Pose2
 from mtr_core.states import CarState
 
-# The Car's fit has a sigma of some mm; a cause that is not this noise moves it farther.
+# The Car's fit has a sigma of some mm; a larger shift has another cause than this noise.
 POSITION_LIMIT_M, HEADING_LIMIT_RAD, SIZE_LIMIT_M = 0.01, math.radians(0.3), 0.01
 
 
@@ -28,11 +28,11 @@ class CarSeen:
 
 @dataclass
 class Decisions:
-    """In their order, each once while it lasts.
+    """Decisions in their order, each once while it lasts.
 
     Attributes:
         cars: (state, revision) of the Car.
-        modes: of localization, with valid or not.
+        modes: of localization, with its validity.
         located: the first estimate of each revision.
     """
 
@@ -41,7 +41,7 @@ class Decisions:
     located: List[CarSeen] = field(default_factory=list)
 
     def add_car(self, car: CarSeen) -> None:
-        """An estimate."""
+        """Add an estimate."""
         decided = (car.state, car.revision)
         if self.cars[-1:] != [decided]:
             self.cars.append(decided)
@@ -49,13 +49,13 @@ class Decisions:
                 self.located.append(car)
 
     def add_mode(self, mode: int, valid: bool) -> None:
-        """Of localization's pose."""
+        """Add the mode of localization's pose."""
         if self.modes[-1:] != [(mode, valid)]:
             self.modes.append((mode, valid))
 
 
 def differences(recorded: Decisions, replayed: Decisions) -> List[str]:
-    """A sentence for each thing that was decided otherwise; empty when all is the same."""
+    """Return a sentence for each difference; empty if all decisions are equal."""
     if not recorded.cars or not recorded.modes:
         return ["The recording holds neither the Car nor localization's modes; record with the profile full."]
     found = [_sequence("the Car's states", [f"{state.name} {revision}" for state, revision in recorded.cars],
@@ -66,7 +66,7 @@ def differences(recorded: Decisions, replayed: Decisions) -> List[str]:
 
 
 def _sequence(what: str, recorded: List[str], replayed: List[str]) -> Optional[str]:
-    # A recording may begin when the robot has been going for a while, and a replay starts from nothing.
+    # A recording may start after the robot, but a replay starts from the initial state.
     if recorded[0] in replayed:
         replayed = replayed[replayed.index(recorded[0]):]
     if recorded == replayed:

@@ -1,4 +1,4 @@
-"""Whether a recorder hears everything that it is to record: what was said before is not in the recording."""
+"""Checks that a recorder is connected to all its topics: earlier messages are not recorded."""
 # SPDX-License-Identifier: Apache-2.0
 import http.client
 import xmlrpc.client
@@ -6,13 +6,13 @@ from typing import Any, Dict, List
 
 import rosgraph
 
-# What can go wrong with a call to a node that is just starting, or has just ended.
+# Possible errors of a call to a node that is just starting, or has just ended.
 CALL_ERRORS = (OSError, xmlrpc.client.Error, http.client.HTTPException, rosgraph.MasterError)
 _CALLER = "/mtr_recording"
 
 
 def is_listening(recorder: str) -> bool:
-    """True when the node is connected with every publisher of the topics that it subscribed to, at least of one."""
+    """Return True if the node is connected to every publisher of its subscribed topics, and at least to one."""
     master = rosgraph.Master(_CALLER)
     try:
         published, subscribed, _ = master.getSystemState()

@@ -1,4 +1,4 @@
-"""A recording as MCAP, which more programs read than ROS 1's bags. No ROS inside."""
+"""Writes a recording as MCAP, which more programs support than ROS 1 bags. No ROS inside."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from typing import Any, Dict, Iterable, NamedTuple, Optional, Tuple
@@ -11,18 +11,18 @@ try:
 except ImportError:  # no rosdep key: who wants MCAP installs it
     Writer = None
 
-# Words of MCAP's registry of profiles and encodings.
+# Names in MCAP's registry of profiles and encodings.
 PROFILE, SCHEMA_ENCODING, MESSAGE_ENCODING = "ros1", "ros1msg", "ros1"
-# While it is written; nobody takes half a file for a recording.
+# Suffix during writing, so that an incomplete file is not mistaken for a recording.
 UNFINISHED = ".part"
 
 
 class Recorded(NamedTuple):
-    """One message as it is in a bag.
+    """Message as stored in a bag.
 
     Attributes:
         type: such as "std_msgs/Header".
-        definition: of the type and all that it contains, as ROS sends it to subscribers.
+        definition: of the type and all nested types, as ROS sends it to subscribers.
         data: serialized.
         time_ns: of its arrival, on the robot's clock.
     """
@@ -35,14 +35,14 @@ class Recorded(NamedTuple):
 
 
 def check_mcap() -> None:
-    """CannotRecord where the library is missing."""
+    """Raise CannotRecord if the library is missing."""
     if Writer is None:
         raise CannotRecord("MCAP is written with the Python package mcap, which is not installed: pip install mcap; or "
                            "leave --mcap out.")
 
 
 def write_mcap(path: pathlib.Path, messages: Iterable[Recorded]) -> int:
-    """How many messages were written; the file is there when all of them were."""
+    """Write all messages and return their number; the file exists only if all of them were written."""
     check_mcap()
     assert Writer is not None
     unfinished, count = path.with_name(path.name + UNFINISHED), 0
@@ -60,7 +60,7 @@ def write_mcap(path: pathlib.Path, messages: Iterable[Recorded]) -> int:
 
 
 class _Channels:
-    """One for each topic and type, and one schema for each definition of a type."""
+    """Channels by topic and type, with one schema for each definition of a type."""
 
     def __init__(self, writer: Any):
         self._writer = writer
@@ -68,7 +68,7 @@ class _Channels:
         self._channels: Dict[Tuple[str, str, str], int] = {}
 
     def of(self, message: Recorded) -> int:
-        """Its channel's id; registered with its first message."""
+        """Return the channel id of a message; the first message registers it."""
         known = (message.topic, message.type, message.definition)
         if known not in self._channels:
             self._channels[known] = self._writer.register_channel(

@@ -1,8 +1,8 @@
-"""Plays the inputs of a recording, and waits for the nodes that decide anew.
+"""Plays the inputs of a recording, and waits for the replayed nodes.
 
-A robot's messages are played when the recorder received them. A simulated clock in lock-step waits for the robot's
-nodes and not for the recorder, which on a busy machine receives late, one topic more than another: then each message is
-played at its own stamp.
+Messages of a robot are played at their reception by the recorder. A simulated clock in lock-step waits for the robot's
+nodes but not for the recorder, which on a busy machine receives late, with different delays per topic. In this case
+each message is played at its own stamp.
 """
 # SPDX-License-Identifier: Apache-2.0
 import heapq
@@ -34,21 +34,21 @@ from .profiles import REPLAYED, CannotReplay
 FOLLOWER = Follower(names.LOCALIZED_POSE, names.WHEEL_ODOMETRY, 100 * MILLISECOND_NS)
 HOLDERS = ["/car_locator", "/state_machine"]
 LISTENERS = ("/localization", *HOLDERS)
-# Steady time after which a silent node is left behind, and within which all of them have to have started. On a busy
-# machine a map took more than 15 s.
+# Steady time after which a silent node is ignored, and time limit for the start of all nodes. On a busy machine a map
+# has needed more than 15 s.
 PATIENCE_S, START_LIMIT_S = 60.0, 60.0
 CLOCK_STEP_NS = 10 * MILLISECOND_NS
-# Recorded time before the first message, in which the nodes' ticks begin.
+# Recorded time before the first message, in which the nodes' ticks start.
 LEAD_NS = 1000 * MILLISECOND_NS
 QUEUE = 100
-# Written by the recorder beside the bag: its clock did not wait for it.
+# Written by the recorder next to the bag: its clock did not wait for it.
 RECORDED_IN_LOCKSTEP = "/recorded_in_lockstep"
-# The recorder is seldom so late; what it holds back for the order of the stamps fits into memory.
+# Longer delays of the recorder are rare; messages held back for the order of the stamps fit into memory.
 LATE_LIMIT_S = 5.0
 
 
 class Played(NamedTuple):
-    """A message of the recording. time_s: when it is played, in recorded time."""
+    """Message of the recording. time_s: time of its playback, in recorded time."""
 
     time_s: float
     topic: str
@@ -56,10 +56,10 @@ class Played(NamedTuple):
 
 
 class Player:
-    """Publishes /clock and the messages of the bags, at most `rate` times as fast as they were recorded.
+    """Publisher of /clock and the messages of the bags, at most `rate` times as fast as recorded.
 
     Attributes:
-        recorder: node that is waited for, too, so that it misses nothing; None: nobody records.
+        recorder: node whose connections are awaited too, so that it receives everything; None without a recorder.
     """
 
     def __init__(self, bags: Sequence[pathlib.Path], rate: float, recorder: Optional[str] = None):
@@ -67,7 +67,7 @@ class Player:
         self._topics = {rospy.resolve_name(name): name for name in REPLAYED}
         self._pace = Pace(FOLLOWER, HOLDERS, PATIENCE_S)
         self._spoken = threading.Condition()
-        # A node that connects while it stands has to know where.
+        # Latched for nodes that connect while the clock is stopped.
         self._clock = rospy.Publisher("/clock", Clock, queue_size=QUEUE, latch=True)
         self._publishers: Dict[str, rospy.Publisher] = {}
         self._voices = [
@@ -75,7 +75,7 @@ class Player:
             rospy.Subscriber(names.SIM_HOLD, Header, self._held, queue_size=QUEUE, tcp_nodelay=True)]
 
     def play(self) -> str:
-        """Play to the end; a sentence about it. CannotReplay when it cannot begin."""
+        """Play to the end; return a sentence about it. CannotReplay if it cannot start."""
         opened = opened_bags(self._bags)
         try:
             self._advertise(opened)
@@ -88,7 +88,7 @@ class Player:
     def _run(self, bags: List[rosbag.Bag]) -> str:
         begin_ns = min(_ns(bag.get_start_time()) for bag in bags) - LEAD_NS
         started_s, clock_ns = time.monotonic(), begin_ns
-        # The nodes' ticks begin with it.
+        # The nodes' ticks start with this message.
         self._clock.publish(Clock(stamp_of(clock_ns)))
         for played in in_time(recorded(bags, list(self._topics)), rospy.get_param(RECORDED_IN_LOCKSTEP, False)):
             while clock_ns < _ns(played.time_s) and not rospy.is_shutdown():
@@ -105,7 +105,7 @@ class Player:
                 f"waited {waited or 'for nobody'}.")
 
     def _step(self, clock_ns: int, until_ns: int, zero_s: float) -> int:
-        """Set the clock forward, at most to until_ns, when it is time and everybody has followed; what it shows.
+        """Advance the clock, at most to until_ns, when it is due and all nodes have followed; return its time.
 
         zero_s: steady time of the recording's zero.
         """
@@ -127,7 +127,7 @@ class Player:
             self._spoken.notify_all()
 
     def _wait_for_followers(self, clock_ns: int) -> None:
-        """Until all have done what there was to do up to now, or who has not has been silent too long."""
+        """Wait until all nodes have finished their work up to now, or have been silent too long."""
         since_s: Dict[str, float] = {}
         with self._spoken:
             while not rospy.is_shutdown():
@@ -152,7 +152,7 @@ class Player:
                                                    queue_size=QUEUE) for topic, about in found.items()}
 
     def _wait_for_listeners(self) -> None:
-        """Until the nodes have started and are connected with what is played."""
+        """Wait until the nodes have started and are connected to the played topics."""
         master, end_s = rosgraph.Master(rospy.get_name()), time.monotonic() + START_LIMIT_S
         odometry = rospy.resolve_name(names.WHEEL_ODOMETRY)
         while not rospy.is_shutdown():
@@ -178,7 +178,7 @@ def _ns(time_s: float) -> int:
 
 
 def opened_bags(paths: Sequence[pathlib.Path]) -> List[rosbag.Bag]:
-    """The bags, or CannotReplay with a sentence."""
+    """Return the opened bags, or raise CannotReplay with a sentence."""
     opened: List[rosbag.Bag] = []
     for path in paths:
         try:
@@ -191,15 +191,15 @@ def opened_bags(paths: Sequence[pathlib.Path]) -> List[rosbag.Bag]:
 
 
 def recorded(bags: Sequence[rosbag.Bag], topics: Sequence[str]) -> Iterator[Played]:
-    """Messages of these topics in the order of their recording, from bags in any order."""
+    """Yield messages of these topics in the order of their recording, from bags in any order."""
     streams = [bag.read_messages(topics=topics) for bag in bags]
     for topic, message, stamp in heapq.merge(*streams, key=lambda read: read.timestamp.to_nsec()):
         yield Played(stamp.to_sec(), topic, message)
 
 
 def in_time(played: Iterable[Played], by_stamps: bool) -> Iterator[Played]:
-    """What was recorded, each at its own stamp and in this order when by_stamps; a stamp that lies
-    LATE_LIMIT_S and more from its receipt says nothing about when it was sent."""
+    """Yield the recorded messages; with by_stamps each at its own stamp and in this order. A stamp that differs from
+    the reception by LATE_LIMIT_S or more does not show the time of sending."""
     if not by_stamps:
         yield from played
         return
@@ -214,6 +214,6 @@ def in_time(played: Iterable[Played], by_stamps: bool) -> Iterator[Played]:
 
 
 def stamp_s_of(played: Played) -> float:
-    """Of the message itself, which a node answers; of the recording where it has none."""
+    """Return the stamp of the message itself, which a node answers, or the recording time without one."""
     header = getattr(played.message, "header", None)
     return played.time_s if header is None else float(header.stamp.to_sec())

@@ -1,4 +1,4 @@
-"""Publishes the robot's orders under other names, so that a recording of them moves no robot when it is played."""
+"""Publishes the robot's orders under other names, so that the playback of a recording cannot move a robot."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import Any, Callable, List, Mapping
 
@@ -20,7 +20,7 @@ QUEUE = 100
 
 
 def relay_orders(profile: str, resolve: Callable[[str], str]) -> List[rospy.Subscriber]:
-    """Start to relay the orders of a profile. resolve: name of a topic on this robot."""
+    """Start to relay the orders of a profile. resolve: returns the name of a topic on this robot."""
     return [_relay(resolve(topic), kind) for topic, kind in TYPES.items() if topic in PROFILES[profile]]
 
 

@@ -1,4 +1,4 @@
-"""Recording: what is recorded, how large it may be, what a replay decides otherwise, and the layout for Foxglove."""
+"""Recording: topics, size limit, decisions of a replay, and the layout for Foxglove."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import math
@@ -37,7 +37,7 @@ from mtr_recording.relay import TYPES
 
 LAUNCH = pathlib.Path(__file__).resolve().parents[5] / "launch"
 LAYOUT = json.loads((LAUNCH / "foxglove" / "robot.json").read_text(encoding="utf-8"))
-# Messages of the topics of which the layout shows single fields.
+# Messages of which the layout shows single fields.
 SHOWN = {names.ROBOT_MODE: RobotMode, names.MOTION_STATUS: MotionStatus, names.CAR_ESTIMATE: CarEstimate,
          names.LOCALIZED_POSE: LocalizedPose, recorded_name(names.PLANNER_VELOCITY): VelocityCommand,
          recorded_name(names.WHEEL_COMMAND): Twist, names.PERIPHERALS_STATE: PeripheralsState}
@@ -70,7 +70,7 @@ def test_no_profile_records_an_order_under_its_own_name(profile):
     recorded = command_of(profile, pathlib.Path("/data/1"), 400.0, lambda topic: topic)
     assert not set(ORDERS) & set(recorded) and {recorded_name(names.JOY), recorded_name(names.WHEEL_COMMAND)} <= set(
         recorded)
-    # What stays under its own name is refused by its stamp.
+    # Topics under their own name are rejected because of their stamps.
     assert set(recorded) & set(names.MOTION_INPUTS) <= {names.DESIRED_STATE, names.ROBOT_MODE}
 
 
@@ -122,7 +122,7 @@ def test_recorder_listens_when_it_is_connected_with_every_publisher(links, is_he
 
 
 def decided(shift_m=0.0, turn_deg=0.0, longer_m=0.0, last=CarState.LOCATED):
-    """Of one survey of the Car."""
+    """Return the decisions of one survey of the Car."""
     found = Decisions()
     pose = Pose2(3.0 + shift_m, 1.0, math.pi + math.radians(turn_deg))
     for state in (CarState.UNKNOWN, CarState.COLLECTING, CarState.COLLECTING, last, last):
@@ -161,7 +161,7 @@ def test_recording_without_decisions_proves_nothing():
 
 
 def bag_at(path, shift_m=0.0):
-    """A bag of a Car that was found."""
+    """Write a bag of a Car that was found."""
     with rosbag.Bag(str(path), "w") as bag:
         for number, state in enumerate((0, 1, 2)):
             time = rospy.Time(number + 1)
@@ -196,7 +196,7 @@ def test_mcap_has_every_message_with_its_definition(tmp_path, capsys):
     assert [each[2].log_time for each in found] == sorted([1_000_000_000, 2_000_000_000, 3_000_000_000] * 2)
     schema, channel, message = next(each for each in reversed(found) if each[1].topic == names.CAR_ESTIMATE)
     assert (schema.name, schema.encoding, channel.message_encoding) == ("mtr_msgs/CarEstimate", "ros1msg", "ros1")
-    # By what stands in the file alone.
+    # Only the content of the file is used.
     kinds = generate_dynamic(schema.name, schema.data.decode())
     car = kinds[schema.name]().deserialize(message.data)
     assert (car.state, car.revision, car.x, car.length) == (2, 1, 2.0, 4.5)
@@ -216,7 +216,7 @@ def test_without_the_library_mcap_is_refused_before_anything_is_recorded(monkeyp
 
 
 def panels(part):
-    """Of the layout's tree."""
+    """Return the panels of the layout's tree."""
     return [part] if isinstance(part, str) else [*panels(part["first"]), *panels(part["second"])]
 
 

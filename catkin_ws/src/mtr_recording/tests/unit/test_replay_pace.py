@@ -1,4 +1,4 @@
-"""How fast a recording is played: never faster than the nodes follow, and on without those that are silent."""
+"""Playback speed: never faster than the nodes follow, and without silent nodes."""
 # SPDX-License-Identifier: Apache-2.0
 import pytest
 import rosbag
@@ -20,7 +20,7 @@ def ns(time_s):
 
 @pytest.fixture
 def pace():
-    """Of a node that answers odometry, and one with ticks, the next of which is at 100.06 s."""
+    """Return the pace of a node that answers odometry, and one with ticks, the next of which is at 100.06 s."""
     made = Pace(Follower("/pose", "/odom", ns(0.1)), ["/car_locator"], PATIENCE_S)
     made.held("/car_locator", ns(100.06))
     return made
@@ -55,12 +55,12 @@ def test_silent_node_is_left_behind_and_counts_again_when_it_speaks(pace):
 @pytest.mark.parametrize("step_s", [0.01, 0.0337, 0.3])
 def test_no_tick_is_left_out_however_late_a_node_is(begin_s, step_s):
     pace, ticks, clock_ns = Pace(FOLLOWER, HOLDERS[:1], PATIENCE_S), [], ns(begin_s)
-    # As lockstep/ticker.py does it: before the first clock it waits for the start of the simulated one.
+    # As in lockstep/ticker.py: before the first clock it waits for the start of the simulated one.
     tick_ns = CAR_LOCATOR.next_after(SIMULATION_START_NS)
     pace.held(HOLDERS[0], tick_ns)
     for _ in range(1000):
         while pace.behind(clock_ns):
-            # The machine lets the node go on only now.
+            # The machine delays the node until now.
             assert tick_ns <= clock_ns, "both wait"
             if clock_ns - tick_ns < CAR_LOCATOR.period_ns:
                 ticks.append(tick_ns)
@@ -86,13 +86,13 @@ def test_bags_in_any_order_are_played_in_the_order_of_their_times(tmp_path):
 
 
 class Stamped:
-    """A message with a header."""
+    """Message with a header."""
 
     def __init__(self, stamp_s):
         self.header = Header(stamp=rospy.Time.from_sec(stamp_s))
 
 
-# The recorder stood from 1.0 to 1.3 s, and had one topic's messages before the other's.
+# The recorder stopped from 1.0 to 1.3 s, and received one topic's messages before the other's.
 STOOD = [Played(1.0, "/a", Stamped(1.0)), *(Played(1.3, topic, Stamped(stamp_s)) for topic in ("/a", "/b")
                                            for stamp_s in (1.1, 1.2, 1.3)), Played(1.4, "/c", Header())]
 
