@@ -1,4 +1,4 @@
-"""Catkin reads the Python packages of mtr_graph_watch from here."""
+"""Declares the Python packages of mtr_graph_watch for catkin."""
 # SPDX-License-Identifier: Apache-2.0
 from distutils.core import setup
 

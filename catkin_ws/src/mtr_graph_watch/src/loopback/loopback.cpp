@@ -1,9 +1,9 @@
 /// @file
 /// Preloaded (LD_PRELOAD): a TCP socket that would listen on every address listens on loopback only.
 ///
-/// roscpp binds the XML-RPC server of each node to every address whatever ROS_IP says, and whoever reaches that server
-/// can give the node a publisher of his own. An explicit address, as that of the Operator's link, stays as it is, and
-/// so do UDP sockets: LiDARs send to them.
+/// roscpp binds the XML-RPC server of each node to every address regardless of ROS_IP, and any client of that server
+/// can add a publisher to the node. Explicit addresses, as of the Operator's link, are unchanged, and so are UDP
+/// sockets, to which LiDARs send.
 // SPDX-License-Identifier: Apache-2.0
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -24,7 +24,7 @@ in6_addr loopback_for(int socket) {
   if (option_of(socket, IPPROTO_IPV6, IPV6_V6ONLY) != 0) {
     return in6addr_loopback;
   }
-  // It serves IPv4 too: ::ffff:127.0.0.1, where other nodes look for it.
+  // It also serves IPv4: ::ffff:127.0.0.1, the address used by other nodes.
   in6_addr mapped = in6addr_any;
   mapped.s6_addr[10] = mapped.s6_addr[11] = 0xff;
   mapped.s6_addr[12] = 127;

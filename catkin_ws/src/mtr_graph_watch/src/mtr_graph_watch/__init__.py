@@ -1,2 +1,2 @@
-"""Is the ROS graph closed: do its master and nodes listen on loopback only? Asked at the start and ever after."""
+"""Checks that master and nodes of the ROS graph listen on loopback only, at the start and continuously."""
 # SPDX-License-Identifier: Apache-2.0

@@ -1,4 +1,4 @@
-"""Who of the ROS graph is reachable from outside this computer. Pure."""
+"""Detects parts of the ROS graph that are reachable from outside this computer. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass
 from typing import Dict, FrozenSet, Iterator, List, Mapping, Optional, Sequence, Tuple
@@ -9,19 +9,19 @@ from mtr_core.problems import NO_PROBLEM, Problem
 from . import problems
 from .listening_sockets import ListeningSocket, is_loopback
 
-# So long nothing needs to be known: the master is busy while nodes start. Then the robot stands.
+# Time without a complete check that is tolerated, because the master is busy while nodes start. Then the robot stops.
 MAX_AGE_S = 10.0
 
 
 @dataclass(frozen=True)
 class Graph:
-    """What the master says and what the system shows at one time.
+    """State of the graph, from the master and the system at one time.
 
     Attributes:
-        members: URI of master, roslaunch and each node, by what they are called.
-        sockets: that listen on this computer.
-        owners: ids of the processes that have a socket open, by its inode; those that may be read.
-        link: address and port at which the Operator's link is meant to listen.
+        members: URI of master, roslaunch and each node, by name.
+        sockets: listening sockets of this computer.
+        owners: ids of the processes that have a socket open, by its inode; only readable ones.
+        link: address and port at which the Operator's link is intended to listen.
     """
 
     members: Mapping[str, str]
@@ -31,7 +31,7 @@ class Graph:
 
 
 def openings(graph: Graph) -> List[Problem]:
-    """A sentence for each way into the graph from outside, ordered by who it is."""
+    """Return a sentence for each access to the graph from outside, ordered by name."""
     found = sorted({*_announced(graph), *_listening(graph)})
     return [problems.GRAPH_OPEN(who=who, address=place) for who, place in found]
 
@@ -49,7 +49,7 @@ def _listening(graph: Graph) -> Iterator[Tuple[str, str]]:
     for each in graph.sockets:
         if is_loopback(each.address) or (each.address, each.port) in graph.link:
             continue
-        # A process of another user is known by its port alone.
+        # A process of another user is known only by its port.
         names = [by_port.get(each.port, ""), *(by_process.get(owner, "") for owner in graph.owners.get(each.inode, ()))]
         who = next((name for name in names if name), "")
         if who:
@@ -62,7 +62,7 @@ def _members_by_process(graph: Graph, by_port: Mapping[int, str]) -> Dict[int, s
 
 
 def place_of(uri: str) -> Tuple[str, int]:
-    """Host and port of a URI; an empty host, which is no loopback, and port 0 where there are none."""
+    """Return host and port of a URI; an empty host, which is not loopback, and port 0 if missing."""
     try:
         parts = urlsplit(uri)
         return parts.hostname or "", parts.port or 0
@@ -71,23 +71,23 @@ def place_of(uri: str) -> Tuple[str, int]:
 
 
 class Verdict:
-    """The newest look, and how long it counts.
+    """Result of the newest check, with its validity.
 
     Attributes:
-        openings: sentences of the newest look.
+        openings: sentences of the newest check.
     """
 
     def __init__(self, now_s: float):
-        """now_s: on the steady clock, as everywhere here."""
+        """now_s: on the steady clock, as in all methods."""
         self.openings: List[Problem] = []
         self._seen_s = now_s
 
     def saw(self, graph: Graph, now_s: float) -> None:
-        """Take a look that was complete."""
+        """Add a complete check."""
         self.openings, self._seen_s = openings(graph), now_s
 
     def problem(self, now_s: float) -> Problem:
-        """Why the robot must not move; an opening that was seen counts until a look shows it closed."""
+        """Return why the robot must not move; an opening counts until a check shows it closed."""
         age_s = now_s - self._seen_s
         first: Optional[Problem] = next(iter(self.openings), None)
         if first:

@@ -1,4 +1,4 @@
-"""Listening TCP sockets in the words of /proc/net/tcp and /proc/net/tcp6. Pure."""
+"""Parses listening TCP sockets from /proc/net/tcp and /proc/net/tcp6. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 import ipaddress
 import struct
@@ -11,11 +11,11 @@ ADDRESS_COLUMN, STATE_COLUMN, INODE_COLUMN = 1, 3, 9
 
 @dataclass(frozen=True)
 class ListeningSocket:
-    """A TCP socket that takes connections.
+    """TCP socket that accepts connections.
 
     Attributes:
         address: on which it listens, e.g. 0.0.0.0 or ::.
-        port: the same.
+        port: on which it listens.
         inode: by which /proc/PID/fd names it.
     """
 
@@ -25,12 +25,12 @@ class ListeningSocket:
 
     @property
     def place(self) -> str:
-        """Address and port as one word."""
+        """Return address and port as one word."""
         return f"[{self.address}]:{self.port}" if ":" in self.address else f"{self.address}:{self.port}"
 
 
 def is_loopback(address: str) -> bool:
-    """True for localhost and addresses that only this computer reaches; any other name may be anything."""
+    """Return True for localhost and addresses that only this computer reaches; other names may resolve to anything."""
     if address == "localhost":
         return True
     try:
@@ -42,7 +42,7 @@ def is_loopback(address: str) -> bool:
 
 
 def sockets_in(table: str) -> List[ListeningSocket]:
-    """Those that listen, of the text of /proc/net/tcp or tcp6; ValueError when it is another text."""
+    """Return the listening sockets in the text of /proc/net/tcp or tcp6; ValueError for another text."""
     rows = [line.split() for line in table.splitlines()[1:]]
     return [_socket_of(row) for row in rows if len(row) > INODE_COLUMN and row[STATE_COLUMN] == LISTEN]
 
@@ -53,6 +53,6 @@ def _socket_of(row: List[str]) -> ListeningSocket:
 
 
 def _address_of(digits: str) -> str:
-    # The kernel prints each word of 32 bits as a number of its own, so in this machine's order of bytes.
+    # The kernel prints each word of 32 bits as a number, in this machine's byte order.
     words = [int(digits[start:start + 8], 16) for start in range(0, len(digits), 8)]
     return str(ipaddress.ip_address(struct.pack(f"={len(words)}I", *words)))

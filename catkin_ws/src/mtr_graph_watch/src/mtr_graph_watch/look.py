@@ -1,4 +1,4 @@
-"""Looks at the graph: the ROS master's word, and the system's sockets."""
+"""Reads the graph from the ROS master and the system's sockets."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import http.client
@@ -18,7 +18,7 @@ SOCKET_NAME = re.compile(r"socket:\[(\d+)\]")
 
 
 class CannotLook(Exception):
-    """Master or system did not answer; the text says which and why."""
+    """Master or system did not answer; the text states which and why."""
 
 
 class _PatientTransport(xmlrpc.client.Transport):
@@ -29,14 +29,14 @@ class _PatientTransport(xmlrpc.client.Transport):
 
 
 class Master:
-    """Calls of the master's API, each bounded in time; CannotLook when there is no good answer."""
+    """Calls of the master's API with a time limit; CannotLook without a valid answer."""
 
     def __init__(self, uri: str):
         self.uri = uri
         self._proxy = xmlrpc.client.ServerProxy(uri, transport=_PatientTransport())
 
     def members(self) -> Dict[str, str]:
-        """URI of the master, of each roslaunch and node, by name; a node that has just gone is left out."""
+        """Return the URI of the master, of each roslaunch and node, by name; nodes that have just ended are omitted."""
         found = {MASTER: self.uri}
         for name in self._nodes():
             code, _, uri = self._call("lookupNode", name)
@@ -48,7 +48,7 @@ class Master:
         return found
 
     def parameter(self, name: str) -> Any:
-        """Its value; None when there is none."""
+        """Return the value of a parameter; None without one."""
         code, _, value = self._call("getParam", name)
         return value if code == 1 else None
 
@@ -67,21 +67,22 @@ class Master:
 
 
 def seen(master: Master, proc: pathlib.Path = pathlib.Path("/proc")) -> Graph:
-    """The graph as it is now; CannotLook. Nodes first: a socket opened meanwhile is then found, a node next time."""
+    """Return the current graph; CannotLook. Nodes come first: a socket opened meanwhile is then found, a node at the
+    next check."""
     members, link = master.members(), link_of(master.parameter("/dispatcher"))
     sockets = listening(proc)
     return Graph(members, sockets, owners_of({each.inode for each in sockets}, proc), link)
 
 
 def link_of(parameters: Any) -> FrozenSet[Tuple[str, int]]:
-    """Where the Operator's link listens by the dispatcher's parameters; nowhere when they do not say."""
+    """Return the address of the Operator's link by the dispatcher's parameters; empty if they are missing."""
     said = parameters if isinstance(parameters, dict) else {}
     address, ports = said.get("bind_address"), (said.get("status_port"), said.get("command_port"))
     return frozenset((str(address), port) for port in ports if address and isinstance(port, int))
 
 
 def listening(proc: pathlib.Path) -> List[ListeningSocket]:
-    """TCP sockets of this computer that listen; a kernel without IPv6 has only one table."""
+    """Return the listening TCP sockets of this computer; a kernel without IPv6 has only one table."""
     try:
         found = sockets_in((proc / "net" / "tcp").read_text(encoding="ascii"))
         with contextlib.suppress(FileNotFoundError):
@@ -92,7 +93,7 @@ def listening(proc: pathlib.Path) -> List[ListeningSocket]:
 
 
 def owners_of(inodes: Set[int], proc: pathlib.Path) -> Dict[int, FrozenSet[int]]:
-    """Processes that have these sockets open, as far as this user may see."""
+    """Return the processes that have these sockets open, as far as this user may see them."""
     found: Dict[int, Set[int]] = {}
     for process in proc.iterdir():
         if process.name.isdigit():
@@ -102,7 +103,7 @@ def owners_of(inodes: Set[int], proc: pathlib.Path) -> Dict[int, FrozenSet[int]]
 
 
 def _inodes_of(folder: pathlib.Path) -> Iterable[int]:
-    # Processes and files end while they are looked at, and those of another user may not be read.
+    # Processes and files may end during the search, and other users' may be unreadable.
     with contextlib.suppress(OSError):
         for name in os.listdir(folder):
             with contextlib.suppress(OSError):

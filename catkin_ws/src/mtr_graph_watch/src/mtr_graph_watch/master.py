@@ -1,4 +1,4 @@
-"""Look for a ROS master before a program joins the graph."""
+"""Checks for a ROS master before a program joins the graph."""
 # SPDX-License-Identifier: Apache-2.0
 import socket
 

@@ -1,7 +1,7 @@
 """Starts a node only while no other process runs under its name, e.g. of a second robot.launch on the same ROS master.
 
-Used as launch-prefix. The master ends a node whose name is registered again, and roslaunch starts it again: two robots
-on one master would end each other's nodes for ever. The second one waits instead, and reports why.
+Used as launch-prefix. The master ends a node whose name is registered again, and roslaunch restarts it: two robots on
+one master would end each other's nodes forever. The second one waits instead, and reports why.
 """
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
@@ -31,16 +31,16 @@ class _PatientTransport(xmlrpc.client.Transport):
 
 
 def node_name(command: Sequence[str], environment: Mapping[str, str]) -> str:
-    """Return the full name that roslaunch gives the node of a command; empty when it gives none."""
+    """Return the full name that roslaunch gives the node of a command; empty without one."""
     given = next((word[len(NAME):] for word in command if word.startswith(NAME)), "")
     namespace = environment.get("ROS_NAMESPACE", "").strip("/")
     return f"/{namespace}/{given}".replace("//", "/") if given else ""
 
 
 def running_process(master: Any, node: str, proc: pathlib.Path = pathlib.Path("/proc")) -> Optional[int]:
-    """Return the process that runs under the name; None when the registered one has died, or none is registered.
+    """Return the process that runs under the name; None if the registered one has died, or none is registered.
 
-    A port may since belong to another process of this computer, whose command line then bears another name.
+    The port may meanwhile belong to another process of this computer, whose command line then has another name.
     """
     code, _, uri = master.lookupNode(CALLER, node)
     if code != 1:
@@ -54,7 +54,7 @@ def running_process(master: Any, node: str, proc: pathlib.Path = pathlib.Path("/
 
 
 def wait_for_name(master: Any, node: str) -> None:
-    """Return when no process runs under the name. Meanwhile the reason is printed once and left for the Operator."""
+    """Return when no process runs under the name. Meanwhile the reason is printed once and stored for the Operator."""
     pid = running_process(master, node)
     if pid is None:
         return
@@ -65,7 +65,7 @@ def wait_for_name(master: Any, node: str) -> None:
         while running_process(master, node) is not None:
             time.sleep(PERIOD_S)
     finally:
-        # Also when roslaunch ends this start.
+        # This also runs when roslaunch ends this start.
         master.deleteParam(CALLER, parameter)
 
 
@@ -73,7 +73,7 @@ def main(command: List[str]) -> None:
     """Replace this process by the command as soon as its node's name is free."""
     node = node_name(command, os.environ)
     if node:
-        # A master that does not answer is no reason to wait: the node reports that itself.
+        # A master that does not answer does not block the start: the node reports that itself.
         with contextlib.suppress(KeyError, *CALL_ERRORS):
             try:
                 wait_for_name(_proxy(os.environ["ROS_MASTER_URI"]), node)

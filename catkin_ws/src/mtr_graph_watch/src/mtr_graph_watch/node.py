@@ -1,4 +1,4 @@
-"""The node that watches the graph: it does not start in an open one, and locks motion in one that was opened later."""
+"""Node that watches the graph: it does not start in an open one, and locks motion if one is opened later."""
 # SPDX-License-Identifier: Apache-2.0
 import os
 import threading
@@ -19,15 +19,16 @@ from .look import CannotLook, Master, seen
 from .parameters import Parameters
 
 OWNER = "graph_watch"
-# Between the state machine and the next turn of the dispatcher; nobody waits for it in lock-step.
+# Slot between the state machine and the next tick of the dispatcher; in lock-step no node waits for it.
 GRAPH_WATCH = slot(100, 80)
 
 
 class GraphWatchNode:
-    """Says its motion lock at each tick, of what another thread has seen: a slow master delays no lock."""
+    """Publisher of a motion lock at each tick, from the result of another thread: a slow master does not delay the
+    lock."""
 
     def __init__(self, parameters: Parameters):
-        """Look once; ProblemError when the graph is open and nobody chose so, RobotError when it cannot be seen."""
+        """Check once; ProblemError if the graph is open without permission, RobotError if it cannot be checked."""
         self._parameters = parameters
         self._master = Master(os.environ["ROS_MASTER_URI"])
         self._verdict = Verdict(time.monotonic())
@@ -64,7 +65,7 @@ class GraphWatchNode:
                 self._look()
             except CannotLook as error:
                 rospy.logwarn_throttle(30.0, str(error))
-            except Exception as error:  # A thread that ended would leave a verdict that nobody renews.
+            except Exception as error:  # A thread that ended would leave an outdated verdict.
                 rospy.logerr_throttle(30.0, f"The ROS graph cannot be looked at: {error!r}.")
 
     def _look(self) -> None:
@@ -79,5 +80,5 @@ class GraphWatchNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node; return its exit status."""
     return run_node(OWNER, Parameters, GraphWatchNode)

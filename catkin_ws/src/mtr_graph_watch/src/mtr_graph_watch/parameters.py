@@ -7,12 +7,12 @@ from mtr_core.parameters import ParameterSet, number
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the node is started with.
+    """Parameters of the node.
 
     Attributes:
-        open_graph: whoever reaches the robot may command it past the link, by a person's choice: an opening is an
-            error in the log and locks nothing.
-        look_period_s: between two looks.
+        open_graph: permits commands past the link from any reachable computer, by a person's choice: an opening is an
+            error in the log but does not lock motion.
+        look_period_s: between two checks.
     """
 
     open_graph: bool = False

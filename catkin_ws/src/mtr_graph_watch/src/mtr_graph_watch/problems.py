@@ -1,4 +1,4 @@
-"""What the watch of the ROS graph says to the Operator."""
+"""Sentences that the watch of the ROS graph reports to the Operator."""
 # SPDX-License-Identifier: Apache-2.0
 from mtr_core.problems import Sentence
 

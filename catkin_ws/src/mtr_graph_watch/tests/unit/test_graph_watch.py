@@ -1,4 +1,4 @@
-"""Who of the ROS graph is reachable from outside, by made-up tables, and by this machine's own."""
+"""Detection of reachable parts of the ROS graph, with synthetic tables and this machine's own."""
 # SPDX-License-Identifier: Apache-2.0
 import contextlib
 import os
@@ -18,7 +18,7 @@ from mtr_graph_watch.listening_sockets import ListeningSocket, is_loopback, sock
 
 HEADER = "  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode\n"
 REST = "00000000:00000000 00:00000000 00000000     0        0"
-# As a little-endian kernel prints them; the third is a connection and no listener.
+# Format of a little-endian kernel; the third row is a connection, not a listener.
 TCP = HEADER + (f"   0: 00000000:9FC3 00000000:0000 0A {REST} 4103776 1 00000000da2117b4 100 0 0 10 0\n"
                 f"   1: 0100007F:2C2F 00000000:0000 0A {REST} 4103753 1 000000001b1b1b1b 100 0 0 10 0\n"
                 f"   2: 020200C0:8000 0100007F:2C2F 01 {REST} 4103799 1 000000002c2c2c2c 100 0 0 10 0\n")
@@ -31,13 +31,13 @@ MEMBERS = {"ROS master": f"http://127.0.0.1:{MASTER}/", "/drive_control": f"http
 
 
 def graph(*sockets, members=None, owners=None, link=()):
-    """A graph of (address, port, inode)."""
+    """Return a graph of (address, port, inode)."""
     return Graph(MEMBERS if members is None else members, [ListeningSocket(*each) for each in sockets],
                  {inode: frozenset(found) for inode, found in (owners or {}).items()}, frozenset(link))
 
 
 def told(looked):
-    """Who is reachable, and where."""
+    """Return the reachable members with their addresses."""
     return [(dict(each.arguments)["who"], dict(each.arguments)["address"]) for each in openings(looked)]
 
 
@@ -64,7 +64,7 @@ def test_graph_on_loopback_is_closed_whatever_else_listens_on_this_computer():
 
 
 def test_server_of_a_node_that_says_loopback_and_listens_everywhere_is_found():
-    # As roscpp does with ROS_IP=127.0.0.1; of another user's process nothing but the port is known.
+    # As roscpp with ROS_IP=127.0.0.1; for another user's process only the port is known.
     assert told(graph((OPEN, NODE, 2))) == [("/drive_control", f"0.0.0.0:{NODE}")]
     assert told(graph(("::", MASTER, 1))) == [("ROS master", f"[::]:{MASTER}")]
 
@@ -105,7 +105,7 @@ def test_verdict_stands_until_a_look_shows_otherwise():
     assert not verdict.problem(100.0)
     verdict.saw(graph((OPEN, NODE, 2)), 101.0)
     assert verdict.problem(101.0).code == "bringup.graph_open"
-    # Nothing new is known: it is as open as it was.
+    # Without new information it counts as open.
     assert verdict.problem(101.0 + 2 * MAX_AGE_S).code == "bringup.graph_open"
     verdict.saw(graph(), 200.0)
     assert not verdict.problem(200.0 + MAX_AGE_S)
@@ -122,7 +122,7 @@ def test_closed_environment_keeps_all_but_what_opens():
     given = {"PATH": "/bin", "ROS_HOSTNAME": "robot", "ROS_IP": "10.42.0.1", "ROS_MASTER_URI": "http://127.0.0.1:2"}
     closed = {"PATH": "/bin", "ROS_IP": "127.0.0.1", "ROS_MASTER_URI": "http://127.0.0.1:2", "LD_PRELOAD": LIBRARY}
     assert closed_environment(given) == closed and closed_environment({})["ROS_MASTER_URI"] == "http://127.0.0.1:11311"
-    # What is started beside an open graph joins it as it is.
+    # A program that joins an open graph keeps its environment.
     assert as_around(given) == given and as_around({"ROS_IP": "127.0.0.1"})["LD_PRELOAD"] == LIBRARY
 
 
@@ -149,35 +149,35 @@ def test_program_closed_runs_another_in_that_environment():
 
 
 class Quiet(SimpleXMLRPCRequestHandler):
-    """At the root, as the ROS master, and without a log."""
+    """Request handler at the root, as the ROS master's, without a log."""
 
     rpc_paths = ("/", "/RPC2")
 
     def log_message(self, *_):
-        """Nothing."""
+        """Suppress the log."""
 
 
 class FakeMaster:
-    """Answers as a ROS master: one node, whose URI is its own, and the parameters given."""
+    """ROS master with one node, which has the same URI, and the given parameters."""
 
     def __init__(self, parameters=None, code=1):
         self.parameters, self.code = parameters or {}, code
 
     def getSystemState(self, _):
-        """Publishers, subscribers, services."""
+        """Return publishers, subscribers, services."""
         return self.code, "said", [[["/topic", ["/node", "/gone"]]], [], [["/service", ["/node"]]]]
 
     def lookupNode(self, _, name):
-        """URI of the node that is there."""
+        """Return the URI of the existing node."""
         return (1, "", f"http://127.0.0.1:{self.port}/") if name == "/node" else (-1, "unknown node", "")
 
     def getParam(self, _, name):
-        """One of the parameters."""
+        """Return one of the parameters."""
         return (1, "", self.parameters[name]) if name in self.parameters else (-1, "not set", 0)
 
     @contextlib.contextmanager
     def serve(self, address="127.0.0.1"):
-        """The master's interface while it answers on this address."""
+        """Return the master's interface while it answers on this address."""
         with SimpleXMLRPCServer((address, 0), Quiet, allow_none=True) as server:
             self.port = server.server_address[1]
             server.register_instance(self)
@@ -202,7 +202,7 @@ def test_this_machine_s_own_sockets_are_seen():
 
 
 def exposed_port(looked):
-    """Port of this process's socket on every address."""
+    """Return the port of this process's socket on every address."""
     return next(each.port for each in looked.sockets if each.address == OPEN
                 and os.getpid() in looked.owners.get(each.inode, ()))
 

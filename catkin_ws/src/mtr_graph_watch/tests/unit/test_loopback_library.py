@@ -1,4 +1,4 @@
-"""The preloaded library: TCP on every address becomes loopback, all else stays as it is."""
+"""Preloaded library: TCP on every address becomes loopback, everything else is unchanged."""
 # SPDX-License-Identifier: Apache-2.0
 import json
 import os
@@ -9,7 +9,7 @@ import sys
 import pytest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2] / "src" / "loopback" / "loopback.cpp"
-# What getsockname says of sockets of (family, type, IPv6 only) bound to an address.
+# Prints the result of getsockname for sockets of (family, type, IPv6 only) bound to an address.
 PROGRAM = """
 import json, socket, sys
 found = []
@@ -29,7 +29,7 @@ CASES6 = [("AF_INET6", "SOCK_STREAM", 1, "::", "::1"), ("AF_INET6", "SOCK_STREAM
 
 @pytest.fixture(scope="module")
 def library(tmp_path_factory):
-    """It, compiled."""
+    """Return the compiled library."""
     path = tmp_path_factory.mktemp("library") / "libmtr_loopback.so"
     subprocess.run(["g++", "-std=c++17", "-Wall", "-Wextra", "-Werror", "-shared", "-fPIC", "-o", str(path),
                     str(SOURCE)], check=True)
@@ -37,7 +37,7 @@ def library(tmp_path_factory):
 
 
 def bound(cases, preload):
-    """Where sockets are bound with the library, or without it."""
+    """Return the addresses of bound sockets with the library, or without it."""
     done = subprocess.run([sys.executable, "-c", PROGRAM, json.dumps([case[:4] for case in cases])], text=True,
                           env=dict(os.environ, LD_PRELOAD=preload), capture_output=True, check=True)
     assert done.stderr == ""

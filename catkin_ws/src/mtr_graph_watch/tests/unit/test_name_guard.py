@@ -25,12 +25,12 @@ def test_name_is_that_which_roslaunch_gives(command, environment, name):
 
 
 def silent(_):
-    """A node that does not answer."""
+    """Node that does not answer."""
     raise OSError("Connection refused")
 
 
 def master(code=1, **parameters):
-    """A master with one registered node, which keeps parameters."""
+    """Return a master with one registered node, which stores parameters."""
     kept = parameters
     return SimpleNamespace(lookupNode=lambda *_: (code, "", "http://127.0.0.1:1"), kept=kept,
                            setParam=lambda _, name, value: kept.__setitem__(name, value),
@@ -39,7 +39,7 @@ def master(code=1, **parameters):
 
 @pytest.fixture
 def process(tmp_path, monkeypatch):
-    """Lets a process with this command line answer for the registered node, or nobody for None."""
+    """Make a process with this command line answer for the registered node; None for no process."""
     def answer(words, get_pid=lambda _: (1, "", PID)):
         monkeypatch.setattr(name_guard, "_proxy", lambda _: SimpleNamespace(getPid=get_pid))
         if words is not None:
@@ -51,7 +51,7 @@ def process(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("code, words, get_pid, pid", [
     (1, [b"python3", b"node", b"__name:=dispatcher"], None, PID),
-    # Not registered; died without a word; its port belongs to another node, or to a process that is gone.
+    # Not registered; died without notice; its port belongs to another node, or to a process that has ended.
     (-1, [b"node", b"__name:=dispatcher"], None, None), (1, [b"node", b"__name:=dispatcher"], silent, None),
     (1, [b"node", b"__name:=localization"], None, None), (1, None, None, None)])
 def test_only_a_process_that_answers_and_bears_the_name_counts(process, code, words, get_pid, pid):
@@ -79,7 +79,7 @@ def test_free_name_starts_at_once_and_leaves_what_the_node_reported_itself(monke
 
 @pytest.fixture
 def server():
-    """A master, and a node of the name dispatcher whose process is `holder`."""
+    """Run a master, and a node of the name dispatcher whose process is `holder`."""
     made = SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False, allow_none=True)
     made.uri = f"http://127.0.0.1:{made.server_address[1]}"
     made.pid, made.told = 0, threading.Event()
