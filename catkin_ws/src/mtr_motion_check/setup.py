@@ -1,4 +1,4 @@
-"""Catkin reads the Python packages of mtr_motion_check from here."""
+"""Declares the Python packages of mtr_motion_check for catkin."""
 # SPDX-License-Identifier: Apache-2.0
 from distutils.core import setup
 

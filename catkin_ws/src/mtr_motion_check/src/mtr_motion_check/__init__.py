@@ -1,2 +1,2 @@
-"""Wheels, LiDARs, gyro and accelerometer against each other while the robot is driven by hand."""
+"""Comparison of wheels, LiDARs, gyro and accelerometer while the robot is driven by hand."""
 # SPDX-License-Identifier: Apache-2.0

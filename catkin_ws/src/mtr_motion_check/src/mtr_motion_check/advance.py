@@ -1,4 +1,4 @@
-"""Straight ways: wheels, LiDARs and accelerometer against each other, and which of them is wrong."""
+"""Straight paths: compares wheels, LiDARs and accelerometer, and identifies the wrong one."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Optional, Tuple
@@ -13,24 +13,24 @@ from .inertia import Thrust
 from .steps import Step
 from .swap import lever_says_swapped
 
-# A wheel's radius differs by 0.5 % as mounted and inflated; 5 % are another tyre or another robot's configuration.
+# A wheel's radius varies by 0.5 % with mounting and inflation; 5 % means another tyre or another robot's configuration.
 MAX_SCALE_ERROR = 0.05
-# Two standard errors of a comparison that counts, so that 10 % are found.
+# Maximum of two standard errors of a valid comparison, so that errors of 10 % are found.
 MAX_DOUBT = 0.04
-# A LiDAR that is turned so far against its description lays a wall 10 m away 0.9 m off; scan matching tells 0.5 deg.
+# A LiDAR with this rotation error displaces a wall 10 m away by 0.9 m; scan matching is accurate to 0.5 deg.
 MAX_DIRECTION_RAD = math.radians(5.0)
-# Wheels that say less than this share of the way do not work at all.
+# Wheels that report less than this share of the distance do not work at all.
 MIN_WHEELS_SHARE = 0.1
 CHECK = "motion.forward"
 ODOMETRY = names.WHEEL_ODOMETRY
 
 
 class Witnesses(NamedTuple):
-    """What speaks for or against the wheels besides the LiDARs.
+    """References for or against the wheels, in addition to the LiDARs.
 
     Attributes:
-        thrust: of the accelerometer; None: it has no opinion.
-        wheels_turn_back: the wheels' turn has the wrong sign, too.
+        thrust: of the accelerometer; None if undecided.
+        wheels_turn_back: the wheels' rotation has the wrong sign, too.
     """
 
     thrust: Optional[Thrust]
@@ -41,17 +41,17 @@ Told = List[Tuple[Lidar, Direction]]
 
 
 def advance_findings(steps: List[Step], mounts: LidarMounts, witnesses: Witnesses) -> List[Finding]:
-    """Odometry's sign and scale, and the LiDARs' directions, by those LiDARs that tell."""
+    """Check the odometry's sign and scale, and the LiDARs' directions, with the usable LiDARs."""
     lidars = [FRONT, *([REAR] if mounts.rear else [])]
     missing = [finding for lidar in lidars for finding in unusable(lidar, steps)]
     told = [(lidar, seen) for lidar in lidars if not unusable(lidar, steps)
             for seen in (direction(steps, lidar.sensor),) if seen]
-    # What both LiDARs lack is said once.
+    # A fault of both LiDARs is reported once.
     return list(dict.fromkeys(missing)) + judged(told, steps, mounts, witnesses)
 
 
 def judged(told: Told, steps: List[Step], mounts: LidarMounts, witnesses: Witnesses) -> List[Finding]:
-    """By the LiDARs that tell; nothing when none does."""
+    """Evaluate the usable LiDARs; empty without any."""
     if not told:
         return []
     coarse = [finding for lidar, seen in told for finding in too_coarse(lidar, seen)]
@@ -65,7 +65,7 @@ def judged(told: Told, steps: List[Step], mounts: LidarMounts, witnesses: Witnes
 
 
 def unusable(lidar: Lidar, steps: List[Step]) -> List[Finding]:
-    """What keeps a LiDAR from being compared; nothing when it can be."""
+    """Return the reasons why a LiDAR cannot be compared; empty if it can."""
     seen_m, wheels_m = distance_m(steps, lidar.sensor), wheels_distance_m(steps, lidar.sensor)
     driven_m = sum(abs(step.wheels.x) for step in steps)
     if seen_m >= MIN_DISTANCE_M:
@@ -83,7 +83,7 @@ def unusable(lidar: Lidar, steps: List[Step]) -> List[Finding]:
 
 
 def too_coarse(lidar: Lidar, seen: Direction) -> List[Finding]:
-    """A LiDAR that tells so little that a wrong robot would pass."""
+    """Report a LiDAR so inaccurate that a faulty robot would pass."""
     if 2.0 * seen.scale_sigma <= MAX_DOUBT * seen.scale and 2.0 * seen.angle_sigma_rad <= MAX_DIRECTION_RAD:
         return []
     percent = 200.0 * seen.scale_sigma / max(seen.scale, 1e-9)
@@ -93,7 +93,7 @@ def too_coarse(lidar: Lidar, seen: Direction) -> List[Finding]:
 
 
 def scale_finding(told: Told) -> Finding:
-    """All point forward; the wheels' scale."""
+    """Check the wheels' scale; all LiDARs agree on forward."""
     scales = [seen.scale for _, seen in told]
     mean, sigma = sum(scales) / len(scales), max(seen.scale_sigma for _, seen in told)
     wheels = 1.0 / max(mean, 1e-9)
@@ -113,7 +113,7 @@ def scale_finding(told: Told) -> Finding:
 
 
 def is_turned_about(found: List[Direction], mounts: LidarMounts) -> bool:
-    """All LiDARs saw what they see when the wheels' sign is wrong, or when the topics are exchanged."""
+    """Return True if all LiDARs saw the pattern of a wrong sign of the wheels, or of exchanged topics."""
     if all(each.points_to(math.pi, MAX_DIRECTION_RAD) for each in found):
         return True
     if mounts.rear is None or len(found) < 2:
@@ -123,7 +123,7 @@ def is_turned_about(found: List[Direction], mounts: LidarMounts) -> bool:
 
 
 def which_is_reversed(lidars: List[Lidar], steps: List[Step], mounts: LidarMounts, witnesses: Witnesses) -> Finding:
-    """All LiDARs contradict the wheels: by the accelerometer, the wheels' turn and the LiDARs' levers, which it is."""
+    """All LiDARs contradict the wheels: decide between them by accelerometer, wheels' rotation and LiDARs' levers."""
     wheels_are_wrong = votes_against_wheels(steps, mounts, witnesses)
     start = "The wheels say forward where the LiDARs see the robot go backward"
     if wheels_are_wrong is None:
@@ -144,7 +144,7 @@ def which_is_reversed(lidars: List[Lidar], steps: List[Step], mounts: LidarMount
 
 
 def votes_against_wheels(steps: List[Step], mounts: LidarMounts, witnesses: Witnesses) -> Optional[bool]:
-    """The odometry's sign is wrong; None when nothing tells. The surest witness is asked first."""
+    """Return True if the odometry's sign is wrong; None if undecided. The most reliable reference is used first."""
     if witnesses.wheels_turn_back:
         return True
     thrust = witnesses.thrust
@@ -155,7 +155,7 @@ def votes_against_wheels(steps: List[Step], mounts: LidarMounts, witnesses: Witn
 
 
 def mount_findings(lidar: Lidar, seen: Direction) -> List[Finding]:
-    """One LiDAR that does not look where its description says."""
+    """Report a LiDAR whose direction differs from its description."""
     if seen.points_to(0.0, MAX_DIRECTION_RAD):
         return []
     turned = math.degrees(seen.angle_rad)

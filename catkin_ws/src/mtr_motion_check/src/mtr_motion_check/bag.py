@@ -1,4 +1,4 @@
-"""What the sensors of a bag with our topics say of the robot's motion, for the preflight and the calibration."""
+"""Reads the robot's motion from the sensors of a bag with our topics, for the preflight and the calibration."""
 # SPDX-License-Identifier: Apache-2.0
 import pathlib
 from typing import Iterator, Sequence, Tuple
@@ -14,7 +14,7 @@ SCANS = (names.FRONT_SCAN, names.REAR_SCAN)
 
 
 def motion_in(bag: pathlib.Path, senses: Sequence[float]) -> Recording:
-    """Of the whole bag. senses: see sweeps_in."""
+    """Return the motion of the whole bag. senses: see sweeps_in."""
     recording = Recording()
     with rosbag.Bag(str(bag)) as read:
         for topic, message, _ in read.read_messages(topics=[names.WHEEL_ODOMETRY, names.IMU_DATA]):
@@ -32,11 +32,11 @@ def motion_in(bag: pathlib.Path, senses: Sequence[float]) -> Recording:
 
 
 def sweeps_in(bag: pathlib.Path, senses: Sequence[float]) -> Iterator[Tuple[int, Sweep]]:
-    """Each sweep with the number of its LiDAR, 0 for the front one. senses: of each LiDAR, -1 for one that hangs upside
-    down: what follows knows upright ones, and it turns the other way."""
+    """Yield each sweep with the number of its LiDAR, 0 for the front one. senses: of each LiDAR, -1 if it is mounted
+    upside down; its sweeps are mirrored, because the evaluation assumes upright ones."""
     wanted = list(SCANS[:len(senses)])
     with rosbag.Bag(str(bag)) as read:
-        # Without topics it would read all of them.
+        # An empty list of topics would read all of them.
         for topic, message, _ in read.read_messages(topics=wanted) if wanted else ():
             lidar = SCANS.index(topic)
             yield lidar, Sweep(message.header.stamp.to_sec(), senses[lidar] * message.angle_min,

@@ -1,4 +1,4 @@
-"""Which way, and how far, each LiDAR saw the robot go where the wheels say it went forward."""
+"""Direction and distance of the robot's motion as seen by each LiDAR while the wheels report forward motion."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Callable, List, NamedTuple, Optional
@@ -9,20 +9,20 @@ from mtr_core.se2 import Pose2, wrap_angle
 from .fits import ratio
 from .steps import Step
 
-# A step that turns less is straight: base_link goes where it points, to 3 degrees.
+# A step with less rotation counts as straight: base_link moves in its own direction, within 3 degrees.
 MAX_STRAIGHT_RAD = 0.1
-# What has to be driven before the sensors are compared.
+# Minimum distance for the comparison of the sensors.
 MIN_DISTANCE_M = 0.6
 Sensor = Callable[[Step], Optional[Pose2]]
 
 
 class Direction(NamedTuple):
-    """Motion by a LiDAR for each metre that the wheels say.
+    """Motion by a LiDAR for each metre that the wheels report.
 
     Attributes:
-        scale: its length; 1 when both agree.
+        scale: its length; 1 if both agree.
         scale_sigma: standard error of it.
-        angle_rad: its direction in base_link; 0 when both agree.
+        angle_rad: its direction in base_link; 0 if both agree.
         angle_sigma_rad: standard error of it.
     """
 
@@ -32,22 +32,22 @@ class Direction(NamedTuple):
     angle_sigma_rad: float
 
     def points_to(self, angle_rad: float, tolerance_rad: float) -> bool:
-        """The direction is this one, within the tolerance and two standard errors."""
+        """Return True for this direction, within the tolerance and two standard errors."""
         return abs(wrap_angle(self.angle_rad - angle_rad)) <= tolerance_rad + 2.0 * self.angle_sigma_rad
 
 
 def front_of(step: Step) -> Optional[Pose2]:
-    """base_from_base of a step by the front LiDAR."""
+    """Return base_from_base of a step by the front LiDAR."""
     return step.front
 
 
 def rear_of(step: Step) -> Optional[Pose2]:
-    """base_from_base of a step by the rear LiDAR."""
+    """Return base_from_base of a step by the rear LiDAR."""
     return step.rear
 
 
 class Lidar(NamedTuple):
-    """One LiDAR: topic, frame and what it saw."""
+    """One LiDAR: topic, frame and observed motion."""
 
     topic: str
     frame: str
@@ -59,22 +59,22 @@ REAR = Lidar(names.REAR_SCAN, names.REAR_LIDAR, rear_of)
 
 
 def straight(steps: List[Step], sensor: Sensor) -> List[Step]:
-    """Steps without turn of which the LiDAR tells."""
+    """Return the steps without rotation that the LiDAR observed."""
     return [step for step in steps for pose in (sensor(step),) if pose and abs(pose.heading) < MAX_STRAIGHT_RAD]
 
 
 def distance_m(steps: List[Step], sensor: Sensor) -> float:
-    """Way by the LiDAR in straight steps, there and back."""
+    """Return the distance by the LiDAR in straight steps, back and forth."""
     return sum(math.hypot(pose.x, pose.y) for pose in map(sensor, straight(steps, sensor)) if pose)
 
 
 def wheels_distance_m(steps: List[Step], sensor: Sensor) -> float:
-    """The same by the wheels."""
+    """Return the distance by the wheels in the same steps."""
     return sum(abs(step.wheels.x) for step in straight(steps, sensor))
 
 
 def direction(steps: List[Step], sensor: Sensor) -> Optional[Direction]:
-    """What a LiDAR says of the wheels' way; None with too few steps."""
+    """Return the LiDAR's motion relative to the wheels'; None with too few steps."""
     used = straight(steps, sensor)
     wheels = [step.wheels.x for step in used]
     along = ratio(wheels, [pose.x for pose in map(sensor, used) if pose])

@@ -1,4 +1,4 @@
-"""Straight lines through what two sensors say of the same steps: how often one is the other."""
+"""Straight lines through two sensors' values of the same steps: their ratio."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import NamedTuple, Optional, Sequence
@@ -8,24 +8,24 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 
 MIN_STEPS = 3
-# Residuals beyond so many times their median size are of steps in which somebody walked by or a wheel slipped. The
-# median is that of the steps with motion, of at least this share of the largest: at standstill all agree.
+# Residuals beyond this multiple of their median size are outliers: a person walked by or a wheel slipped. The median is
+# over the steps with motion of at least this share of the largest: at standstill all agree.
 OUTLIER, MOVING_SHARE = 4.0, 0.25
 
 
 class Ratio(NamedTuple):
-    """What one sensor says by what the other says, and its standard error."""
+    """Ratio of one sensor's values to another's, with its standard error."""
 
     value: float
     sigma: float
 
     def differs(self, expected: float, tolerance: float) -> bool:
-        """Beyond the tolerance, as surely as the data can say: two standard errors."""
+        """Return True if the difference exceeds the tolerance and two standard errors."""
         return abs(self.value - expected) > tolerance + 2.0 * self.sigma
 
 
 def ratio(known: Sequence[float], said: Sequence[float], offsets: Optional[Sequence[float]] = None) -> Optional[Ratio]:
-    """said = ratio * known, plus a constant times the offsets, which is estimated; None with too few steps."""
+    """Estimate said = ratio * known, plus an estimated constant times the offsets; None with too few steps."""
     columns = [known] if offsets is None else [known, offsets]
     matrix, wanted = np.array(columns, dtype=float).T, np.array(said, dtype=float)
     if len(wanted) < MIN_STEPS + len(columns) - 1:
@@ -42,6 +42,6 @@ def ratio(known: Sequence[float], said: Sequence[float], offsets: Optional[Seque
 
 
 def solved(matrix: FloatArray, wanted: FloatArray) -> FloatArray:
-    """Least squares."""
+    """Solve by least squares."""
     found: FloatArray = np.linalg.lstsq(matrix, wanted, rcond=None)[0]
     return found

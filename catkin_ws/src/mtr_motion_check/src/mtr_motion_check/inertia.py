@@ -1,4 +1,4 @@
-"""What the accelerometer says: where up is, and which way the robot sets off."""
+"""Evaluation of the accelerometer: upward direction, and direction of the robot's acceleration."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Optional, Tuple
@@ -9,20 +9,21 @@ from mtr_core.arrays import FloatArray
 
 from .recording import ImuSample, Recording, WheelSample
 
-# Half the time over which the wheels' velocity is differentiated and the force is averaged, and between two such times.
+# Half the time over which the wheels' velocity is differentiated and the force is averaged, and interval of these
+# times.
 HALF_WINDOW_S, SPACING_S = 0.1, 0.05
-# Neighbouring windows share their data, so that there are fewer independent ones.
+# Neighbouring windows share their data, which reduces the number of independent ones.
 OVERLAP = 2.0 * HALF_WINDOW_S / SPACING_S
-# In a turn the accelerometer also feels the way round.
+# In a turn the accelerometer also measures the centripetal acceleration.
 MAX_TURN_RADPS = 0.15
-# Starts and stops count that are so hard, and so many of them are needed.
+# Minimum acceleration of starts and stops that count, and their minimum number.
 MIN_ACCELERATION_MPS2, MIN_ACCELERATED = 0.2, 6
-# Beyond this standard error the accelerometer has no opinion.
+# Beyond this standard error the accelerometer is undecided.
 MAX_SIGMA = 0.25
 
 
 class Gravity(NamedTuple):
-    """Specific force at rest: its size in m/s2, its angle from the IMU's z axis in rad, the axis nearest to it."""
+    """Specific force at rest: its magnitude in m/s2, its angle from the IMU's z axis in rad, the axis nearest to it."""
 
     size_mps2: float
     tilt_rad: float
@@ -30,7 +31,7 @@ class Gravity(NamedTuple):
 
 
 class Thrust(NamedTuple):
-    """What the accelerometer feels for each m/s2 that the wheels gain, along x and y of the IMU, and its sigma."""
+    """Specific force for each m/s2 of the wheels' acceleration, along x and y of the IMU, with its sigma."""
 
     x: float
     y: float
@@ -43,7 +44,7 @@ class Thrust(NamedTuple):
 
 
 def gravity(imu: List[ImuSample]) -> Optional[Gravity]:
-    """From the medians of the axes, in which starts and stops do not count; None without samples."""
+    """Return gravity from the medians of the axes, which suppress starts and stops; None without samples."""
     if not imu:
         return None
     force = np.median([sample.force_mps2 for sample in imu], axis=0)
@@ -55,7 +56,7 @@ def gravity(imu: List[ImuSample]) -> Optional[Gravity]:
 
 
 def thrust(recording: Recording) -> Optional[Thrust]:
-    """None unless the robot was started and stopped hard enough on a straight line."""
+    """Return the thrust; None unless the robot was started and stopped hard enough on a straight line."""
     rows = accelerations(recording)
     if sum(abs(row[0]) >= MIN_ACCELERATION_MPS2 for row in rows) < MIN_ACCELERATED:
         return None
@@ -69,7 +70,7 @@ def thrust(recording: Recording) -> Optional[Thrust]:
 
 
 def accelerations(recording: Recording) -> List[Tuple[float, float, float]]:
-    """The wheels' acceleration beside the mean force along x and y, at times on straight lines."""
+    """Return the wheels' acceleration with the mean force along x and y, at times on straight lines."""
     wheels, imu = recording.wheels, recording.imu
     if not wheels or not imu:
         return []
@@ -89,6 +90,6 @@ def accelerations(recording: Recording) -> List[Tuple[float, float, float]]:
 
 
 def turning_rates(wheels: List[WheelSample]) -> FloatArray:
-    """Without sign."""
+    """Return the rotation rates without sign."""
     rates: FloatArray = np.abs([sample.angular_radps for sample in wheels])
     return rates

@@ -1,4 +1,4 @@
-"""The verdict on a drive by hand: all that was recorded, all that it tells."""
+"""Verdict on a drive by hand, from the whole recording."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, Optional
@@ -13,33 +13,34 @@ from .recording import Recording
 from .steps import Steps
 from .turning import REVERSED, turn_findings, turns
 
-# Slopes on which a robot is set up, and a mount's inaccuracy.
+# Slope of the ground during the setup, and inaccuracy of a mount.
 MAX_TILT_RAD = math.radians(10.0)
-# 5 mg of bias, 1 % of scale and the change of gravity over the earth, 9.78 to 9.83 m/s2, with room.
+# 5 mg of bias, 1 % of scale and the variation of gravity over the earth, 9.78 to 9.83 m/s2, with a margin.
 MIN_GRAVITY_MPS2, MAX_GRAVITY_MPS2 = 9.4, 10.2
-# Of the IMU about its vertical axis: starts and stops on uneven ground tell it to some degrees.
+# Limit of the IMU's rotation about its vertical axis: starts and stops on uneven ground determine it to some degrees.
 MAX_IMU_YAW_RAD = math.radians(30.0)
 UP, AHEAD = "imu.up", "imu.ahead"
 
-# Of motion; what is wrong is known by then, see docs/preflight.md.
+# Duration of motion after which faults are detected, see docs/preflight.md.
 ENOUGH_MOTION_S = 5.0
 
 
 def is_finished(findings: List[Finding], motion_s: float) -> bool:
-    """Nothing more will come of driving on: all is good, or what is bad has been so for long enough."""
+    """Return True if further driving cannot change the result: all is good, or the bad findings have lasted long
+    enough."""
     if not any(finding.is_bad for finding in findings):
         return True
     return motion_s >= ENOUGH_MOTION_S and not any(finding.check == NEEDS_MORE for finding in findings)
 
 
 class MotionJudge:
-    """Judges a recording that grows, as often as it is asked."""
+    """Judge of a growing recording, at each call."""
 
     def __init__(self, mounts: LidarMounts):
         self._mounts, self._steps = mounts, Steps(mounts)
 
     def findings(self, recording: Recording) -> List[Finding]:
-        """All checks in motion; bad ones include that the robot was not driven enough."""
+        """Return all checks in motion; too little motion is a bad finding."""
         self._steps.extend(recording)
         steps, felt = self._steps.made, gravity(recording.imu)
         turned, pushed = turns(steps), thrust(recording)
@@ -51,7 +52,7 @@ class MotionJudge:
 
 
 def up_findings(felt: Optional[Gravity]) -> List[Finding]:
-    """Gravity along +z of the IMU, as every node takes it."""
+    """Check that gravity is along +z of the IMU, as every node assumes."""
     if felt is None:
         return [bad(UP, names.IMU_DATA, "The accelerometer said nothing; look for the IMU's driver.")]
     if not MIN_GRAVITY_MPS2 <= felt.size_mps2 <= MAX_GRAVITY_MPS2:
@@ -68,7 +69,7 @@ def up_findings(felt: Optional[Gravity]) -> List[Finding]:
 
 
 def ahead_findings(pushed: Optional[Thrust], felt: Optional[Gravity], wheels_are_doubtful: bool) -> List[Finding]:
-    """Forward along +x of the IMU; nothing where it is not known, or where another check has named the cause."""
+    """Check that forward is along +x of the IMU; empty if it is unknown, or if another check has named the cause."""
     upright = felt is not None and felt.tilt_rad <= MAX_TILT_RAD
     if pushed is None or wheels_are_doubtful or not upright or math.hypot(pushed.x, pushed.y) < 0.5:
         return []

@@ -1,4 +1,4 @@
-"""What the sensors said while the robot was driven, in plain types; times in s of the robot's clock."""
+"""Sensor data of a driven robot as plain types; times in s of the robot's clock."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
 from typing import List, NamedTuple, Optional, Tuple
@@ -8,12 +8,12 @@ import numpy as np
 from mtr_core.arrays import FloatArray
 
 Vector = Tuple[float, ...]
-# A wheel that turns slower counts as standing.
+# Below these speeds a wheel counts as stopped.
 STANDING_MPS, STANDING_RADPS = 0.02, 0.04
 
 
 class ScanSample(NamedTuple):
-    """One sweep: time of its middle, and what it hit, (n, 2) in m in the LiDAR's own frame."""
+    """One sweep: time of its middle, and its hits, (n, 2) in m in the LiDAR's own frame."""
 
     time_s: float
     points_m: FloatArray
@@ -27,7 +27,7 @@ class WheelSample(NamedTuple):
     angular_radps: float
 
     def moves(self) -> bool:
-        """The wheels turn."""
+        """True if the wheels turn."""
         return abs(self.linear_mps) > STANDING_MPS or abs(self.angular_radps) > STANDING_RADPS
 
 
@@ -39,7 +39,7 @@ class SentSample(NamedTuple):
 
 
 class ImuSample(NamedTuple):
-    """Turning rates about the IMU's axes, and specific force along them; every node takes z as up."""
+    """Rotation rates about the IMU's axes, and specific force along them; every node assumes z is up."""
 
     time_s: float
     rate_radps: Vector
@@ -48,7 +48,7 @@ class ImuSample(NamedTuple):
 
 @dataclass
 class Recording:
-    """All samples in the order in which they came; a robot without rear LiDAR has no rear scans."""
+    """All samples in the order of arrival; a robot without a rear LiDAR has no rear scans."""
 
     front: List[ScanSample] = field(default_factory=list)
     rear: List[ScanSample] = field(default_factory=list)
@@ -57,11 +57,11 @@ class Recording:
     sent: List[SentSample] = field(default_factory=list)
 
     def copy(self) -> "Recording":
-        """As it is now, while more is added to this one."""
+        """Return a snapshot, which further samples do not change."""
         return Recording(list(self.front), list(self.rear), list(self.wheels), list(self.imu), list(self.sent))
 
     def until(self, time_s: float) -> "Recording":
-        """What had come by this time."""
+        """Return the samples up to this time."""
         return Recording([sample for sample in self.front if sample.time_s <= time_s],
                          [sample for sample in self.rear if sample.time_s <= time_s],
                          [sample for sample in self.wheels if sample.time_s <= time_s],
@@ -69,16 +69,16 @@ class Recording:
                          [sample for sample in self.sent if sample.time_s <= time_s])
 
     def motion_s(self) -> float:
-        """For so long the wheels have turned."""
+        """Return the duration of the wheels' motion."""
         return sum(after.time_s - before.time_s for before, after in zip(self.wheels, self.wheels[1:]) if after.moves())
 
     def motion_start_s(self) -> Optional[float]:
-        """Time at which the wheels turn first; None while they have not."""
+        """Return the time of the wheels' first motion; None before it."""
         return next((sample.time_s for sample in self.wheels if sample.moves()), None)
 
 
 class Sweep(NamedTuple):
-    """What a message or a simulated scan says: time of the first beam in s, angles in rad, ranges in m."""
+    """Sweep of a message or a simulated scan: time of the first beam in s, angles in rad, ranges in m."""
 
     stamp_s: float
     angle_min_rad: float
@@ -90,7 +90,7 @@ class Sweep(NamedTuple):
 
 
 def scan_sample(sweep: Sweep) -> ScanSample:
-    """The sweep's hits; beams without one are left out."""
+    """Return the sweep's hits; beams without one are omitted."""
     ranges = np.asarray(sweep.ranges_m, dtype=np.float64)
     angles = sweep.angle_min_rad + sweep.angle_increment_rad * np.arange(len(ranges))
     with np.errstate(invalid="ignore"):

@@ -1,4 +1,4 @@
-"""How late and how hard the base brakes, from the velocities sent to it and those of its wheels. Pure."""
+"""Delay and deceleration of the base, from the commanded velocities and its wheels'. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, NamedTuple, Optional, Sequence, Tuple, Union
@@ -12,18 +12,18 @@ from .finding import Finding, bad, good, needs_more
 from .recording import STANDING_MPS, Recording, SentSample, WheelSample
 
 CHECK, SUBJECT = "motion.response", "base"
-# A braking counts from so much speed lost; the dead-man button released at slow speed is twice as much.
+# Minimum loss of speed of a braking; releasing the dead-man button at slow speed gives twice as much.
 MIN_DROP_MPS = 0.15
-# Steady before it, so that an acceleration of the base is over, and observed after it.
+# Steady time before it, so that an acceleration of the base is over, and observed time after it.
 LEAD_S, TAIL_S = 0.3, 0.8
 DEAD_TIMES_S: FloatArray = np.arange(0.0, 0.605, 0.005)
-# Infinite first: of equal fits the base that follows the ramp counts.
+# Infinity is first: of equal fits the base that follows the ramp counts.
 DECELERATIONS_MPS2: FloatArray = np.concatenate(([math.inf], np.geomspace(4.0, 0.1, 120)))
-# Wheels farther from the fit than this do not follow what was sent.
+# Wheels farther from the fit than this do not follow the commands.
 MAX_RESIDUAL_MPS = 0.08
-# Odometry comes every 20 ms, and its velocity is a mean over its period.
+# Odometry arrives every 20 ms, and its velocity is a mean over its period.
 DEAD_TIME_MARGIN_S = 0.03
-# A base that brakes less than this share of the ramp that it was sent needs more way than drive control assumes.
+# A base that brakes with less than this share of the commanded ramp needs a longer path than drive control assumes.
 MIN_BRAKING_SHARE = 0.85
 # Longest reaction_s that drive control accepts.
 MAX_REACTION_S = 0.5
@@ -31,13 +31,13 @@ TICK_S = DRIVE_CONTROL.period_ns * 1e-9
 
 
 class Response(NamedTuple):
-    """Answer of the base to a velocity that falls.
+    """Response of the base to a decreasing velocity.
 
     Attributes:
-        dead_time_s: from a command's stamp to wheels that follow it.
-        braking_mps2: deceleration of the wheels; infinite when they follow the ramp that was sent.
-        sent_mps2: the ramp that was sent, its steepest.
-        residual_mps: rms of the wheels' speed against this answer.
+        dead_time_s: from a command's stamp until the wheels follow it.
+        braking_mps2: deceleration of the wheels; infinite if they follow the commanded ramp.
+        sent_mps2: the steepest commanded ramp.
+        residual_mps: rms of the wheels' speed relative to this response.
     """
 
     dead_time_s: float
@@ -56,7 +56,7 @@ class Braking(NamedTuple):
 
 
 def response_findings(recording: Recording, reaction_s: float) -> List[Finding]:
-    """Compare the base with drive control's reaction_s and with the ramp that it was sent."""
+    """Compare the base with drive control's reaction_s and with the commanded ramp."""
     found = response(brakings(recording.sent, recording.wheels))
     if found is None:
         return [needs_more(SUBJECT, "How late it brakes is not known yet: drive straight at a steady speed for a "
@@ -92,7 +92,7 @@ def _braking_finding(found: Response) -> Finding:
 
 
 def brakings(sent: Sequence[SentSample], wheels: Sequence[WheelSample]) -> List[Braking]:
-    """Cut out each piece in which the sent speed falls by MIN_DROP_MPS or more after a steady drive."""
+    """Extract each piece in which the commanded speed decreases by MIN_DROP_MPS or more after a steady drive."""
     times, speeds = _columns(sent)
     wheel_times, wheel_speeds = _columns(wheels)
     found = []
@@ -131,7 +131,7 @@ def _squared_errors(braking: Braking) -> FloatArray:
 
 
 def _falls(speeds: FloatArray) -> List[Tuple[int, int]]:
-    """First and last index of each fall of at least MIN_DROP_MPS."""
+    """Return first and last index of each decrease of at least MIN_DROP_MPS."""
     found, index = [], 0
     while index + 1 < len(speeds):
         last = index
@@ -149,7 +149,7 @@ def _next_rise_s(times: FloatArray, speeds: FloatArray, last: int) -> float:
 
 
 def _ramp_mps2(braking: Braking) -> float:
-    """The ramp between 80 and 20 % of the fall; a step is as steep as one tick allows."""
+    """Return the ramp between 80 and 20 % of the decrease; a step is limited by the length of a tick."""
     high, low = float(braking.sent_mps.max()), float(braking.sent_mps.min())
     upper, lower = high - 0.2 * (high - low), low + 0.2 * (high - low)
     falling = (braking.sent_mps <= upper) & (braking.sent_mps >= lower)
@@ -160,6 +160,6 @@ def _ramp_mps2(braking: Braking) -> float:
 
 
 def _columns(samples: Sequence[Union[SentSample, WheelSample]]) -> Tuple[FloatArray, FloatArray]:
-    """Times in s and speeds without sign in m/s."""
+    """Return times in s and speeds without sign in m/s."""
     times = np.array([sample.time_s for sample in samples], dtype=float)
     return times, np.abs(np.array([sample.linear_mps for sample in samples], dtype=float))

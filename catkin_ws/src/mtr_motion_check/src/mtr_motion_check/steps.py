@@ -1,4 +1,4 @@
-"""The recorded drive cut into steps of half a second: what each sensor says of each."""
+"""Divides a recorded drive into steps of half a second, with each sensor's motion."""
 # SPDX-License-Identifier: Apache-2.0
 from dataclasses import dataclass, field
 from typing import List, Optional, Sequence
@@ -13,21 +13,21 @@ from .matching import match
 from .recording import ImuSample, Recording, ScanSample, WheelSample
 
 STEP_S = 0.5
-# Scans of the two LiDARs belong to a step when their times differ by at most this; a turn at 25 Hz takes 0.04 s.
+# Scans of the two LiDARs belong to a step if their times differ by at most this; a turn at 25 Hz lasts 0.04 s.
 MAX_APART_S = 0.06
-# A step is made so long after its end, when the slowest sensor has spoken.
+# Delay of a step after its end, for the slowest sensor.
 LATE_S = 0.2
 
 
 @dataclass(frozen=True)
 class Step:
-    """base_from_base of half a second by each sensor; None where one does not tell it.
+    """base_from_base of half a second by each sensor; None if a sensor does not determine it.
 
     Attributes:
         duration_s: between the scans.
         wheels: by the wheels' odometry.
         front, rear: by scan matching, with the mounts of the robot's description.
-        gyro_rad: turn by the gyro, its bias included.
+        gyro_rad: rotation by the gyro, its bias included.
     """
 
     duration_s: float
@@ -39,11 +39,11 @@ class Step:
 
 @dataclass
 class Steps:
-    """Makes the steps of a recording that grows; what was matched once stays.
+    """Steps of a growing recording; earlier matches are reused.
 
     Attributes:
         mounts: of the LiDARs by the robot's description.
-        made: the steps so far, those at standstill included.
+        made: the steps so far, including steps at standstill.
     """
 
     mounts: LidarMounts
@@ -52,7 +52,7 @@ class Steps:
     _rear_from: Optional[ScanSample] = None
 
     def extend(self, recording: Recording) -> None:
-        """Make the steps that the recording has beyond those made."""
+        """Add the steps of the recording's new samples."""
         for scan in recording.front:
             if self._from is None:
                 self._take(scan, recording)
@@ -79,9 +79,9 @@ class Steps:
 
 def base_motion(mount: Optional[Pose2], first: Optional[ScanSample], second: Optional[ScanSample],
                 duration_s: float) -> Optional[Pose2]:
-    """first_from_second of base_link by a LiDAR, as far as the robot would have come in the duration.
+    """Return first_from_second of base_link by a LiDAR, scaled to the duration.
 
-    The two LiDARs do not turn in step, and one may lose a scan: what it saw is stretched to the time of the step.
+    The two LiDARs are not synchronous, and one may lose a scan: the observed motion is scaled to the time of the step.
     """
     if mount is None or first is None or second is None or second.time_s <= first.time_s:
         return None
@@ -93,18 +93,18 @@ def base_motion(mount: Optional[Pose2], first: Optional[ScanSample], second: Opt
 
 
 def nearest(scans: Sequence[ScanSample], time_s: float) -> Optional[ScanSample]:
-    """The scan that belongs to this time."""
+    """Return the scan that belongs to this time."""
     best = min(scans, key=lambda scan: abs(scan.time_s - time_s), default=None)
     return best if best and abs(best.time_s - time_s) <= MAX_APART_S else None
 
 
 def covers(wheels: Sequence[WheelSample], time_s: float) -> bool:
-    """The wheels, which speak all the time, have spoken up to this time."""
+    """Return True if the continuous wheel data extends to this time."""
     return bool(wheels) and wheels[-1].time_s >= time_s
 
 
 def wheels_between(wheels: Sequence[WheelSample], start_s: float, end_s: float) -> Pose2:
-    """start_from_end by the wheels' velocities, each of which holds for the time before its stamp."""
+    """Return start_from_end by the wheels' velocities, each of which applies to the time before its stamp."""
     pose, before_s = Pose2(0.0, 0.0, 0.0), start_s
     for sample in wheels:
         if sample.time_s > start_s:
@@ -119,7 +119,7 @@ def wheels_between(wheels: Sequence[WheelSample], start_s: float, end_s: float) 
 
 
 def gyro_between(imu: Sequence[ImuSample], start_s: float, end_s: float) -> Optional[float]:
-    """Turn by the gyro; None unless it spoke before and after."""
+    """Return the rotation by the gyro; None without samples before and after."""
     times: FloatArray = np.array([sample.time_s for sample in imu])
     if not len(times) or times[0] > start_s or times[-1] < end_s:
         return None

@@ -1,4 +1,4 @@
-"""Exchanged LiDARs by their levers: each swings about base_link at its own distance when the robot turns."""
+"""Detects exchanged LiDARs by their levers: each moves around base_link at its own distance when the robot turns."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import List, Optional
@@ -10,13 +10,13 @@ from .directions import front_of, rear_of
 from .fits import ratio
 from .steps import Step
 
-# Shift of the LiDARs' places that can be told from a base that does not turn about base_link.
+# Minimum lever difference that is distinguishable from a base that does not turn about base_link.
 MIN_LEVER_M = 0.05
 MIN_TURN_RAD = 0.6
 
 
 def lever_says_swapped(steps: List[Step], mounts: LidarMounts) -> Optional[bool]:
-    """Whether turns look like those of exchanged LiDARs; None when the levers or the turns are too small to tell."""
+    """Return True if turns match exchanged LiDARs; None if the levers or the turns are too small."""
     if mounts.rear is None:
         return None
     turns = [(pose.heading, pose.y) for step in steps for pose in (front_of(step), rear_of(step)) if pose]
@@ -30,7 +30,8 @@ def lever_says_swapped(steps: List[Step], mounts: LidarMounts) -> Optional[bool]
 
 
 def aside_when_swapped(mounts: LidarMounts) -> float:
-    """Way of base_link to its left for each rad of a turn on the spot, as exchanged LiDARs seem to see it; in m."""
+    """Return the apparent path of base_link to its left for each rad of a turn on the spot, with exchanged LiDARs; in
+    m."""
     if mounts.rear is None:
         return 0.0
     seen_from_base = mounts.front @ mounts.rear.inverse()

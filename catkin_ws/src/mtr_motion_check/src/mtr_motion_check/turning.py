@@ -1,4 +1,4 @@
-"""Turns: gyro, wheels and LiDARs against each other, and which of them is wrong."""
+"""Turns: compares gyro, wheels and LiDARs, and identifies the wrong one."""
 # SPDX-License-Identifier: Apache-2.0
 from typing import List, NamedTuple, Optional
 
@@ -9,39 +9,39 @@ from .finding import Finding, bad, good, needs_more
 from .fits import Ratio, ratio
 from .steps import Step
 
-# What has to be turned before the sensors are compared.
+# Minimum rotation for the comparison of the sensors.
 MIN_TURN_RAD = 0.6
-# Enough to know to which side.
+# Minimum rotation for its direction.
 MIN_SENSE_RAD = 0.2
-# An uncalibrated gyro's scale is right to 0.5 % by data sheet; beyond 5 % its range or unit is set wrongly.
+# An uncalibrated gyro's scale is accurate to 0.5 % by data sheet; beyond 5 % its range or unit is configured wrongly.
 MAX_GYRO_ERROR = 0.05
-# A skid-steered base turns by tyres that slip, on asphalt otherwise than on grass; nobody relies on its turn.
+# A skid-steered base turns by slipping tyres, differently on asphalt and grass; its rotation is not relied on.
 MAX_WHEELS_ERROR = 0.25
-# Below this the sign is wrong.
+# Below this ratio the sign is wrong.
 REVERSED = -0.5
 CHECK = "motion.turn"
 
 
 class Turns(NamedTuple):
-    """Turn by gyro and by wheels for each rad that the LiDARs saw."""
+    """Rotation by gyro and by wheels for each rad that the LiDARs saw."""
 
     gyro: Ratio
     wheels: Ratio
 
 
 def lidar_turn(step: Step) -> Optional[float]:
-    """Turn of a step by the LiDARs, the mean of those that tell; in rad."""
+    """Return the rotation of a step by the LiDARs, averaged over those available; in rad."""
     told = [pose.heading for pose in (step.front, step.rear) if pose]
     return sum(told) / len(told) if told else None
 
 
 def turned_rad(steps: List[Step]) -> float:
-    """How far the robot turned by the LiDARs, to both sides."""
+    """Return the robot's total rotation by the LiDARs, in both directions."""
     return max(sum(abs(pose.heading) for pose in map(lidar.sensor, steps) if pose) for lidar in (FRONT, REAR))
 
 
 def turns(steps: List[Step]) -> Optional[Turns]:
-    """None while the robot has not turned enough."""
+    """Return the ratios; None while the robot has not turned enough."""
     if turned_rad(steps) < MIN_TURN_RAD:
         return None
     rows = [(told, step.gyro_rad, step.wheels.heading, step.duration_s) for step in steps
@@ -54,10 +54,10 @@ def turns(steps: List[Step]) -> Optional[Turns]:
 
 
 def turn_findings(steps: List[Step], found: Optional[Turns], z_is_up: bool) -> List[Finding]:
-    """Signs and scales of gyro and wheels' turn.
+    """Check signs and scales of the gyro and of the wheels' rotation.
 
     Args:
-        z_is_up: the accelerometer says that the IMU is not upside down.
+        z_is_up: by the accelerometer, the IMU is not upside down.
     """
     contradiction = lidars_contradict(steps)
     if contradiction:
@@ -73,7 +73,7 @@ def turn_findings(steps: List[Step], found: Optional[Turns], z_is_up: bool) -> L
 
 
 def too_little(steps: List[Step]) -> Finding:
-    """Not turned far enough, or the gyro is silent."""
+    """Report too little rotation, or a silent gyro."""
     seen = turned_rad(steps)
     if seen >= MIN_TURN_RAD:
         return bad(CHECK, names.IMU_DATA, "The gyro said nothing while the robot turned; look for the IMU's driver.")
@@ -82,7 +82,7 @@ def too_little(steps: List[Step]) -> Finding:
 
 
 def lidars_contradict(steps: List[Step]) -> Optional[Finding]:
-    """One LiDAR turns against the other: that one is upside down against which the gyro turns, too."""
+    """Report LiDARs with opposite rotations: the one that contradicts the gyro is upside down."""
     senses = [(lidar, against_gyro(steps, lidar)) for lidar in (FRONT, REAR)]
     against = [lidar for lidar, sense in senses if sense is True]
     if len(against) != 1 or not any(sense is False for _, sense in senses):
@@ -92,7 +92,7 @@ def lidars_contradict(steps: List[Step]) -> Optional[Finding]:
 
 
 def against_gyro(steps: List[Step], lidar: Lidar) -> Optional[bool]:
-    """A LiDAR turns the other way than the gyro; None when it saw too little of a turn, or the gyro nothing of it."""
+    """Return True if a LiDAR rotates opposite to the gyro; None if either saw too little of a turn."""
     rows = [(pose.heading, step.gyro_rad) for step in steps for pose in (lidar.sensor(step),)
             if pose and step.gyro_rad is not None]
     if sum(abs(seen) for seen, _ in rows) < MIN_SENSE_RAD:
@@ -102,7 +102,7 @@ def against_gyro(steps: List[Step], lidar: Lidar) -> Optional[bool]:
 
 
 def gyro_finding(gyro: Ratio) -> Finding:
-    """Sign and scale of the gyro."""
+    """Check sign and scale of the gyro."""
     said = f"The gyro says {gyro.value:.3f} times the turn that the LiDARs saw"
     if 2.0 * gyro.sigma > MAX_GYRO_ERROR * max(1.0, abs(gyro.value)):
         return needs_more(names.IMU_DATA, f"{said}, to {200.0 * gyro.sigma:.0f} % only; {100.0 * MAX_GYRO_ERROR:.0f} % "
@@ -119,7 +119,7 @@ def gyro_finding(gyro: Ratio) -> Finding:
 
 
 def wheels_finding(wheels: Ratio) -> Finding:
-    """Sign and scale of the wheels' turn."""
+    """Check sign and scale of the wheels' rotation."""
     said = f"The wheels say {wheels.value:.2f} times the turn that the LiDARs saw"
     if not wheels.differs(1.0, MAX_WHEELS_ERROR):
         return good(CHECK, names.WHEEL_ODOMETRY, f"{said}.", wheels.value, 1.0 + MAX_WHEELS_ERROR)

@@ -1,4 +1,4 @@
-"""What scans, wheels and IMU tell of the same motion; whole drives on wrong robots are in mtr_benchmarks' tests."""
+"""Scans, wheels and IMU of the same motion; mtr_benchmarks tests whole drives on faulty robots."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from dataclasses import replace
@@ -33,7 +33,7 @@ FORWARD_FELT, BACKWARD_FELT = (Witnesses(Thrust(sign, 0.0, 0.05), False) for sig
 
 
 def room(pose, noise=None):
-    """Points of a room of 8 m by 6 m with a pillar, as a LiDAR at the pose sees them."""
+    """Return points of a room of 8 m by 6 m with a pillar, as seen by a LiDAR at the pose."""
     along, across = np.linspace(-4.0, 4.0, 160), np.linspace(-3.0, 3.0, 120)
     walls = [np.column_stack([along, np.full(160, side)]) for side in (-3.0, 3.0)]
     walls += [np.column_stack([np.full(120, side), across]) for side in (-4.0, 4.0)]
@@ -95,7 +95,7 @@ def test_wheels_and_gyro_between_two_times():
 
 
 def driven(felt_x=1.0, felt_y=0.0):
-    """Sets off and stops at 1 m/s2 twice; the accelerometer feels so much of it along its axes."""
+    """Return two starts and stops at 1 m/s2; the accelerometer measures these shares of it along its axes."""
     recording, speed = Recording(), 0.0
     for index in range(300):
         gain = {0: 1.0, 1: -1.0}.get(index // 25 % 6, 0.0)
@@ -135,7 +135,7 @@ AHEAD, BEHIND, UPSIDE_DOWN = Pose2(1.0, 0.0, 0.0), Pose2(-1.0, 0.0, 0.0), Pose2(
 
 
 def steps(front=AHEAD, rear=AHEAD, gyro=1.0, wheels=(1.0, 1.0), lever=0.0):
-    """Forward, back and a turn: x and y by a LiDAR for each metre driven, and its turn for each rad."""
+    """Forward, back and a turn: x and y by a LiDAR for each metre driven, and its rotation for each rad."""
     def seen(lidar, way, turn):
         return lidar and Pose2(lidar.x * way, lidar.y * way + lever * turn, turn * (1.0 + lidar.heading))
     legs = [(0.2, 0.0)] * 4 + [(-0.2, 0.0)] * 4 + [(0.0, 0.3)] * 4 + [(0.0, 0.0)] * 2
@@ -235,7 +235,7 @@ def test_drive_ends_when_all_is_good_or_nothing_more_is_learnt():
 
 
 def robot_in_room(rear_late_s=0.0, imu_until_s=9.0):
-    """Stands for a second and drives 0.4 m/s in a room, with LiDARs that turn out of step."""
+    """Return a robot at rest for a second, then driving 0.4 m/s in a room, with asynchronous LiDARs."""
     recording = Recording()
     for index in range(250):
         time_s = 0.02 * index
