@@ -1,4 +1,4 @@
-"""Catkin reads the Python packages of mtr_jackal from here."""
+"""Declares the Python packages of mtr_jackal for catkin."""
 # SPDX-License-Identifier: Apache-2.0
 from distutils.core import setup
 

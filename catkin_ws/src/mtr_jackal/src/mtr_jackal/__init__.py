@@ -1,1 +1,1 @@
-"""Hardware stop of a Jackal, from the status of its base to a stop topic of drive control."""
+"""Relay of a Jackal's hardware stop, from the status of its base to a stop topic of drive control."""

@@ -1,4 +1,4 @@
-"""Decision whether the hardware stop of the base counts as engaged. Pure."""
+"""Decides if the hardware stop of the base counts as engaged. Pure."""
 # SPDX-License-Identifier: Apache-2.0
 import math
 from typing import Any, NamedTuple, Optional
@@ -15,7 +15,7 @@ UNREADABLE = "the status of the base does not contain its hardware stop"
 
 
 class StopReport(NamedTuple):
-    """What one status of the base reports."""
+    """Content of one status of the base."""
 
     is_present: bool
     is_stopped: bool
@@ -28,7 +28,7 @@ def stop_report(status: Any) -> Optional[StopReport]:
 
 
 class BaseStop:
-    """Judges the newest report; everything that is unknown is engaged."""
+    """Evaluation of the newest report; every unknown state counts as engaged."""
 
     def __init__(self, silent_after_s: float):
         self._silent_after_s = silent_after_s
@@ -40,7 +40,7 @@ class BaseStop:
         self._newest, self._received_s = report, now_s
 
     def reason(self, now_s: float) -> str:
-        """Why the stop counts as engaged; empty when it is released."""
+        """Return why the stop counts as engaged; empty if it is released."""
         if math.isnan(self._received_s):
             return NEVER_RECEIVED
         if not is_fresh(now_s - self._received_s, self._silent_after_s):

@@ -1,4 +1,4 @@
-"""The node that relays the hardware stop of the base; no package of the base's messages is needed."""
+"""Node that relays the hardware stop of the base; it needs no package of the base's messages."""
 # SPDX-License-Identifier: Apache-2.0
 import time
 from typing import Any, Callable, Dict, Optional
@@ -19,13 +19,13 @@ BASE_STOP = slot(50, 45)
 
 
 class StatusDecoder:
-    """Decodes messages of any type by the definition that their publisher sends with the connection."""
+    """Decoder of messages of any type, by the definition that their publisher sends with the connection."""
 
     def __init__(self) -> None:
         self._types: Dict[str, Callable[[], Any]] = {}
 
     def report(self, header: Dict[str, str], data: bytes) -> Optional[StopReport]:
-        """What a message reports; None for one that cannot be decoded. header: of its connection."""
+        """Return the report of a message; None for one that cannot be decoded. header: of its connection."""
         try:
             return stop_report(self._type(header)().deserialize(data))
         # A publisher may declare and send anything.
@@ -42,7 +42,7 @@ class StatusDecoder:
 
 
 class BaseStopNode:
-    """Publishes 20 times a second whether the stop is engaged: drive control takes silence of 0.25 s for a stop."""
+    """Publishes 20 times a second if the stop is engaged: drive control treats a silence of 0.25 s as a stop."""
 
     def __init__(self, parameters: Parameters):
         self._stop, self._decoder, self._logged = BaseStop(parameters.silent_after_s), StatusDecoder(), ""
@@ -60,7 +60,7 @@ class BaseStopNode:
         report = self._decoder.report(message._connection_header, message._buff)
         self._stop.receive(report, time.monotonic())
         if report is not None and report.is_stopped:
-            # A stop does not wait for the next tick.
+            # A stop is published without waiting for the next tick.
             self._publish()
 
     def _publish(self) -> None:
@@ -72,5 +72,5 @@ class BaseStopNode:
 
 
 def main() -> int:
-    """Run the node; its exit status."""
+    """Run the node; return its exit status."""
     return run_node("base_stop", Parameters, BaseStopNode)

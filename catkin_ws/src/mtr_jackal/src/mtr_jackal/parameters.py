@@ -7,7 +7,7 @@ from mtr_core.parameters import ParameterSet, number
 
 @dataclass(frozen=True)
 class Parameters(ParameterSet):
-    """What the node is started with.
+    """Parameters of the node.
 
     Attributes:
         silent_after_s: age of the newest status at which the stop counts as engaged. A Jackal sends one per second.

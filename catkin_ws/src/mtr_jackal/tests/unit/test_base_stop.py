@@ -38,7 +38,7 @@ def header(definition=DEFINITION, name=TYPE, md5sum="1"):
 
 
 def status(**fields):
-    """Bytes of a status."""
+    """Return the bytes of a status."""
     message = genpy.dynamic.generate_dynamic(TYPE, DEFINITION)[TYPE]()
     message.hardware_id = "J100-0001"
     for field, value in fields.items():
