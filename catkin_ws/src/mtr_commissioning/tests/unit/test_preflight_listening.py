@@ -98,8 +98,8 @@ def test_record_has_messages_publishers_types_parameters_and_failures(robot):
 
 @pytest.fixture
 def come(monkeypatch):
-    """come(topic, seconds, ...) delivers messages at these times; it returns the number of recorded messages and the end
-    of the recording."""
+    """come(topic, seconds, ...) delivers messages at these times; it returns their recorded number and the end of the
+    recording."""
     def listened(topic, *times_s, seconds=2.0):
         listener, now_s, coming = Listener(), [0.0], list(times_s)
 
