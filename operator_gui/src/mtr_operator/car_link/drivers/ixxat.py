@@ -1,7 +1,7 @@
 """Listen-only mode of IXXAT adapters: python-can's driver has no option for it, but the vendor's interface has one.
 
 The flag is added to the mode with which the driver initializes the controller, before its start, and is read back.
-Sources: python-can 4.6 and the modes of VCI (CAN_OPMODE_LISTONLY); tested with a stand-in for the library.
+Sources: python-can 4.6 and the modes of VCI (CAN_OPMODE_LISTONLY); tested with a substitute of the library.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations

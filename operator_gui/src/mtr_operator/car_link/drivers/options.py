@@ -1,7 +1,7 @@
 """Options of python-can's drivers for adapters that only listen, and for CAN FD.
 
 An adapter that listens sends nothing: no frame, no acknowledge and no error flag. Source: the drivers of python-can
-4.6. Tested: slcan and the virtual bus, and PCAN and IXXAT with stand-ins for their libraries.
+4.6. Tested: slcan and the virtual bus, and PCAN and IXXAT with substitutes of their libraries.
 """
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
